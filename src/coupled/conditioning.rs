@@ -3,7 +3,7 @@
 use crate::coupled::model::operators;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
-use crate::coupled::step::newton::Solver;
+use crate::coupled::step::solver::Solver;
 use crate::error::{Error, Result};
 use crate::interface::PreviousContacts;
 use crate::linalg::dense_condition;
@@ -54,15 +54,15 @@ pub struct Conditioning {
     /// Condition of the effective stiffness `K_eff` = M/(θΔt²) + C/Δt + θ (K + ∂f/∂u), at the static state.
     ///
     /// One for a structure in modal coordinates, in which it is diagonal.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub effective_stiffness: f64,
     /// Condition of the ground's step compliance G¹. It has no limit, since no step solves with G¹ alone.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub ground: f64,
     /// Condition of the Delassus operator W = G¹ + B K_eff⁻¹ Bᵀ A for the interface at rest.
     ///
     /// Only its normal part if there is no friction; including the compliance of a thin layer.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub delassus: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
-use crate::text::column::{number, of_body, printed};
+use crate::text::readable_number::{number, of_body, printed};
 use crate::text::table::Table;
 
 /// Vibration mode of a structure on a fixed base and on its ground.

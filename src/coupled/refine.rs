@@ -1,13 +1,10 @@
-//! Error against run time for a scene of the user's own, and the longest time step that converges.
+//! Error against run time for a scene of the user's own.
 
 use std::fmt;
 use std::time::Duration;
 
-use crate::Simulation;
 use crate::coupled::run::clock;
-use crate::error::{
-    Error, Result, StepError, all_finite, at_least, not_negative, positive, same_length,
-};
+use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
 /// Orders of convergence for extrapolation; a convergent method has no others.
@@ -27,10 +24,10 @@ pub struct Setting {
     /// Time step, s.
     pub time_step: f64,
     /// Estimated error of the results, relative to their size (root of the sum of squares).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub error: f64,
     /// Wall time of building and running, zero without a clock (WebAssembly).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
     pub wall: Duration,
     /// The results.
     pub results: Vec<f64>,
@@ -50,15 +47,15 @@ pub struct Refinement {
     /// Results extrapolated to infinitely many elements and steps.
     pub extrapolated: Vec<f64>,
     /// Observed order of convergence in the element length; NaN if the results do not depend on it.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub mesh_order: f64,
     /// Observed order of convergence in the time step; NaN if the results do not depend on it.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub step_order: f64,
     /// Difference of the last setting's results from a prediction, relative to the results' size.
     ///
     /// The prediction adds the errors of mesh and step. Estimated errors below it are not reliable.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub mismatch: f64,
 }
 
@@ -268,71 +265,6 @@ impl fmt::Display for Refinement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}\n{}", table(&[("result", self)]), self.notes())
     }
-}
-
-// The longest time step that converges, for a scene whose longer steps have no solution.
-
-/// Largest number of halvings.
-const HALVINGS: usize = 10;
-
-/// The longest step with which a scene runs without a failed step.
-///
-/// It tries `time_step` (s) and up to ten halvings of it, and runs the simulation that `make` builds for
-/// `duration` (s). A failed step is [`StepError::Contact`], [`StepError::Cone`] or [`StepError::Newton`]. `None`
-/// if the tenth halving fails too.
-///
-/// A simulation cannot change its step, since the soil's convolution weights and its history belong to one step.
-/// This function therefore runs whole simulations, each with twice the steps. Use the time of the failed step as
-/// `duration`.
-///
-/// ```
-/// use basemat::bem::{ElasticGround, Grading, Strip};
-/// use basemat::coupled::largest_convergent_step;
-/// use basemat::interface::ThinLayer;
-/// use basemat::motion::el_centro_1940;
-/// use basemat::structure::RigidBlock;
-/// use basemat::{Simulation, Soil};
-///
-/// // An interface that keeps 1/1000 of its stiffness when open, as printed in the paper, in steps
-/// // in which waves cross five elements.
-/// let make = |step: f64| {
-///     let soil = Soil::new(80.0e6, 0.33, 1900.0)?;
-///     let block = RigidBlock::new(10.0, 15.0, 900.0)?;
-///     Simulation::builder(step)
-///         .ground(ElasticGround::new(soil, Strip::under(&block, 10, Grading::Uniform)?)?)
-///         .structure(block)
-///         .interface(ThinLayer::new(soil, 1.0, 0.4)?.with_thickness_ratio(1e-3)?)
-///         .motion(el_centro_1940().scaled(3.0)?)
-///         .build()
-/// };
-/// let step = largest_convergent_step(0.0125, 5.0, make)?;
-/// assert!(step.is_some_and(|step| step <= 0.0125));
-/// # Ok::<(), basemat::Error>(())
-/// ```
-///
-/// # Errors
-/// Errors of `make`, and of steps that fail for another reason; [`Error::Input`] unless `time_step` is finite and
-/// above zero and `duration` finite and not negative.
-pub fn largest_convergent_step(
-    time_step: f64,
-    duration: f64,
-    mut make: impl FnMut(f64) -> Result<Simulation>,
-) -> Result<Option<f64>> {
-    let mut step = positive("time step", time_step)?;
-    not_negative("duration", duration)?;
-    for _ in 0..=HALVINGS {
-        let mut simulation = make(step)?;
-        match simulation.run(simulation.steps_for(duration), |_| {}) {
-            Ok(_) => return Ok(Some(step)),
-            Err(Error::Step {
-                source:
-                    StepError::Contact { .. } | StepError::Cone { .. } | StepError::Newton { .. },
-                ..
-            }) => step *= 0.5,
-            Err(other) => return Err(other),
-        }
-    }
-    Ok(None)
 }
 
 #[cfg(test)]

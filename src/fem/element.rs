@@ -1,4 +1,4 @@
-//! The trait of finite elements, and their material.
+//! Finite elements: the trait, and the kinds of mass matrices.
 
 use crate::error::Result;
 use crate::geometry::Direction;

@@ -36,9 +36,9 @@ impl Mesh {
     /// Nodes are numbered row by row from the base, left to right.
     ///
     /// # Errors
-    /// [`Error::Input`] or [`Error::Size`] when the range is empty or not finite, when there are no columns,
-    /// layers or rows, or when a height is not positive; [`Error::Memory`] when the elements would not fit
-    /// into memory.
+    /// [`Error::Input`](crate::Error::Input) or [`Error::Size`](crate::Error::Size) when the range is empty or not
+    /// finite, when there are no columns, layers or rows, or when a height is not positive;
+    /// [`Error::Memory`](crate::Error::Memory) when the elements would not fit into memory.
     pub fn layered_block(x: Range<f64>, columns: usize, layers: &[Layer]) -> Result<Self> {
         finite("left end of the block", x.start)?;
         finite("right end of the block", x.end)?;
@@ -65,7 +65,7 @@ impl Mesh {
     /// ```
     ///
     /// # Errors
-    /// As for [`Mesh::layered_block`]; [`Error::Input`] also when the grid does not ascend.
+    /// As for [`Mesh::layered_block`]; [`Error::Input`](crate::Error::Input) also when the grid does not ascend.
     pub fn graded_block(grid: &[f64], layers: &[Layer]) -> Result<Self> {
         at_least("grid lines of the block", grid.len(), 2)?;
         at_least("layers of the block", layers.len(), 1)?;

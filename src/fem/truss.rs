@@ -1,4 +1,4 @@
-//! Straight elements with two nodes, and the bar with axial force only.
+//! Bar with two nodes and axial force only.
 
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;

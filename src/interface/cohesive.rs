@@ -50,7 +50,7 @@ validated! {
     Cohesive as AdhesiveForm {
         tension: f64,
         cohesion: f64,
-        #[serde(with = "crate::text::words::number")]
+        #[serde(with = "crate::text::forms::number")]
         friction: f64,
     }
     => Cohesive::new(tension, cohesion, friction)

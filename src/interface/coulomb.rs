@@ -1,4 +1,4 @@
-//! Hard unilateral contact with Coulomb friction, constant or variable.
+//! Hard unilateral contact with Coulomb friction.
 
 use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, not_negative, require};
@@ -39,7 +39,7 @@ pub enum UnilateralCondition {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "CoulombForm"))]
 pub struct Coulomb {
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub(super) friction: f64,
     pub(super) tensile_strength: f64,
     pub(super) condition: UnilateralCondition,
@@ -47,7 +47,7 @@ pub struct Coulomb {
 
 validated! {
     Coulomb as CoulombForm {
-        #[serde(with = "crate::text::words::number")]
+        #[serde(with = "crate::text::forms::number")]
         friction: f64,
         #[serde(default)]
         tensile_strength: f64,
@@ -125,7 +125,7 @@ impl Coulomb {
         &self,
         to: S,
     ) -> std::result::Result<S::Ok, S::Error> {
-        crate::text::words::number::serialize(&self.friction, to)
+        crate::text::forms::number::serialize(&self.friction, to)
     }
 
     fn strength(&self, start: &PreviousContact) -> f64 {

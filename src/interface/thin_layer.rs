@@ -108,7 +108,7 @@ pub struct ThinLayer {
     reference: [f64; 2],
     #[cfg_attr(feature = "serde", serde(rename = "thickness_ratio"))]
     ratio: f64,
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     friction: f64,
     #[cfg_attr(feature = "serde", serde(rename = "debonded_ratio"))]
     debonded: f64,
@@ -124,7 +124,7 @@ validated! {
     ThinLayer as ThinLayerForm {
         reference_stiffness: [f64; 2],
         thickness_ratio: f64,
-        #[serde(with = "crate::text::words::number")]
+        #[serde(with = "crate::text::forms::number")]
         friction: f64,
         debonded_ratio: f64,
         friction_limit: FrictionLimit,

@@ -58,7 +58,7 @@ pub struct Yielding {
 validated! {
     Yielding as YieldingForm {
         bearing_pressure: f64,
-        #[serde(with = "crate::text::words::number")]
+        #[serde(with = "crate::text::forms::number")]
         friction: f64,
     }
     => Yielding::new(bearing_pressure, friction)

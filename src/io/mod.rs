@@ -10,6 +10,7 @@
 
 mod gmsh;
 mod matrix_market;
+mod matrix_market_reader;
 pub mod paraview;
 
 pub use gmsh::GmshMesh;

@@ -7,7 +7,9 @@ mod condition;
 mod dense;
 mod eigen;
 pub(crate) mod gauss;
+mod hermitian;
 mod lanes;
+mod lowest_modes;
 pub(crate) mod matrix;
 mod number;
 mod product;
@@ -15,12 +17,13 @@ mod sparse;
 mod triplets;
 
 pub use complex::Complex;
-pub(crate) use complex::hermitian_range;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
-pub(crate) use eigen::{generalised_modes, indefinite_pivot, lowest_modes, symmetric_modes};
+pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
 pub(crate) use faer::traits::ComplexField;
+pub(crate) use hermitian::hermitian_range;
 pub(crate) use lanes::Lanes;
+pub(crate) use lowest_modes::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use number::Number;
 pub(crate) use product::{

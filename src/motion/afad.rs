@@ -6,17 +6,16 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::column_title::check_acceleration;
 use super::fault::{not_in_header, unclear, unequal_columns};
 use super::header_line::titles_of_words;
+use super::header_number::HeaderNumber;
 use super::lines::{
     Lines, Reason, Series, component, count, is_like_number, push_numbers, record, records,
 };
-use super::unit::HeaderNumber;
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// The text files of the Turkish network (AFAD).
 ///

@@ -1,12 +1,11 @@
 //! A block of numbers under a title that describes them, in COSMOS and CSMIP files.
 
-use super::AccelerationUnit;
-use super::agreement;
 use super::fault::{no_acceleration, not_in_header, unclear, unprocessed};
 use super::fixed_columns::FixedColumns;
 use super::lines::{Lines, Reason, count, line_after_block, read_numbers, scaled};
+use super::{AccelerationUnit, agreement};
 use crate::error::FileFault;
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// Description of a block of numbers by its title.
 pub(super) struct Block {

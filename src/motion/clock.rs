@@ -1,6 +1,6 @@
 //! Times of day in a column of times.
 
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// Minutes in a day.
 const DAY: i64 = 1440;

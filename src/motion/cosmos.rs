@@ -6,14 +6,12 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::block::{self, Block};
-use super::csmip;
 use super::fault::{no_acceleration, out_of_range, unclear, unprocessed};
 use super::lines::{Lines, Reason, Series, component, read_numbers, record, records};
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement, csmip};
 use crate::error::{FileFault, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
 ///

@@ -4,14 +4,13 @@
 //! Division of Mines and Geology, Report OSMS 85-03 (1985), which follows the "blue books" of Caltech; the titles
 //! vary with the year of processing.
 
-use super::AccelerationUnit;
-use super::agreement;
 use super::block::{self, Block};
 use super::fault::no_acceleration;
-use super::unit::{HeaderNumber, clause_end};
+use super::header_number::{HeaderNumber, clause_end};
 use super::unit_name::is_unit;
+use super::{AccelerationUnit, agreement};
 use crate::error::FileFault;
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// Whether a line in lower case is the title of a block of acceleration.
 pub(super) fn is_title(line: &str) -> bool {

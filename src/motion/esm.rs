@@ -6,11 +6,10 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::fault::{no_acceleration, not_in_header};
+use super::header_number::HeaderNumber;
 use super::lines::{Lines, Reason, Series, count, push_numbers, record, records, scaled};
-use super::unit::HeaderNumber;
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.

@@ -1,7 +1,7 @@
 //! Faults that several formats of records have.
 
 use crate::error::FileFault;
-use crate::text::column::{excerpt, quoted};
+use crate::text::decimal::{excerpt, quoted};
 
 /// Number of characters of a file's own words in a message.
 const WORDS: usize = 60;

@@ -1,9 +1,6 @@
-//! Filters, tapers and the Hilbert transform.
-
-use std::f64::consts::PI;
+//! Filters and tapers.
 
 use super::Record;
-use super::record::check_samples;
 use crate::error::{Error, Result, not_negative, positive, require};
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
@@ -129,7 +126,7 @@ impl Record {
 }
 
 /// Fourier coefficients of samples with zeros up to `length`.
-fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
+pub(super) fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
     let forward = RealFftPlanner::<f64>::new().plan_fft_forward(length);
     let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
     signal[..samples.len()].copy_from_slice(samples);
@@ -138,7 +135,7 @@ fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
 }
 
 /// The real signal of this length with these coefficients.
-fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
+pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
     let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
     let mut signal = inverse.make_output_vec();
     spectrum[0].im = 0.0;
@@ -156,114 +153,4 @@ fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
 fn untransformed(length: usize) -> Error {
     let quantity = "number of samples of a Fourier transform";
     Error::Input { quantity, value: length as f64, needed: "one that can be transformed" }
-}
-
-// Hilbert transform of samples, over all time: neither periodic nor cut.
-//
-// (H f)(t) = 1/π ⨍ f(τ)/(t − τ) dτ takes cos to sin. For samples f_j with the step h, zero outside,
-// it is at the samples
-//
-// (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
-//
-// exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
-// (1970), 585–586). A linear convolution, computed by Fourier transforms long enough that nothing wraps around.
-
-impl Record {
-    /// Record with zero acceleration for at least `before` and `after` (s) around it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] unless both are finite and not negative, [`Error::Memory`] for more samples than fit into
-    /// memory.
-    pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
-        let samples = |quantity, time: f64| -> Result<usize> {
-            let count = (not_negative(quantity, time)? / self.time_step()).ceil();
-            check_samples(count + self.len() as f64)?;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-            Ok(count as usize)
-        };
-        let before = samples("quiet time before the record", before)?;
-        let after = samples("quiet time after the record", after)?;
-        check_samples((before + self.len() + after) as f64)?;
-        let mut padded = vec![0.0; before];
-        padded.extend_from_slice(self.accelerations());
-        padded.resize(padded.len() + after, 0.0);
-        Self::new(self.time_step(), padded)
-    }
-
-    /// Shifts every harmonic of the acceleration by a quarter of a period: cos becomes sin.
-    ///
-    /// Exact for the band-limited function through the samples, zero outside them. The transform begins before the
-    /// record and ends after it. The part outside the record is lost, so add quiet time with [`Record::padded`].
-    /// As every record it is integrated from rest, so its displacement lacks the earlier motion:
-    /// [`PlaneWave::field_from_horizontal`] computes displacements.
-    ///
-    /// [`PlaneWave::field_from_horizontal`]: super::PlaneWave::field_from_horizontal
-    ///
-    /// # Errors
-    /// [`Error::Input`] if a value is not finite.
-    pub fn hilbert_transform(&self) -> Result<Self> {
-        Self::new(self.time_step(), hilbert(self.accelerations(), 0)?)
-    }
-}
-
-/// The transform at the samples, and at `around` more times before and after.
-pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
-    let count = samples.len() + 2 * around;
-    // The kernel is indexed by the distance of output and input, starting at the smallest.
-    let least = around + samples.len() - 1;
-    let distances = count + samples.len() - 1;
-    let length = distances.next_power_of_two();
-    let weight = |index: usize| {
-        let is_odd = index.abs_diff(least) % 2 == 1;
-        if is_odd { 2.0 / (PI * (index as f64 - least as f64)) } else { 0.0 }
-    };
-    let kernel = spectrum(&(0..distances).map(weight).collect::<Vec<_>>(), length)?;
-    let mut product = spectrum(samples, length)?;
-    for (value, factor) in product.iter_mut().zip(&kernel) {
-        *value *= factor;
-    }
-    let signal = signal(product, length)?;
-    // The first outputs contain the part that wraps around.
-    Ok(signal[samples.len() - 1..][..count].to_vec())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// H[1/(1+t²)] = t/(1+t²), and its tails outside the samples.
-    #[test]
-    fn lorentzian_has_its_closed_form() {
-        let (half, step) = (16_000, 0.125);
-        let times: Vec<f64> = (-half..=half).map(|k| f64::from(k) * step).collect();
-        let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
-        let found = hilbert(&samples, 0).unwrap();
-        for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
-            // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
-            // The part above the highest frequency of the samples: exp(−π/step).
-            let slack = 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
-            assert!((found - t / (1.0 + t * t)).abs() < slack, "{t}: {found}");
-        }
-    }
-
-    /// Against the sum itself, at the samples and around them.
-    #[test]
-    fn convolution_is_the_sum() {
-        let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();
-        for around in [0, 1, 50] {
-            let found = hilbert(&samples, around).unwrap();
-            assert_eq!(found.len(), 37 + 2 * around);
-            for (k, found) in found.iter().enumerate() {
-                let terms = samples.iter().enumerate().map(|(j, f)| {
-                    let distance = k as f64 - around as f64 - j as f64;
-                    if distance == 0.0 {
-                        0.0
-                    } else {
-                        f * (1.0 - (PI * distance).cos()) / (PI * distance)
-                    }
-                });
-                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{around} {k}");
-            }
-        }
-    }
 }

@@ -6,17 +6,16 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::fault::{no_acceleration, not_in_header};
 use super::fixed_columns::FixedColumns;
+use super::header_number::HeaderNumber;
 use super::lines::{
     Lines, Reason, Series, component, count, read_numbers, record, records, scaled,
 };
-use super::unit::HeaderNumber;
 use super::unit_name::is_unit;
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// The `.V1A` and `.V2A` files of GeoNet (New Zealand).
 ///

@@ -9,7 +9,7 @@ use super::column_title::{
 };
 use super::unit_name::is_unit;
 use crate::error::FileFault;
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// Most lines before the numbers in which titles are sought.
 const MOST_LINES: usize = 100;

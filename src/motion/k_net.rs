@@ -5,14 +5,13 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::column_title::check_acceleration;
 use super::fault::{not_in_header, unclear};
+use super::header_number::HeaderNumber;
 use super::lines::{Lines, Reason, Series, push_numbers, record, records, scaled};
-use super::unit::HeaderNumber;
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 /// The ASCII files of the Japanese networks K-NET and KiK-net.
 ///

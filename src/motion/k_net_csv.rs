@@ -6,13 +6,12 @@
 
 use std::io::Read;
 
-use super::agreement;
 use super::clock::Clock;
 use super::column_title::check_acceleration;
 use super::fault::{drifting, not_a_number, not_in_header, unequal_columns};
+use super::header_number::HeaderNumber;
 use super::lines::{Lines, Reason, Series, component, number, record, records};
-use super::unit::HeaderNumber;
-use super::{AccelerationUnit, Record, RecordFormat};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
 
 const GAL: AccelerationUnit = AccelerationUnit::Gal;

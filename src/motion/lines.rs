@@ -7,7 +7,8 @@ use super::fault::{not_a_number, off_columns, out_of_range};
 use super::fixed_columns::FixedColumns;
 use crate::error::{Error, FileFault, Result};
 use crate::text::bounded_line;
-use crate::text::column::{distinct, finite, has_implied_point, in_field};
+use crate::text::column::distinct;
+use crate::text::decimal::{finite, has_implied_point, in_field};
 
 /// Contents of lines, or the number and the fault of a line that cannot be read.
 pub(super) type Reason<T> = std::result::Result<T, (usize, FileFault)>;

@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-use super::filter::hilbert;
+use super::hilbert::hilbert;
 use super::{FreeField, Record};
 use crate::error::{Result, require};
 use crate::linalg::Complex;

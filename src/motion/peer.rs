@@ -7,11 +7,11 @@
 use std::io::Read;
 
 use super::fault::{no_acceleration, not_in_header, unclear};
+use super::header_number::{HeaderNumber, clause_end};
 use super::lines::{Lines, Reason, Series, count, end_of_numbers, read_numbers, record, scaled};
-use super::unit::{HeaderNumber, clause_end};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
 use crate::error::{FileFault, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 
 const G: AccelerationUnit = AccelerationUnit::StandardGravity;
 /// Number of first lines that must contain the number of points and the time step.

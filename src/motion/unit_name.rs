@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use super::AccelerationUnit;
 use crate::error::{Error, Result};
-use crate::text::column::finite;
+use crate::text::decimal::finite;
 use crate::text::words::unknown;
 
 /// Names of the second, in lower case.

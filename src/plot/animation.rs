@@ -3,9 +3,9 @@
 use std::fmt::Write;
 
 use super::deformed::{SOIL, SURFACE, View, bounds, check_dimension, places};
-use super::drawing::{fitted, short, width};
 use super::shown::{Shown, shown};
 use super::svg::{Svg, changes, polygon};
+use super::text_width::{fitted, short, width};
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};

@@ -6,7 +6,8 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
-use super::drawing::{Area, Drawing, Stroke, fitted, width};
+use super::drawing::{Area, Drawing, Stroke};
+use super::text_width::{fitted, width};
 
 pub(super) const LABEL: (&str, u32) = ("sans-serif", 15);
 const DESCRIPTION: (&str, u32) = ("sans-serif", 17);

@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use super::axes::{Axis, LEFT, RIGHT, chart, draw_curve, drawable};
-use super::drawing::{Area, Drawing, Key, Sample, Stroke, short};
+use super::drawing::{Area, Drawing, Stroke};
+use super::key::{Key, Sample};
 use super::svg::{Sheet, Svg};
+use super::text_width::short;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};

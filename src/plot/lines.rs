@@ -1,14 +1,14 @@
-//! Curves over time or period: quantities, energy, spectra, site response, and error against run time.
+//! Curves over time or period: quantities, energy, spectra.
 
 use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::drawing::{Area, COLORS, Drawing, Key, Sample, Stroke};
+use super::drawing::{Area, Drawing, Stroke};
+use super::key::{Key, Sample};
 use super::svg::{Sheet, Svg};
-use crate::coupled::{EnergyBalance, Refinement, Setting};
-use crate::error::{Error, Result, at_least, require, require_part};
+use crate::coupled::EnergyBalance;
+use crate::error::{Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
-use crate::site::{EquivalentLinear, LayerResponse};
-use crate::text::column::{of_body, printed};
+use crate::text::readable_number::{of_body, printed};
 use plotters::prelude::*;
 
 /// Largest number of stretches of a curve that are drawn by their extremes, about one per pixel.
@@ -32,7 +32,7 @@ pub struct Curve {
 /// The first seven curves differ by colour, further curves also by markers.
 ///
 /// # Errors
-/// [`Error::Size`] without a point.
+/// [`Error::Size`](crate::Error::Size) without a point.
 pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
     with_limit(title, x, y, curves, None)
 }
@@ -71,7 +71,8 @@ fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&st
 /// larger; values above four are drawn at four, and the axis states this.
 ///
 /// # Errors
-/// As for [`curves`]; [`Error::Scene`] for runs in the plane and in plan together, whose units differ.
+/// As for [`curves`]; [`Error::Scene`](crate::Error::Scene) for runs in the plane and in plan together, whose units
+/// differ.
 pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity) -> Result<Svg> {
     let limit = quantity.limit();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
@@ -109,8 +110,8 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
 /// See [`Probe::in_unit`](crate::coupled::Probe::in_unit).
 ///
 /// # Errors
-/// [`Error::Name`] if a run has no such probe, [`Error::Scene`] if the runs have it in different
-/// units, and as for [`curves`].
+/// [`Error::Name`](crate::Error::Name) if a run has no such probe, [`Error::Scene`](crate::Error::Scene) if the runs
+/// have it in different units, and as for [`curves`].
 pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str) -> Result<Svg> {
     let mut units = Vec::with_capacity(runs.len());
     for (_, time_series) in runs {
@@ -189,7 +190,8 @@ const PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 /// Response spectra: pseudo-acceleration (m/s²) over the period, with a logarithmic period axis.
 ///
 /// # Errors
-/// [`Error::Size`] without an ordinate, [`Error::Input`] for a period outside 10⁻⁶ to 10⁶ s.
+/// [`Error::Size`](crate::Error::Size) without an ordinate, [`Error::Input`](crate::Error::Input) for a period
+/// outside 10⁻⁶ to 10⁶ s.
 pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<Svg> {
     let axes = axes_of_spectra(spectra)?;
     Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name)))
@@ -197,7 +199,7 @@ pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<S
 }
 
 /// Axes that hold the spectra.
-fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
+pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
     let all = || spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
     let (mut first, mut last, mut top) = (f64::INFINITY, 0.0_f64, 0.0_f64);
     for ordinate in all() {
@@ -218,7 +220,7 @@ fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]>
 }
 
 /// Draws the spectra, with colours in their order.
-fn draw_spectra(
+pub(super) fn draw_spectra(
     area: &Area<'_>,
     [x, y]: &[Axis; 2],
     spectra: &[(&str, &[SpectralOrdinate])],
@@ -229,114 +231,6 @@ fn draw_spectra(
         draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
     }
     Ok(())
-}
-
-// Equivalent-linear response of a site.
-
-/// A quantity of a layer, from its response and its shear wave speed.
-type Value = fn(&LayerResponse, f64) -> f64;
-
-/// Shear wave speeds and strains over depth, and response spectra beside them.
-///
-/// Depth goes down from y = 0. Spectra are, for example, those at the surface and at the rock.
-///
-/// # Errors
-/// As for [`spectra`](spectra()).
-pub fn site_response(
-    title: &str,
-    response: &EquivalentLinear,
-    spectra: &[(&str, &[SpectralOrdinate])],
-) -> Result<Svg> {
-    let speeds: [(&str, Value); 2] = [
-        ("speed at small strain", |own, speed| speed / own.modulus_ratio.sqrt()),
-        ("strain-compatible speed", |_, speed| speed),
-    ];
-    let strains: [(&str, Value); 2] = [
-        ("largest strain", |own, _| 100.0 * own.largest_strain),
-        ("effective strain", |own, _| 100.0 * own.effective_strain),
-    ];
-    // Spectra use the first colours.
-    let strokes = [COLORS[5], COLORS[4], COLORS[3], COLORS[6]].map(Stroke::plain);
-    let steps = |value: Value| -> Vec<(f64, f64)> {
-        let layers = response.layers.iter().zip(response.profile.layers());
-        let step = layers.flat_map(|(own, layer)| {
-            let x = value(own, (own.shear_modulus / layer.soil.density()).sqrt());
-            [(x, -own.depth), (x, -own.depth - layer.thickness)]
-        });
-        step.collect()
-    };
-    let panel =
-        |area: &Area<'_>, name: &str, values: [Value; 2], strokes: &[Stroke]| -> Drawing<()> {
-            let curves = values.map(steps);
-            let all = || curves.iter().flatten();
-            let x = Axis::linear(range_of(all().map(|point| point.0).chain([0.0])), name);
-            let y = Axis::linear(range_of(all().map(|point| point.1).chain([0.0])), "y, m");
-            let mut chart = chart(area, &x, &y, true)?;
-            for (points, stroke) in curves.iter().zip(strokes) {
-                draw_curve(&mut chart, points, *stroke, 2)?;
-            }
-            Ok(())
-        };
-    let axes = axes_of_spectra(spectra)?;
-    let names = speeds.iter().chain(&strains).zip(strokes);
-    let own = names.map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
-    let others = spectra.iter().enumerate();
-    let others = others.map(|(k, (name, _))| (*name, Sample::Line(Stroke::nth(k))));
-    Sheet::new(title, Key::new(own.chain(others))).picture(|area| {
-        let width = area.dim_in_pixel().0;
-        let (left, rest) = area.split_horizontally(width * 3 / 10);
-        let (middle, right) = rest.split_horizontally(width * 3 / 10);
-        panel(&left, "c_S, m/s", speeds.map(|(_, value)| value), &strokes[..2])?;
-        panel(&middle, "strain, %", strains.map(|(_, value)| value), &strokes[2..])?;
-        draw_spectra(&right, &axes, spectra)
-    })
-}
-
-// Error against run time.
-
-/// Estimated error of each setting over its run time, both on logarithmic axes.
-///
-/// Curves are smaller steps, more elements, and both. A setting without an error or a run time is left out.
-///
-/// # Errors
-/// [`Error::Size`] if no setting has both an error and a run time.
-pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
-    let Some(first) = refinement.settings.first() else {
-        return Err(Error::Size { quantity: "settings of a refinement", found: 0, needed: 1 });
-    };
-    let finer = |setting: &Setting| setting.time_step < first.time_step;
-    let more = |setting: &Setting| setting.elements > first.elements;
-    let curve = |keep: &dyn Fn(&Setting) -> bool| -> Vec<(f64, f64)> {
-        let kept = refinement.settings.iter().filter(|setting| keep(setting));
-        let points =
-            kept.map(|setting| (setting.wall.as_secs_f64().log10(), setting.error.log10()));
-        points.filter(|(wall, error)| wall.is_finite() && error.is_finite()).collect()
-    };
-    let curves = [
-        ("smaller steps", curve(&|setting| !more(setting))),
-        ("more elements", curve(&|setting| !finer(setting))),
-        ("both", curve(&|setting| more(setting) == finer(setting))),
-    ];
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let all = || curves.iter().flat_map(|(_, points)| points).map(of);
-        // A margin of a tenth of a decade, so that no point lies on the frame.
-        let (low, high) =
-            (all().fold(f64::INFINITY, f64::min), all().fold(-f64::INFINITY, f64::max));
-        (low <= high).then(|| 10.0_f64.powf(low - 0.1)..10.0_f64.powf(high + 0.1))
-    };
-    let (Some(walls), Some(errors)) = (range(|point| point.0), range(|point| point.1)) else {
-        let quantity = "settings with an error and a run time";
-        return Err(Error::Size { quantity, found: 0, needed: 1 });
-    };
-    Sheet::new(title, Key::of_curves(curves.iter().map(|(name, _)| *name))).picture(|area| {
-        let x = Axis::logarithmic(walls, "run time, s");
-        let y = Axis::logarithmic(errors, "estimated error, relative");
-        let mut chart = chart(area, &x, &y, true)?;
-        for (k, (_, points)) in curves.iter().enumerate() {
-            draw_curve(&mut chart, points, Stroke::nth(k), 2)?;
-        }
-        Ok(())
-    })
 }
 
 #[cfg(test)]

@@ -30,20 +30,25 @@
 mod animation;
 mod axes;
 mod base;
+mod base_axis;
 mod deformed;
 mod drawing;
+mod key;
 mod lines;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
+mod refinement;
 mod shown;
+mod site_response;
 mod svg;
+mod text_width;
 
 pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
-pub use lines::{
-    Curve, curves, energy, probe_time_series, refinement, site_response, spectra, time_series,
-};
+pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
 pub use plan::contact_plan;
+pub use refinement::refinement;
+pub use site_response::site_response;
 pub use svg::Svg;

@@ -3,9 +3,11 @@
 use std::ops::Range;
 
 use super::axes::{Axis, chart, drawable, nice};
-use super::drawing::{Key, Sample, Stroke, short};
+use super::drawing::Stroke;
+use super::key::{Key, Sample};
 use super::shown::Shown;
 use super::svg::{Sheet, Svg};
+use super::text_width::short;
 use crate::error::{Error, Result, finite, require_part};
 use crate::geometry::{far_ends, middle};
 use crate::interface::ContactState;

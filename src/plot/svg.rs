@@ -6,7 +6,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
-use super::drawing::{Area, Drawing, Key, lines};
+use super::drawing::{Area, Drawing};
+use super::key::Key;
+use super::text_width::lines;
 use crate::error::{Error, Result};
 use crate::text::file::write_file;
 

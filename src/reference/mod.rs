@@ -3,15 +3,22 @@
 //! Each type is one published solution, with its source. Rotations and moments are positive
 //! counter-clockwise, x to the right, y up; loads are per metre of thickness, in SI units.
 
+mod elliptic_integral;
 mod line_load;
+mod rigid_strip;
 mod rocking_block;
 mod sliding_block;
+mod sliding_history;
 mod strip;
+mod winkler_strip;
 
 pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
+pub use rigid_strip::RigidStrip;
 pub use rocking_block::RockingBlock;
-pub use sliding_block::{SlidingBlock, SlidingEvent, SlidingHistory};
-pub use strip::{NoTensionStrip, RigidStrip, StripContact, WinklerStrip};
+pub use sliding_block::SlidingBlock;
+pub use sliding_history::{SlidingEvent, SlidingHistory};
+pub use strip::{NoTensionStrip, StripContact};
+pub use winkler_strip::WinklerStrip;

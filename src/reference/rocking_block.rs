@@ -1,6 +1,6 @@
 //! Free rocking of a rigid block on a rigid base.
 
-use super::line_load::carlson_rf;
+use super::elliptic_integral::carlson_rf;
 use crate::error::{Result, positive, require};
 
 /// Rigid rectangular block that rocks about its corners on a rigid base, without sliding.

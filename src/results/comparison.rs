@@ -6,8 +6,9 @@ use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::ShownIn;
-use crate::text::column::{Cell, column, distinct, number, of_body, printed};
+use crate::text::column::{Cell, column, distinct};
 use crate::text::csv::Csv;
+use crate::text::readable_number::{number, of_body, printed};
 use crate::text::table::Table;
 
 /// Runs side by side in one table.

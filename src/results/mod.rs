@@ -63,6 +63,7 @@
 //! Forces act on the soil, per metre of thickness, as in [`crate::coupled::State`]. A value belongs to the end of
 //! its step. The base moment is the total moment, static part included.
 
+mod columns;
 mod comparison;
 mod csv;
 #[cfg(any(feature = "io", feature = "plot"))]

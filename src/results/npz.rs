@@ -11,7 +11,7 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::TimeSeries;
-use super::csv::{CONTACT, MOTION};
+use super::columns::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::Result;
 use crate::interface::Mode;

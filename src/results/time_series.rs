@@ -30,9 +30,9 @@ pub struct TimeSeries {
     steps: usize,
     dofs: usize,
     times: Vec<f64>,
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::lists"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     scalars: Vec<Vec<f64>>,
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::lists"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::lists"))]
     pub(super) probe_values: Vec<Vec<f64>>,
     energy_balances: Vec<EnergyBalance>,
     contact: Option<ContactFrames>,
@@ -49,9 +49,9 @@ validated! {
         steps: usize,
         dofs: usize,
         times: Vec<f64>,
-        #[serde(with = "crate::text::words::lists")]
+        #[serde(with = "crate::text::forms::lists")]
         scalars: Vec<Vec<f64>>,
-        #[serde(with = "crate::text::words::lists")]
+        #[serde(with = "crate::text::forms::lists")]
         probe_values: Vec<Vec<f64>>,
         energy_balances: Vec<EnergyBalance>,
         contact: Option<ContactFrames>,

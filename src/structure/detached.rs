@@ -1,15 +1,14 @@
-//! A structure on its fixed base: the springs that hold it, and parts that nothing holds.
+//! Parts of a structure on its fixed base that nothing holds.
 
 use super::matrix_checks::massless;
 use super::{Structure, Triplets};
-use crate::error::{Error, Result, StructureError};
+use crate::error::{Result, StructureError};
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, sparse_condition};
 
 /// Condition of a part's stiffness above which the part counts as floating.
 ///
 /// A floating part has a condition of 10¹⁶ up to rounding, a tower 800 times as high as wide has 10¹².
 const FLOATS: f64 = 1e14;
-
 /// A modal mass within 1e-6 of one counts as normalised.
 const NORMALISED: f64 = 1e-6;
 

@@ -5,12 +5,10 @@ use crate::linalg::{SparseMatrix, indefinite_row, largest};
 
 /// Relative difference of mirrored entries up to which a matrix counts as symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-9;
-
 /// Negative masses and dampings up to this fraction of the diagonal are rounding.
 ///
 /// A singular matrix read from a file with seven digits has negative values of this size.
 const SEMI_DEFINITE: f64 = 1e-6;
-
 /// Masses and dampings up to this fraction of the largest entry are rounding.
 ///
 /// After reductions and sums a zero has values of this size. One bound serves kg and kg m², whose sizes differ by far

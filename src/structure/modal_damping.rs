@@ -56,25 +56,20 @@ short_debug! {
 
 /// Largest number of degrees of freedom: C is a full matrix.
 const MOST: usize = 3000;
-
 /// A mode is rigid if rigid motions hold more than this fraction of its momentum.
 ///
 /// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
 /// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
 const RIGID: f64 = 0.5;
-
 /// Stiffness of the springs that hold a base, relative to the largest stiffness: within a millionth of a fixed base.
 const HELD: f64 = 1e6;
-
 /// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
 const MASSLESS: f64 = 1e-13;
-
 const SYMMETRIC_AND_HEAVY: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must have symmetric matrices and mass at every degree of freedom (elements with density give mass to \
              rotations; damping on a fixed base needs none)",
 };
-
 const RESISTS: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must resist every motion that is not rigid",

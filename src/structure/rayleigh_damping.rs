@@ -31,7 +31,7 @@ impl RayleighDamping {
     /// Damping from α (`mass`, 1/s) and β (`stiffness`, s).
     ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite and not negative.
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative.
     pub fn new(mass: f64, stiffness: f64) -> Result<Self> {
         not_negative("mass-proportional damping", mass)?;
         not_negative("stiffness-proportional damping", stiffness)?;
@@ -41,8 +41,8 @@ impl RayleighDamping {
     /// Damping with given damping ratios at two frequencies (Hz).
     ///
     /// # Errors
-    /// [`Error::Input`] when the frequencies are not positive or equal, a ratio is not from 0 to below 1, or
-    /// the ratios differ so much that α or β would be negative.
+    /// [`Error::Input`](crate::Error::Input) when the frequencies are not positive or equal, a ratio is not from 0 to
+    /// below 1, or the ratios differ so much that α or β would be negative.
     pub fn from_ratios(frequencies: [f64; 2], ratios: [f64; 2]) -> Result<Self> {
         for (frequency, ratio) in frequencies.into_iter().zip(ratios) {
             positive("frequency of Rayleigh damping", frequency)?;

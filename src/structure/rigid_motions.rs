@@ -6,7 +6,6 @@ use crate::structure::{FaceNode, HeldBase, stiffest};
 
 /// A part counts as at rest if it has less than this fraction of a motion's norm.
 const NOTHING: f64 = 1e-8;
-
 /// A motion depends on the others if the rest after removing them is below this fraction.
 const DEPENDENT: f64 = 1e-6;
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::table::{Row, heading, name, parameter_cells};
 use super::{Grid, LAST_COLUMNS};
 use crate::error::{FileFault, Result};
-use crate::text::column::quoted;
+use crate::text::decimal::quoted;
 
 /// Columns and rows of a file, in the file's order.
 pub(super) struct Content {
@@ -191,7 +191,7 @@ pub(super) fn parsed(cell: &str) -> Option<f64> {
         "" => Some(f64::NAN),
         "inf" => Some(f64::INFINITY),
         "-inf" => Some(f64::NEG_INFINITY),
-        cell => crate::text::column::finite(cell),
+        cell => crate::text::decimal::finite(cell),
     }
 }
 

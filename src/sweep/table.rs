@@ -7,9 +7,11 @@ use std::sync::Arc;
 use super::{Grid, LAST_COLUMNS};
 use crate::error::{Error, Result};
 use crate::text::check_sum::CheckSum;
-use crate::text::column::{Cell, number};
+use crate::text::column::Cell;
 use crate::text::csv::{Csv, csv_line};
-use crate::text::table::{LONGEST_LINE, Table, in_columns};
+use crate::text::line_breaks::in_columns;
+use crate::text::readable_number::number;
+use crate::text::table::{LONGEST_LINE, Table};
 
 /// The results of a [`Sweep`](super::Sweep), one row for each case.
 ///

@@ -2,9 +2,18 @@
 
 #[macro_use]
 pub(crate) mod words;
+#[macro_use]
+pub(crate) mod forms;
+#[macro_use]
+mod forward;
+#[macro_use]
+mod short_debug;
 pub(crate) mod bounded_line;
 pub(crate) mod check_sum;
 pub(crate) mod column;
 pub(crate) mod csv;
+pub(crate) mod decimal;
 pub(crate) mod file;
+pub(crate) mod line_breaks;
+pub(crate) mod readable_number;
 pub(crate) mod table;

@@ -1,4 +1,4 @@
-"""Reference for src/bem/full_plane/laplace.rs: python3 bessel_k.py > bessel_k.csv"""
+"""Reference for src/bem/full_plane/bessel.rs: python3 bessel_k.py > bessel_k.csv"""
 from mpmath import mp, mpf, besselk, expjpi, nstr
 
 mp.dps = 30

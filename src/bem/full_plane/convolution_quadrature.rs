@@ -22,10 +22,11 @@ use crate::error::{Error, Result, positive, require, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::soil::Soil;
 
-use super::laplace::{Complex64, LaplacePlane};
-use super::laplace_element::{
-    Block, CqMethod, LogTerms, TERMS, View, first_lag, integrate, log_terms, weights,
-};
+use super::bessel::Complex64;
+use super::cq_method::CqMethod;
+use super::laplace::LaplacePlane;
+use super::laplace_element::{Block, View, integrate};
+use super::late_weights::{LogTerms, TERMS, first_lag, log_terms, weights};
 use super::{BoundaryKernel, Segment};
 
 /// The full-plane boundary equation by convolution quadrature.

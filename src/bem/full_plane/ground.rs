@@ -2,8 +2,8 @@
 
 use std::cell::Cell;
 
-use super::convolution::Prepared;
-use super::laplace::static_compliance;
+use super::ground_state::Prepared;
+use super::static_limit::static_compliance;
 use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
 use crate::bem::{ContactElement, Ground, GroundDescription, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, Observer, Result, same_length};

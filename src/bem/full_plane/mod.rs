@@ -54,29 +54,45 @@
 //! root of the surface's length, because surface waves do not decay along it. Convolution quadrature
 //! permits so long a surface.
 
+mod bessel;
 mod block;
 mod boundary;
+mod boundary_march;
 mod convolution;
 mod convolution_quadrature;
+mod cq_method;
 mod ground;
+mod ground_stability;
+mod ground_state;
+mod incident_field;
 mod laplace;
 mod laplace_element;
+mod late_weights;
+mod pair_classes;
+mod passivity;
+mod segment;
+mod smooth_integrals;
 mod stability;
 mod stability_symbol;
 mod stability_zeros;
+mod static_limit;
 mod step_integrals;
 mod time_kernel;
+mod vertical_waves;
 
-pub use boundary::{Boundary, Segment};
+pub use boundary::Boundary;
+pub use boundary_march::{BoundaryMarch, Given};
 pub use convolution_quadrature::ConvolutionQuadrature;
+pub use cq_method::CqMethod;
 pub use ground::FullPlaneGround;
-pub use laplace_element::CqMethod;
-pub use stability::{BoundaryMarch, Given, GroundStability, Stability};
+pub use ground_stability::GroundStability;
+pub use incident_field::IncidentField;
+pub use segment::Segment;
+pub use stability::Stability;
 pub use time_kernel::TimeKernel;
+pub use vertical_waves::VerticalWaves;
 
-use crate::error::{Result, not_negative};
-use crate::motion::FreeField;
-use crate::soil::Soil;
+use crate::error::Result;
 
 /// The coefficients G^n and H^n of a boundary equation in time.
 #[auto_impl::auto_impl(Box)]
@@ -114,92 +130,4 @@ pub enum BoundaryCondition {
     TractionFree,
     /// The displacement is known (contact that sticks); the traction is computed.
     PrescribedDisplacement,
-}
-
-// Waves from below, at depth.
-
-/// Motion and stress of the half-plane without trench, canyon or foundation, at any depth.
-///
-/// Components are (x, z) with **z down**; the flat surface z = 0 is free of traction.
-#[auto_impl::auto_impl(Box)]
-pub trait IncidentField: Send {
-    /// Displacement `[x, z]` (m) at the point (x, z), m, and `time`, s; zero at and before t = 0.
-    fn displacement(&self, point: [f64; 2], time: f64) -> [f64; 2];
-
-    /// Stress `[xx, zz, xz]` at the same point and time, Pa, tension positive.
-    fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3];
-}
-
-/// Vertically incident S and P waves and their reflections from the flat surface.
-///
-/// They follow from the motion s of the surface: u(z,t) = ½[s(t−t₀+z/c) + s(t−t₀−z/c)], with c = c₂ for the
-/// horizontal and c₁ for the vertical component. The surface moves t₀ later than its record, so that down to
-/// the depth c₂t₀ nothing moves at t = 0.
-///
-/// ```
-/// use basemat::Soil;
-/// use basemat::bem::full_plane::{IncidentField, VerticalWaves};
-/// use basemat::motion::RickerDisplacement;
-/// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
-/// let pulse = RickerDisplacement::new(0.1, 0.2, 1.0)?;
-/// // At a depth of 20 m the wave arrives 0.1 s before it reaches the surface.
-/// let waves = VerticalWaves::new(soil, pulse, 20.0)?;
-/// let surface = waves.displacement([3.0, 0.0], 1.1);
-/// assert!((surface[0] - 0.1).abs() < 1e-8);
-/// assert_eq!(waves.stress([3.0, 0.0], 1.1), [0.0; 3]);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-pub struct VerticalWaves {
-    soil: Soil,
-    surface: Box<dyn FreeField>,
-    delay: f64,
-}
-
-short_debug! { VerticalWaves; self; soil: self.soil, delay: self.delay }
-
-impl VerticalWaves {
-    /// Waves whose `surface` motion (at x = 0) is given, for points down to `depth` (m).
-    ///
-    /// # Errors
-    /// [`crate::Error::Input`] unless the depth is finite and not below zero.
-    pub fn new(soil: Soil, surface: impl FreeField + 'static, depth: f64) -> Result<Self> {
-        let delay = not_negative("depth of the incident waves", depth)? / soil.shear_wave_speed();
-        Ok(Self { soil, surface: Box::new(surface), delay })
-    }
-
-    /// Delay of the surface relative to its record, s.
-    pub fn delay(&self) -> f64 {
-        self.delay
-    }
-
-    fn speeds(&self) -> [f64; 2] {
-        [self.soil.shear_wave_speed(), self.soil.pressure_wave_speed()]
-    }
-}
-
-impl IncidentField for VerticalWaves {
-    fn displacement(&self, point: [f64; 2], time: f64) -> [f64; 2] {
-        let now = time - self.delay;
-        let at = |k: usize| {
-            let lag = point[1] / self.speeds()[k];
-            let s = |t: f64| self.surface.displacement(0.0, t)[k];
-            0.5 * (s(now + lag) + s(now - lag))
-        };
-        // The record is positive up, z is positive down.
-        [at(0), -at(1)]
-    }
-
-    fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3] {
-        let now = time - self.delay;
-        let slope = |k: usize| {
-            let c = self.speeds()[k];
-            let lag = point[1] / c;
-            let v = |t: f64| self.surface.velocity(0.0, t)[k];
-            0.5 * (v(now + lag) - v(now - lag)) / c
-        };
-        let (mu, nu) = (self.soil.shear_modulus(), self.soil.poisson());
-        let lame = 2.0 * mu * nu / (1.0 - 2.0 * nu);
-        let strain = -slope(1);
-        [lame * strain, (lame + 2.0 * mu) * strain, mu * slope(0)]
-    }
 }

@@ -8,13 +8,11 @@
 
 use std::fmt;
 
-use super::convolution::BoundaryHistory;
+use super::passivity::passivity;
 use super::stability_symbol::Symbol;
-use super::stability_zeros::{passivity, smallest_zero};
-use super::{Boundary, BoundaryCondition, BoundaryKernel};
-use crate::error::{Error, GroundError, Result, require, same_length};
-use crate::geometry::{ContactLayout, PLANE};
-use crate::linalg::{DenseFactor, dense_multiply_add, largest};
+use super::stability_zeros::smallest_zero;
+use super::{BoundaryCondition, BoundaryKernel};
+use crate::error::{GroundError, Result, require};
 
 /// Error unless this growth can be searched for.
 pub(super) fn check_growth(smallest: f64) -> Result<()> {
@@ -93,8 +91,10 @@ impl Stability {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] unless there is one condition per element, [`Error::Input`] for a growth outside 1e-7
-    /// to 1/2, [`Error::Singular`] if the operator of the first lag is singular, and errors of the kernel.
+    /// [`Error::Size`](crate::Error::Size) unless there is one condition per element,
+    /// [`Error::Input`](crate::Error::Input) for a growth outside 1e-7 to 1/2,
+    /// [`Error::Singular`](crate::Error::Singular) if the operator of the first lag is singular, and errors of the
+    /// kernel.
     pub fn assess(
         kernel: &dyn BoundaryKernel,
         conditions: &[BoundaryCondition],
@@ -160,193 +160,5 @@ impl fmt::Display for Stability {
             Some(_) => write!(f, ", passive"),
             None => Ok(()),
         }
-    }
-}
-
-// Stability of a full-plane ground, assessed before the run.
-
-/// Stability of a boundary in the two limit states of its contact: all open, and all bonded.
-///
-/// A partly open base, and the structure on it, are not assessed. A structure stabilises the elements in
-/// contact with it.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-#[non_exhaustive]
-pub struct GroundStability {
-    /// All elements free of traction, as under an uplifted base.
-    pub uplifted: Stability,
-    /// State with prescribed displacements of the contact elements, as under a base that sticks.
-    ///
-    /// This state has the passivity figures.
-    pub bonded: Stability,
-}
-
-impl GroundStability {
-    /// Assesses `kernel` on `boundary` for growth beyond `smallest_growth` per step.
-    pub(super) fn assess(
-        kernel: &dyn BoundaryKernel,
-        boundary: &Boundary,
-        smallest_growth: f64,
-    ) -> Result<Self> {
-        let mut conditions = vec![BoundaryCondition::TractionFree; boundary.segments().len()];
-        let mut symbol = Symbol::new(kernel, &conditions)?;
-        let uplifted = Stability::from_symbol(&symbol, smallest_growth)?;
-        for &element in boundary.contact() {
-            conditions[element] = BoundaryCondition::PrescribedDisplacement;
-        }
-        symbol.prescribe(&conditions)?;
-        let bonded = Stability::from_symbol(&symbol, smallest_growth)?;
-        Ok(Self { uplifted, bonded })
-    }
-
-    /// The state that grows faster; the uplifted state if neither grows.
-    pub fn worst(&self) -> &Stability {
-        if self.bonded.growth_per_step > self.uplifted.growth_per_step {
-            &self.bonded
-        } else {
-            &self.uplifted
-        }
-    }
-
-    /// Whether neither state grows faster than the smallest growth searched for.
-    pub fn is_bounded(&self) -> bool {
-        self.uplifted.is_bounded() && self.bonded.is_bounded()
-    }
-
-    /// Returns `Ok` if no perturbation grows in either state.
-    ///
-    /// # Errors
-    /// [`GroundError::Unstable`](crate::bem::GroundError::Unstable) with the faster growth.
-    pub fn require_bounded(&self) -> Result<()> {
-        self.worst().require_bounded()
-    }
-}
-
-impl fmt::Display for GroundStability {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "uplifted: {}\nbonded: {}", self.uplifted, self.bonded)
-    }
-}
-
-// Boundary-value problems in time: tractions or displacements prescribed on any polygon.
-
-/// Quantity that is prescribed for a component of an element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Given {
-    /// The traction, Pa: constant over the step.
-    Traction,
-    /// The displacement, m.
-    Displacement,
-}
-
-/// Solves a boundary equation in time with prescribed tractions or displacements.
-///
-/// Vectors have 2E entries, x-components first, then z (down), as in [the module](super).
-///
-/// ```
-/// use basemat::Soil;
-/// use basemat::bem::full_plane::{BoundaryMarch, Given, Segment, TimeKernel};
-/// // A single free element pushed down: before waves reach its ends, as on a half-plane.
-/// let soil = Soil::new(80.0e6, 0.25, 2000.0)?;
-/// let element = Segment { from: [-0.5, 0.0], to: [0.5, 0.0] };
-/// let kernel = TimeKernel::new(soil, &[element], 1.0e-4)?;
-/// let mut march = BoundaryMarch::new(Box::new(kernel), &[Given::Traction; 2])?;
-/// march.step(&[0.0, 1.0e3])?;
-/// let plane_wave = 1.0e3 * 1.0e-4 / (2000.0 * soil.pressure_wave_speed());
-/// assert!((march.displacement()[1] / plane_wave - 1.0).abs() < 1e-12);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-pub struct BoundaryMarch {
-    history: BoundaryHistory,
-    given: Vec<Given>,
-    /// Columns of H⁰ for unknown displacements, and of −G⁰ for unknown tractions, which are in `unit`.
-    factor: DenseFactor,
-    /// Columns of G⁰ for prescribed tractions, and of −H⁰ for prescribed displacements.
-    known: Vec<f64>,
-    /// Pa per m.
-    unit: f64,
-    rhs: Vec<f64>,
-    displacement: Vec<f64>,
-    traction: Vec<f64>,
-}
-
-short_debug! { BoundaryMarch; self; components: self.given.len() }
-
-impl BoundaryMarch {
-    /// Boundary at rest; `given` has 2E entries.
-    ///
-    /// # Errors
-    /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values do not
-    /// determine the others, and errors of the kernel.
-    pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
-        same_length("list of given components", given.len(), size)?;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
-        kernel.coefficients(0, &mut g, &mut h)?;
-        let unit = 1.0 / largest(&g).max(f64::MIN_POSITIVE);
-        let (mut matrix, mut known) = (vec![0.0; size * size], vec![0.0; size * size]);
-        for (k, (g, h)) in g.iter().zip(&h).enumerate() {
-            match given[k % size] {
-                Given::Traction => (matrix[k], known[k]) = (*h, *g),
-                Given::Displacement => (matrix[k], known[k]) = (-g * unit, -h),
-            }
-        }
-        let mut factor = DenseFactor::with_capacity(size);
-        if !factor.factor(&matrix, size) {
-            return Err(Error::Singular { matrix: "boundary operator", order: size });
-        }
-        Ok(Self {
-            history: BoundaryHistory::new(kernel, &vec![true; size]),
-            given: given.to_vec(),
-            factor,
-            known,
-            unit,
-            rhs: vec![0.0; size],
-            displacement: vec![0.0; size],
-            traction: vec![0.0; size],
-        })
-    }
-
-    /// Allocates for about `steps` further steps.
-    ///
-    /// # Errors
-    /// The errors of the kernel.
-    pub fn prepare(&mut self, steps: usize) -> Result<()> {
-        self.history.prepare(steps)
-    }
-
-    /// Makes one step with the given values: tractions during the step, displacements at its end.
-    ///
-    /// # Errors
-    /// [`Error::Size`] for the wrong number of values, and errors of the kernel.
-    pub fn step(&mut self, values: &[f64]) -> Result<()> {
-        same_length("boundary values", values.len(), self.given.len())?;
-        self.history.evaluate(&mut self.rhs)?;
-        dense_multiply_add(&self.known, 1.0, values, &mut self.rhs);
-        self.factor.solve(&mut self.rhs);
-        for (k, (given, found)) in self.given.iter().zip(&self.rhs).enumerate() {
-            (self.displacement[k], self.traction[k]) = match given {
-                Given::Traction => (*found, values[k]),
-                Given::Displacement => (values[k], *found * self.unit),
-            };
-        }
-        self.history.push(&self.displacement, &self.traction);
-        Ok(())
-    }
-
-    /// Number of steps done.
-    pub fn steps(&self) -> usize {
-        self.history.steps()
-    }
-
-    /// Displacements (2E, m) at the end of the last step.
-    pub fn displacement(&self) -> &[f64] {
-        &self.displacement
-    }
-
-    /// Tractions (2E, Pa) during the last step.
-    pub fn traction(&self) -> &[f64] {
-        &self.traction
     }
 }

@@ -10,6 +10,7 @@
 //! | weights | convolution weights for a history |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
+mod block_file;
 mod block_store;
 mod coefficients;
 mod compliance;

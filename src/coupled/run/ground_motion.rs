@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::motion::{FreeField, Record, STANDARD_GRAVITY};
-use crate::text::column::number;
+use crate::text::readable_number::number;
 
 /// Ground motion of a run: its peak, and the sampling of its records.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -113,7 +113,7 @@ pub struct Run {
     /// The energy balance at the end.
     pub energy_balance: EnergyBalance,
     /// Largest energy error of the run; NaN without an energy balance.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub energy_error: f64,
     /// Total number of linear solutions of the mode search.
     pub trials: usize,
@@ -122,7 +122,7 @@ pub struct Run {
     /// Warnings; empty until the run is closed.
     pub warnings: Vec<Warning>,
     /// Wall time, observers included; zero without a clock (WebAssembly).
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::seconds"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::seconds"))]
     pub wall: Duration,
     /// Whether the ground is one in plan: forces and energies are then of the whole body.
     pub in_plan: bool,

@@ -6,9 +6,8 @@ use crate::coupled::run::ground_motion::seconds;
 use crate::coupled::run::peak::Peak;
 use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
-use crate::geometry::resultant;
-use crate::geometry::{middle, span};
-use crate::text::column::{number, of_body, printed, thousandths};
+use crate::geometry::{middle, resultant, span};
+use crate::text::readable_number::{number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
 /// Number of elements above which the pressure envelope is shortened.

@@ -6,10 +6,10 @@
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Peak {
     /// The value, with its sign.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub value: f64,
     /// Time at which it occurs, s.
-    #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+    #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
     pub time: f64,
 }
 

@@ -11,7 +11,8 @@ use crate::coupled::run::base_view::{BaseView, open_area};
 use crate::coupled::run::peak::Peak;
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
-use crate::text::column::{column, of_body, printed};
+use crate::text::column::column;
+use crate::text::readable_number::{of_body, printed};
 use crate::text::words::unknown;
 
 /// Row of the table: name of a quantity, and where it is shown in addition to its time series.

@@ -3,7 +3,7 @@
 use crate::coupled::State;
 use crate::coupled::run::peak::Peak;
 use crate::coupled::serviceability::{Criterion, Serviceability};
-use crate::text::column::{number, printed};
+use crate::text::readable_number::{number, printed};
 use std::fmt;
 
 /// A criterion of [`Serviceability`] after a run.

@@ -63,7 +63,7 @@ pub enum Warning {
     #[error("energy balance open by {residual:.1e}")]
     EnergyBalance {
         /// Residual of the balance, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         residual: f64,
     },
     /// The time scheme has created energy, more than 2 % of the run's largest energy.
@@ -72,7 +72,7 @@ pub enum Warning {
     #[error("time scheme made {:.1} % of the largest energy: take `Midpoint`, or shorter steps", 100.0 * made)]
     AlgorithmicEnergy {
         /// Largest created energy at any time, relative to the largest energy of the run.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         made: f64,
     },
     /// The base shear vibrates with a period that the time step does not resolve.
@@ -199,7 +199,7 @@ pub enum Warning {
     )]
     HighFriction {
         /// Largest friction coefficient.
-        #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+        #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         friction: f64,
     },
     /// The motion has a component along y, which a ground in the plane ignores.

@@ -1,8 +1,12 @@
 //! Time schemes of the structure.
 
+mod dissipative_midpoint;
+mod hht_alpha;
 mod newmark;
 
-pub use crate::coupled::scheme::newmark::{DissipativeMidpoint, HhtAlpha, Newmark};
+pub use crate::coupled::scheme::dissipative_midpoint::DissipativeMidpoint;
+pub use crate::coupled::scheme::hht_alpha::HhtAlpha;
+pub use crate::coupled::scheme::newmark::Newmark;
 
 use crate::error::{Result, finite, require};
 

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use crate::text::column::{column, number, of_body};
+use crate::text::column::column;
+use crate::text::readable_number::{number, of_body};
 
 /// Side of the balance on which a term stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,7 +52,7 @@ macro_rules! energies {
         pub struct EnergyBalance {
             $(
                 $(#[$doc])*
-                #[cfg_attr(feature = "serde", serde(with = "crate::text::words::number"))]
+                #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
                 pub $field: f64,
             )+
         }

@@ -7,7 +7,8 @@ use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::state::foundation::{Foundation, Sums};
 use crate::coupled::state::origin::Origin;
 use crate::coupled::state::{Context, State, Transition};
-use crate::coupled::step::{Forcing, Increment};
+use crate::coupled::step::forcing::Forcing;
+use crate::coupled::step::increment::Increment;
 use crate::error::Result;
 use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 

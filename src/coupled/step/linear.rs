@@ -14,7 +14,8 @@ use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::coupled::step::{Increment, StepData};
+use crate::coupled::step::forcing::StepData;
+use crate::coupled::step::increment::Increment;
 use crate::error::StepError;
 use crate::linalg::transposed_multiply_add;
 

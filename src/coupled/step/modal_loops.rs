@@ -15,7 +15,8 @@
 
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scheme::SchemeCoefficients;
-use crate::coupled::step::{Forcing, Increment};
+use crate::coupled::step::forcing::Forcing;
+use crate::coupled::step::increment::Increment;
 use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, vectorized};
 

@@ -1,14 +1,14 @@
 //! Newton's method around the whole step of a nonlinear structure, contact inside.
 
-use crate::contact::{ContactSearch, ContactSolver, SearchMethod};
+use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::{Factor, Operators};
-use crate::coupled::scene::Scene;
 use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::step::forcing::StepData;
+use crate::coupled::step::increment::Increment;
 use crate::coupled::step::linear::LinearStep;
-use crate::coupled::step::{Increment, StepData};
 use crate::error::StepError;
-use crate::linalg::{largest, magnitude};
+use crate::linalg::largest;
 use crate::structure::Tangent;
 
 /// Largest number of iterations of a step.
@@ -244,62 +244,4 @@ impl Newton {
         }
         StepError::check_finite("nonlinear force of the structure", &increment.force)
     }
-}
-
-// Solution of a step: the increment of the structure's degrees of freedom and the contact tractions.
-
-/// Change of a degree of freedom in a step beyond which a run is lost, in any units.
-const RUNAWAY: f64 = 1e15;
-
-/// The linear step, and Newton's method around it for a nonlinear structure.
-pub(crate) struct Solver {
-    linear: LinearStep,
-    newton: Option<Newton>,
-}
-
-impl Solver {
-    pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
-        Self {
-            linear: LinearStep::new(scene, operators, search),
-            newton: (!scene.model.linear).then(|| Newton::new(scene.model.coordinates)),
-        }
-    }
-
-    /// The operators of the last solution.
-    pub(crate) fn operators(&self) -> &Operators {
-        &self.linear.operators
-    }
-
-    /// Operators and contact problem, to estimate their condition.
-    pub(crate) fn parts_mut(&mut self) -> (&mut Operators, &mut ContactSolver) {
-        (&mut self.linear.operators, &mut self.linear.contact)
-    }
-
-    /// Computes the increment of the step.
-    pub(crate) fn solve(
-        &mut self,
-        data: StepData<'_>,
-        increment: &mut Increment,
-    ) -> Result<(), StepError> {
-        let Self { linear, newton } = self;
-        if let Some(newton) = newton {
-            linear.predict(data);
-            newton.solve(linear, data, increment)?;
-            increment.follow(data);
-        } else {
-            linear.solve(data, increment)?;
-        }
-        check(&increment.displacement)
-    }
-}
-
-/// Error for an increment that is not finite or too large.
-fn check(increment: &[f64]) -> Result<(), StepError> {
-    // A sum of magnitudes is not finite if one of them is not.
-    if magnitude(increment) <= RUNAWAY {
-        return Ok(());
-    }
-    StepError::check_finite("displacement of the structure", increment)?;
-    let change = largest(increment);
-    if change > RUNAWAY { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
 }

@@ -14,13 +14,10 @@ use crate::history::pair_classes::KINDS;
 
 /// Frequencies per decade below one radian per step.
 const PER_DECADE: f64 = 8.0;
-
 /// Equally spaced frequencies up to π.
 const EVEN: usize = 48;
-
 /// Lowest frequency, relative to the frequency of the horizon.
 const LOWEST: f64 = 0.1;
-
 /// Order of H above which only a third of the frequencies are tried.
 const LARGE: usize = 100;
 

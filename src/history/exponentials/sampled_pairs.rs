@@ -8,7 +8,6 @@ use crate::history::pair_classes::KINDS;
 /// Lags checked per octave: about two per period of the trapezoidal rule's error, which oscillates
 /// with ln t, at phases that do not repeat.
 const PER_OCTAVE: f64 = 7.3;
-
 /// Number of pair classes checked; of more classes, an even sample. The error is a polynomial in
 /// space.
 const CLASSES: usize = 150;

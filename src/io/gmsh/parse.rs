@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use crate::error::FileFault;
 use crate::text::bounded_line::Lines;
-use crate::text::column::{excerpt, finite, quoted};
+use crate::text::decimal::{excerpt, finite, quoted};
 
 /// The result of reading; the error holds the number of the line and its fault.
 type Reason<T> = Result<T, (usize, FileFault)>;

@@ -1,6 +1,7 @@
 //! Bouc–Wen spring.
 
-use super::{Hysteresis, SpringResponse, corrupt, elastic_share};
+use super::slider::elastic_share;
+use super::{Hysteresis, SpringResponse, corrupt};
 use crate::error::{Result, positive, require};
 use crate::linalg::gauss;
 use crate::structure::InternalEnergy;

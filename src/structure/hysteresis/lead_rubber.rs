@@ -1,6 +1,6 @@
 //! Lead–rubber bearing by its engineering parameters.
 
-use super::{Slider, slider_law};
+use super::slider::{Slider, slider_law};
 use crate::error::{Result, finite, positive, require};
 
 /// Lead–rubber bearing: a bilinear spring from engineering parameters.

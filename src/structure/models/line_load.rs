@@ -35,9 +35,9 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`] for fewer than two nodes, [`Error::Index`] for a node that does not exist, [`Error::Input`]
-    /// for two successive nodes at one place, [`Error::Part`] for a node that no element moves in a direction of
-    /// the pressure.
+    /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
+    /// that does not exist, [`Error::Input`](crate::Error::Input) for two successive nodes at one place,
+    /// [`Error::Part`](crate::Error::Part) for a node that no element moves in a direction of the pressure.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
         let mut row = DofCombination::default();
         for (node, [x, y]) in self.line_weights(nodes)? {
@@ -56,7 +56,7 @@ impl FemModel {
     /// It is spread evenly along the line through `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
     ///
     /// # Errors
-    /// As for [`FemModel::pressure_row`]; [`Error::Scene`] for [`Direction::Rotation`].
+    /// As for [`FemModel::pressure_row`]; [`Error::Scene`](crate::Error::Scene) for [`Direction::Rotation`].
     pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
         let needed = "a direction along x or y";
         require_part("resultant along a line", direction != Direction::Rotation, needed)?;

@@ -1,0 +1,143 @@
+//! Modified Bessel functions K₀ and K₁ of complex argument.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | z | argument, Re z > 0 |
+//! | q | (z/2)² |
+//! | κ | K₁(z)/z − 1/z²: K₁/z without its pole |
+//!
+//! With ψ the digamma function [Abramowitz & Stegun 1964, 9.6.10–9.6.13],
+//!
+//! * K₀ = Σ qᵏ/(k!)² · (ψ(k+1) − ln(z/2)),
+//! * κ = Σ qᵏ/(k!(k+1)!) · (½ ln(z/2) − ¼ψ(k+1) − ¼ψ(k+2)).
+
+use complex_bessel::{Scaling, besselk_seq};
+use realfft::num_complex::Complex;
+
+/// Complex number of double precision.
+pub(super) type Complex64 = Complex<f64>;
+
+/// Largest |z| at which the series has all digits; it loses the factor I₀/|K₀|, below 20.
+pub(super) const SERIES_REACH: f64 = 2.0;
+
+/// Real part beyond which K is below 1e-30 and counts as zero.
+const NOTHING: f64 = 70.0;
+
+/// Number of terms of the series: (q^k/k!²) is below 1e-17 at |z| = 2.
+const TERMS: usize = 14;
+
+/// Euler's constant.
+const EULER: f64 = 0.577_215_664_901_532_9;
+
+/// K₀, K₁/z or κ, and z K₁ of one argument.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Modified {
+    /// K₀(z).
+    pub(super) zeroth: Complex64,
+    /// K₁(z)/z, or κ if `regular` was set.
+    pub(super) quotient: Complex64,
+    /// z K₁(z).
+    pub(super) product: Complex64,
+}
+
+/// K₀ and K₁ of `z`; with `regular`, κ instead of K₁/z, for |z| ≤ [`SERIES_REACH`].
+pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
+    if z.norm() <= SERIES_REACH {
+        let [zeroth, kappa] = series(z, false);
+        let square = z * z;
+        let quotient = if regular { kappa } else { kappa + 1.0 / square };
+        return Modified { zeroth, quotient, product: 1.0 + square * kappa };
+    }
+    if z.re > NOTHING {
+        return Modified::default();
+    }
+    if let Ok(found) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
+        let (zeroth, first) = (found.values[0], found.values[1]);
+        return Modified { zeroth, quotient: first / z, product: first * z };
+    }
+    // Only arguments that are not finite reach this point; the result must not be finite either.
+    let nan = Complex64::new(f64::NAN, f64::NAN);
+    Modified { zeroth: nan, quotient: nan, product: nan }
+}
+
+/// K₀ and κ at `z`; with `mean`, their means over the line from 0 to `z`.
+pub(super) fn series(z: Complex64, mean: bool) -> [Complex64; 2] {
+    let half = 0.5 * z;
+    let (log, q) = (half.ln(), half * half);
+    let mut power = Complex64::new(1.0, 0.0);
+    let mut sums = [Complex64::default(); 2];
+    let mut digamma = -EULER;
+    for k in 0..TERMS {
+        let next = (k + 1) as f64;
+        // ∫₀¹ x^{2k} ln(xz/2) dx = (ln(z/2) − 1/(2k+1))/(2k+1)
+        let (scale, log) = if mean {
+            let odd = (2 * k + 1) as f64;
+            (power / odd, log - 1.0 / odd)
+        } else {
+            (power, log)
+        };
+        sums[0] += scale * (digamma - log);
+        sums[1] += scale / next * (0.5 * log - 0.5 * digamma - 0.25 / next);
+        digamma += 1.0 / next;
+        power *= q / (next * next);
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// GOAL: both branches have all digits. TABLE: mpmath, made by tests/data/bessel_k.py.
+    #[test]
+    fn values_agree_with_the_table() {
+        let table = include_str!("../../../tests/data/bessel_k.csv");
+        let mut rows = 0;
+        for line in table.lines().filter(|line| !line.starts_with(['#', 'r'])) {
+            let x: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
+            let [z, k0, k1] = [0, 2, 4].map(|k| Complex64::new(x[k], x[k + 1]));
+            let found = modified(z, false);
+            for (what, found, wanted) in [
+                ("K0", found.zeroth, k0),
+                ("K1/z", found.quotient, k1 / z),
+                ("zK1", found.product, k1 * z),
+            ] {
+                let error = (found - wanted).norm() / wanted.norm();
+                assert!(error < 5e-14, "{what}({z}): {found} instead of {wanted}: {error:.1e}");
+            }
+            rows += 1;
+        }
+        assert_eq!(rows, 112);
+    }
+
+    /// GOAL: the regular part of K₁/z at the joint of both branches; near 0, its leading terms.
+    #[test]
+    fn regular_part_is_what_the_pole_leaves() {
+        let z = Complex64::new(1.2, -1.5);
+        let kappa = modified(z, true).quotient;
+        let k1 = besselk_seq(0.0, z, 2, Scaling::Unscaled).unwrap().values[1];
+        assert!((kappa - (k1 / z - 1.0 / (z * z))).norm() < 1e-14);
+        let tiny = Complex64::new(3e-9, 1e-9);
+        let leading = 0.5 * (0.5 * tiny).ln() + 0.5 * EULER - 0.25;
+        assert!((modified(tiny, true).quotient - leading).norm() < 1e-14);
+    }
+
+    /// GOAL: means over [0, z] against a Gauss rule on a part away from the logarithm.
+    #[test]
+    fn means_are_integrals() {
+        let z = Complex64::new(0.9, 1.1);
+        let whole = series(z, true).map(|mean| mean * z);
+        let half = series(0.5 * z, true).map(|mean| mean * 0.5 * z);
+        let rule = crate::linalg::gauss::largest();
+        let mut sums = [Complex64::default(); 2];
+        for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+            let point = z * (0.75 + 0.25 * node);
+            for (sum, value) in sums.iter_mut().zip(series(point, false)) {
+                *sum += value * z * (0.25 * weight);
+            }
+        }
+        for k in 0..2 {
+            assert!((whole[k] - half[k] - sums[k]).norm() < 1e-14);
+        }
+    }
+}

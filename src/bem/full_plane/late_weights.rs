@@ -1,0 +1,166 @@
+//! Closed form of convolution-quadrature weights after the waves have passed.
+//!
+//! K₀ and K₁ carry the factor ln s: an integral over an element is K(s) = A(s²) ln s + B(s²) with
+//! A and B entire. Inside the circle of convergence B and polynomials have no late coefficients, so
+//!
+//! ```text
+//! ωₙ = Σ_k A_k Δt^{−2k} [ζⁿ] δ(ζ)^{2k} ln δ(ζ)      once n Δt exceeds the S wave's travel time,
+//! ```
+//!
+//! and with [ζⁿ] (1−ζ)^m ln(1−ζ) = −(−1)^m m!/(n(n−1)…(n−m)) for n > m:
+//!
+//! * BDF1: δ = 1−ζ;
+//! * BDF2: δ = (1−ζ)(1 + (1−ζ)/2), expanded binomially; the factor ln(1 + (1−ζ)/2) is singular
+//!   only at ζ = 3 and leaves 3^{−n}.
+//!
+//! The smeared front is neglected: with ρ = r/(c₂Δt) a Cauchy circle of radius X bounds it
+//! by e^{ρ(X−1)} X^{−n} (BDF1) and e^{ρ(X²−1)/2} X^{−n} (BDF2, 1 < X < 3).
+//!
+//! The leading term −A₀/n is Δt times the impulse response −A₀/t at t = nΔt. BDF2 departs from
+//! Δt·k(nΔt) at relative order n^{−2} and more, BDF1 at n^{−1} where A₁ matters (tractions).
+
+use super::cq_method::CqMethod;
+use super::laplace_element::View;
+use crate::linalg::gauss;
+use crate::soil::Soil;
+
+/// Number of terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
+pub(super) const TERMS: usize = 26;
+
+/// A_k R^{−2k} of one view, in the order of [`Block`](super::laplace_element::Block).
+pub(super) type LogTerms = [[f64; 8]; TERMS];
+
+/// Coefficients of s^{2k} ln s; lengths in units of `unit`, and times in units of `unit`/c₂.
+///
+/// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
+/// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and similar terms are polynomials on the element.
+pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
+    let line = view.line();
+    let (p, q) = radial_terms(soil);
+    let (center, half) = (0.5 * (line.low + line.high), 0.5 * (line.high - line.low));
+    let nu = soil.poisson();
+    let lame = 2.0 * nu / (1.0 - 2.0 * nu);
+    let rule = gauss::largest();
+    let mut terms = [[0.0; 8]; TERMS];
+    for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
+        let x = line.offset(center + half * node);
+        let square = (x[0] * x[0] + x[1] * x[1]) / (unit * unit);
+        let n = line.normal;
+        let along = x[0] * n[0] + x[1] * n[1];
+        let weight = weight * half;
+        // (r/R)^{2k} and (r/R)^{2k−2}.
+        let (mut power, mut lower) = (1.0, 0.0);
+        for (k, term) in terms.iter_mut().enumerate() {
+            let twice = (2 * k) as f64;
+            let (p, q) = (p[k], q[k]);
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let delta = if i == j { 1.0 } else { 0.0 };
+                let both = x[i] * x[j] / (unit * unit);
+                term[2 * i + j] += weight * (p * delta * power - q * lower * both);
+                if view.own || k == 0 {
+                    continue;
+                }
+                // Traction j on the element from load i at the point.
+                let scale = weight * soil.shear_modulus() / (unit * unit);
+                let mut value = (twice * p - q) * (delta * along + x[j] * n[i])
+                    - 2.0 * q * n[j] * x[i]
+                    + lame * (twice * (p - q) - q) * x[i] * n[j];
+                // 4(1−k) q_k r^{2k−4} x_i x_j x_n vanishes for k = 1.
+                if k > 1 {
+                    value += (4.0 - 2.0 * twice) * q * along * both / square;
+                }
+                term[4 + 2 * i + j] += scale * lower * value;
+            }
+            (lower, power) = (power, power * square);
+        }
+    }
+    terms
+}
+
+/// `p_k` and `q_k` for powers of s r/c₂: (s r/c₂)^{2k}.
+fn radial_terms(soil: Soil) -> ([f64; TERMS], [f64; TERMS]) {
+    let ratio = soil.speed_ratio_squared();
+    let slow = soil.shear_wave_speed();
+    let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * slow * slow);
+    let (mut p, mut q) = ([0.0; TERMS], [0.0; TERMS]);
+    // 1/(4^k k!²) and (c₂/c₁)^{2k+2}.
+    let (mut scale, mut power) = (unit, ratio);
+    for k in 0..TERMS {
+        let next = (k + 1) as f64;
+        p[k] = scale * (0.5 * (1.0 - power) / next - 1.0);
+        // 1/((k−1)!(k+1)!) = k/((k+1) k!²), from I₂.
+        q[k] = -scale * (1.0 - power) * k as f64 / next;
+        scale /= 4.0 * next * next;
+        power *= ratio;
+    }
+    (p, q)
+}
+
+/// [ζⁿ] (ρδ)^{2k} ln δ for all k, n > 2·TERMS·2.
+pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; TERMS] {
+    let n = lag as f64;
+    let mut weights = [0.0; TERMS];
+    match method {
+        CqMethod::Bdf1 => {
+            let mut power = -1.0 / n;
+            for (k, weight) in weights.iter_mut().enumerate() {
+                *weight = power;
+                for m in [2 * k + 1, 2 * k + 2] {
+                    power *= -(m as f64) * rho / (n - m as f64);
+                }
+            }
+        }
+        CqMethod::Bdf2 => {
+            // (ρ(1−ζ))^m ln(1−ζ)
+            let mut powers = [0.0; 4 * TERMS];
+            let mut power = -1.0 / n;
+            for (m, entry) in powers.iter_mut().enumerate() {
+                *entry = power;
+                let m = (m + 1) as f64;
+                power *= -m * rho / (n - m);
+            }
+            for (k, weight) in weights.iter_mut().enumerate() {
+                let mut binomial = 1.0;
+                for j in 0..=2 * k {
+                    *weight += binomial * powers[2 * k + j];
+                    binomial *= (2 * k - j) as f64 / (j + 1) as f64 * 0.5 / rho;
+                }
+            }
+        }
+    }
+    weights
+}
+
+/// First lag at which the closed form has all digits, for distances up to ρ c₂ Δt.
+pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
+    let mut lag = 8 * TERMS;
+    while !is_late(method, lag, rho) {
+        lag += 8 + lag / 16;
+    }
+    lag
+}
+
+/// Minus the logarithm of a negligible contribution.
+const NEGLIGIBLE: f64 = 37.0;
+
+fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
+    let n = lag as f64;
+    if n <= 1.5 * rho {
+        return false;
+    }
+    // Best radius of the circle, inside the singularity at 3 of BDF2.
+    let front = match method {
+        CqMethod::Bdf1 => {
+            let x = n / rho;
+            n * x.ln() - rho * (x - 1.0)
+        }
+        CqMethod::Bdf2 => {
+            let x = (n / rho).sqrt().min(2.9);
+            n * x.ln() - 0.5 * rho * (x * x - 1.0)
+        }
+    };
+    // Last term of the series relative to the first: the largest A_k is below 1/(4^k k!²).
+    let weights = weights(method, lag, rho);
+    let factor: f64 = (1..TERMS).map(|k| 0.25 / (k * k) as f64).product();
+    front > NEGLIGIBLE && (weights[TERMS - 1] * factor).abs() < 1e-17 * weights[0].abs()
+}

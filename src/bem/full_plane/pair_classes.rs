@@ -1,0 +1,139 @@
+//! Pairs of elements with the same relative position, each class stored once.
+
+use std::collections::HashMap;
+
+use super::segment::Segment;
+use crate::geometry::{ContactLayout, PLANE};
+
+/// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
+pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
+
+/// Classes of pairs of midpoint and element that are translations of each other.
+///
+/// For horizontal elements also mirror images belong to the same class.
+#[derive(Debug, Clone)]
+pub(super) struct PairClasses {
+    /// Representative (receiver, source) of each class.
+    pub(super) classes: Vec<(usize, usize)>,
+    /// For each class, the index of its view in `views`.
+    view_of: Vec<usize>,
+    /// Ends along the element and height, as seen from the midpoint; on a circle there are E views for E²
+    /// classes.
+    views: Vec<([f64; 2], f64)>,
+    /// For each receiver and source: the class, and whether the pair is its mirror image (xz and zx change
+    /// sign).
+    pub(super) pairs: Vec<(usize, bool)>,
+}
+
+impl PairClasses {
+    pub(super) fn new(segments: &[Segment]) -> Self {
+        let far = |s: &Segment| s.from.iter().chain(&s.to).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let span = segments.iter().map(far).fold(f64::MIN_POSITIVE, f64::max);
+        // Rounding of the nodes must not split a class: 1e-12 of the boundary's size is negligible.
+        #[allow(clippy::cast_possible_truncation, reason = "at most 2e12")]
+        let key = |length: f64| (length / span * 1e12).round() as i64;
+        let mut numbers = HashMap::new();
+        let mut classes = Vec::new();
+        let mut pairs = Vec::with_capacity(segments.len() * segments.len());
+        for (p, receiver) in segments.iter().enumerate() {
+            for (q, source) in segments.iter().enumerate() {
+                let (x, y) = (receiver.center(), source.center());
+                let across =
+                    [key(source.to[0] - source.from[0]), key(source.to[1] - source.from[1])];
+                let offset = [key(y[0] - x[0]), key(y[1] - x[1])];
+                let mirrored = across[1] == 0 && offset[0] < 0;
+                let place = [if mirrored { -offset[0] } else { offset[0] }, offset[1]];
+                let (class, other) = *numbers.entry((across, place)).or_insert_with(|| {
+                    classes.push((p, q));
+                    (classes.len() - 1, mirrored)
+                });
+                pairs.push((class, mirrored != other));
+            }
+        }
+        let (mut numbers, mut views) = (HashMap::new(), Vec::new());
+        let view_of = classes
+            .iter()
+            .map(|&(p, q): &(usize, usize)| {
+                let seen = view(segments[p].center(), &segments[q], p == q);
+                let place = (key(seen.0[0]), key(seen.0[1]), key(seen.1));
+                *numbers.entry(place).or_insert_with(|| {
+                    views.push(seen);
+                    views.len() - 1
+                })
+            })
+            .collect();
+        Self { classes, view_of, views, pairs }
+    }
+
+    /// Overwrites G and H with the blocks of all classes.
+    ///
+    /// `local` returns the block of a class in the axes (d, n) of the source. Its arguments are the source's
+    /// ends along d and its height along n, relative to the receiver's midpoint.
+    pub(super) fn fill(
+        &self,
+        segments: &[Segment],
+        g: &mut [f64],
+        h: &mut [f64],
+        free_term: f64,
+        local: impl Fn([f64; 2], f64) -> PairBlocks,
+    ) {
+        let (count, layout) = (segments.len(), ContactLayout::new(PLANE, segments.len()));
+        let seen: Vec<PairBlocks> =
+            self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
+        let blocks: Vec<PairBlocks> = self
+            .classes
+            .iter()
+            .zip(&self.view_of)
+            .map(|(&(_, q), &view)| {
+                let axes = [segments[q].direction(), segments[q].normal()];
+                seen[view].map(|block| turn(block, axes))
+            })
+            .collect();
+        for (p, pairs) in self.pairs.chunks_exact(count).enumerate() {
+            for (q, &(class, mirrored)) in pairs.iter().enumerate() {
+                for (block, matrix) in blocks[class].iter().zip([&mut *g, &mut *h]) {
+                    for i in 0..2 {
+                        for j in 0..2 {
+                            let value = if mirrored && i != j { -block[i][j] } else { block[i][j] };
+                            matrix[layout.place(i, p) * layout.len() + layout.place(j, q)] = value;
+                        }
+                    }
+                }
+            }
+        }
+        for k in 0..layout.len() {
+            h[k * (layout.len() + 1)] += free_term;
+        }
+    }
+}
+
+/// Ends along the element's direction and height along its normal, relative to `point`.
+pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2], f64) {
+    let half = 0.5 * element.length();
+    if itself {
+        return ([-half, half], 0.0);
+    }
+    let (d, n, y) = (element.direction(), element.normal(), element.center());
+    let offset = [y[0] - point[0], y[1] - point[1]];
+    let along = offset[0] * d[0] + offset[1] * d[1];
+    let height = offset[0] * n[0] + offset[1] * n[1];
+    // Up to rounding, points on the element's line have height zero.
+    let size = offset[0].hypot(offset[1]);
+    let height = if height.abs() < 1e-13 * size { 0.0 } else { height };
+    ([along - half, along + half], height)
+}
+
+/// Components (x, z) of a block in the axes (d, n).
+fn turn(block: [[f64; 2]; 2], axes: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let mut out = [[0.0; 2]; 2];
+    for (i, row) in out.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            for a in 0..2 {
+                for b in 0..2 {
+                    *value += axes[a][i] * block[a][b] * axes[b][j];
+                }
+            }
+        }
+    }
+    out
+}

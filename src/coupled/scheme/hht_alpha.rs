@@ -1,0 +1,60 @@
+//! Method of Hilber, Hughes & Taylor.
+
+use super::newmark::end_of_step;
+use crate::coupled::scheme::{SchemeCoefficients, TimeScheme};
+use crate::error::{Result, require};
+
+/// HHT-α (Hilber, Hughes & Taylor 1977), for comparison with papers.
+///
+/// Second order; it damps high frequencies of the structure alone. For other purposes use
+/// [`DissipativeMidpoint`](super::DissipativeMidpoint), which is passive together with the soil.
+///
+/// Newmark's method with γ = ½ − α and β = (1−α)²/4, with damping and stiffness forces and loads at t₁ + α Δt and
+/// inertia at t₁. Contact tractions are constant over the step and act in full: the coupling creates energy as in
+/// [`Newmark`](super::Newmark), reduced by the dissipation of α. α = 0 is average acceleration; α = −⅓ damps most:
+/// the spectral radius tends to (1+α)/(1−α) for steps much longer than the period, ½ at α = −⅓.
+///
+/// ```
+/// use basemat::coupled::HhtAlpha;
+/// assert!(HhtAlpha::new(-0.1).is_ok());
+/// assert!(HhtAlpha::new(0.1).is_err() && HhtAlpha::new(-0.4).is_err());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "HhtAlphaForm"))]
+pub struct HhtAlpha {
+    alpha: f64,
+}
+
+validated! {
+    HhtAlpha as HhtAlphaForm { alpha: f64 }
+    => HhtAlpha::new(alpha)
+}
+
+impl HhtAlpha {
+    /// Method with −⅓ ≤ α ≤ 0.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) outside this range.
+    pub fn new(alpha: f64) -> Result<Self> {
+        require("alpha", alpha, (-1.0 / 3.0..=0.0).contains(&alpha), "from -1/3 to 0")?;
+        Ok(Self { alpha })
+    }
+}
+
+impl TimeScheme for HhtAlpha {
+    fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
+        let share = 1.0 + self.alpha;
+        let (gamma, beta) = (0.5 - self.alpha, 0.25 * (1.0 - self.alpha).powi(2));
+        let (acceleration, velocity) = end_of_step(gamma, beta, time_step);
+        let [dv, v, a] = velocity;
+        SchemeCoefficients {
+            displacement: [share, 0.0, 0.0],
+            velocity: [share * dv, share * v - self.alpha, share * a],
+            acceleration,
+            new_velocity: velocity,
+            new_acceleration: acceleration,
+            load_fraction: share,
+        }
+    }
+}

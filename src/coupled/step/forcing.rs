@@ -1,0 +1,122 @@
+//! Actions on structure and base during a step, known before its solution.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `s_ff` | free field: motion of the soil without structure |
+//! | y | its mean translation under each connected part of the structure |
+//! | h | soil displacement by all earlier tractions |
+//! | R | influence vectors |
+
+use crate::bem::Ground;
+use crate::coupled::model::kinematics::Translation;
+use crate::coupled::scene::Scene;
+use crate::coupled::state::State;
+use crate::error::StepError;
+use crate::motion::FreeField;
+use crate::structure::Structure;
+
+/// External load, free field and convolution history of one step.
+pub(crate) struct Forcing {
+    /// External load at t*, minus the static load, in stepping coordinates.
+    pub(crate) load: Vec<f64>,
+    /// Whether there is any load.
+    pub(crate) loaded: bool,
+    /// Free field at the end of the step, minus its value at t = 0, 2Q or 3Q.
+    pub(crate) free_field: Vec<f64>,
+    /// Free field minus the translation y of the part above, 2Q or 3Q.
+    pub(crate) distortion: Vec<f64>,
+    /// Convolution history of the soil at the end of the step, 2Q or 3Q.
+    pub(crate) history: Vec<f64>,
+    /// Translation of the free field under each part.
+    pub(crate) translations: Vec<Translation>,
+    /// R Δy, in stepping coordinates.
+    pub(crate) carried: Vec<f64>,
+    /// R ẏ at v*, in stepping coordinates; zero without damping.
+    pub(crate) dragged: Vec<f64>,
+    dofs: Vec<f64>,
+}
+
+impl Forcing {
+    pub(crate) fn new(scene: &Scene) -> Self {
+        let contact = || vec![0.0; scene.layout().len()];
+        let structure = || vec![0.0; scene.model.coordinates];
+        Self {
+            load: structure(),
+            loaded: false,
+            free_field: contact(),
+            distortion: contact(),
+            history: contact(),
+            translations: vec![Translation::default(); scene.model.influence.parts().len()],
+            carried: structure(),
+            dragged: structure(),
+            dofs: vec![0.0; scene.model.dofs],
+        }
+    }
+
+    /// Computes free field and history at `time`, the end of the step after `state`, and the load within it.
+    pub(crate) fn observe(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        structure: &dyn Structure,
+        ground: &mut dyn Ground,
+        motion: &dyn FreeField,
+        time: f64,
+    ) -> Result<(), StepError> {
+        ground.free_field(motion, time, &mut self.free_field);
+        for (value, start) in self.free_field.iter_mut().zip(&scene.start_motion) {
+            *value -= start;
+        }
+        // An error of the ground ends the step.
+        ground.history(&mut self.history).map_err(StepError::part("history of the ground"))?;
+        for (values, quantity) in
+            [(&self.free_field, "free field"), (&self.history, "history of the ground")]
+        {
+            StepError::check_finite(quantity, values)?;
+        }
+        self.distortion.copy_from_slice(&self.free_field);
+        let influence = &scene.model.influence;
+        let last = &state.kinematics.translations;
+        for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
+            let displacement = part.mean(&scene.base, &self.free_field);
+            *now = last.next(displacement, &scene.coefficients);
+            part.subtract(scene.layout(), displacement, &mut self.distortion);
+        }
+        self.carried.fill(0.0);
+        let increments = self.translations.iter().map(|translation| translation.increment);
+        influence.translate(1.0, increments, &mut self.carried);
+        if scene.model.damped {
+            self.dragged.fill(0.0);
+            let velocities = self.translations.iter().map(|translation| translation.velocity);
+            influence.translate(1.0, velocities, &mut self.dragged);
+        }
+        if self.loaded {
+            self.load.fill(0.0);
+        }
+        let within = state.time + scene.coefficients.load_fraction * scene.time_step;
+        let at_start = &scene.static_state.load;
+        let own = scene
+            .model
+            .load(structure, within, at_start, &mut self.dofs, &mut self.load)
+            .map_err(StepError::part("load of the structure"))?;
+        if own {
+            StepError::check_finite("load of the structure", &self.dofs)?;
+        }
+        self.loaded = own || scene.has_loads();
+        match scene.add_loads(within, &mut self.load) {
+            None => Ok(()),
+            Some((index, value)) => {
+                Err(StepError::NotFinite { quantity: "external load", index, value })
+            }
+        }
+    }
+}
+
+/// Data from which a step after `state` is solved.
+#[derive(Clone, Copy)]
+pub(crate) struct StepData<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) structure: &'a dyn Structure,
+    pub(crate) state: &'a State,
+    pub(crate) forcing: &'a Forcing,
+}

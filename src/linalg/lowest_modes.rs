@@ -1,0 +1,258 @@
+//! Lowest modes of a large sparse structure: shift-invert block Lanczos.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | A | K⁻¹ M, symmetric in the inner product x·M y; its largest eigenvalues θ are 1/λ |
+//! | V | basis, M-orthonormal, a row per vector |
+//! | H | Vᵀ M A V, built from the coefficients of the orthogonalisation |
+//!
+//! Every new vector is made orthogonal to all earlier ones, twice (Parlett 1998, § 13), so no spurious copies
+//! appear. As many modes of the same frequency are found as a block has vectors.
+
+use super::eigen::symmetric_modes;
+use super::product::{dense_multiply_add, dot, transposed_multiply_add};
+use super::sparse::SparseFactor;
+use crate::linalg::SparseMatrix;
+
+/// Vectors of a block.
+const BLOCK: usize = 8;
+
+/// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
+const TOLERANCE: f64 = 1e-9;
+
+/// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
+const DEPENDENT: f64 = 1e-10;
+
+/// Eigenvalues and eigenvectors.
+type Pairs = (Vec<f64>, Vec<f64>);
+
+/// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
+///
+/// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
+/// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
+/// fails.
+pub(crate) fn lowest_modes(
+    stiffness: &SparseFactor,
+    mass: &SparseMatrix,
+    count: usize,
+) -> Option<Pairs> {
+    let mut space = Space { stiffness, mass, basis: Vec::new(), columns: Vec::new(), seed: 1 };
+    let count = count.min(space.order());
+    loop {
+        let applied = space.columns.len();
+        if applied == space.vectors() {
+            // At the beginning, or when A yields no new vector. The modes found are then exact, unless a
+            // frequency has more modes than a block has vectors.
+            space.extend_at_random();
+            if applied == space.vectors() {
+                return space.modes(&space.approximations(count)?);
+            }
+        }
+        space.step();
+        if space.columns.len() >= count {
+            let found = space.approximations(count)?;
+            if found.residual <= TOLERANCE {
+                return space.modes(&found);
+            }
+        }
+    }
+}
+
+/// The Krylov space built so far.
+struct Space<'a> {
+    stiffness: &'a SparseFactor,
+    mass: &'a SparseMatrix,
+    basis: Vec<f64>,
+    /// Columns of H: the coefficients of A v, for every v to which A was applied.
+    columns: Vec<Vec<f64>>,
+    seed: u64,
+}
+
+impl Space<'_> {
+    fn order(&self) -> usize {
+        self.mass.order()
+    }
+
+    fn vectors(&self) -> usize {
+        self.basis.len() / self.order().max(1)
+    }
+
+    /// Overwrites vectors x with A x.
+    fn apply(&self, vectors: &mut [f64]) {
+        let mut product = vec![0.0; self.order()];
+        for vector in vectors.chunks_exact_mut(self.order()) {
+            product.fill(0.0);
+            self.mass.multiply_add(1.0, vector, &mut product);
+            vector.copy_from_slice(&product);
+        }
+        self.stiffness.solve_many(vectors);
+    }
+
+    /// Appends a vector to the basis if it is independent of it, and returns its coefficients.
+    fn append(&mut self, vector: &mut [f64]) -> Vec<f64> {
+        let mut coefficients = vec![0.0; self.vectors()];
+        let mut product = vec![0.0; self.order()];
+        let mut correction = coefficients.clone();
+        let mut first = None;
+        for _ in 0..2 {
+            product.fill(0.0);
+            self.mass.multiply_add(1.0, vector, &mut product);
+            first.get_or_insert(dot(vector, &product).max(0.0).sqrt());
+            correction.fill(0.0);
+            dense_multiply_add(&self.basis, 1.0, &product, &mut correction);
+            transposed_multiply_add(&self.basis, -1.0, &correction, vector);
+            coefficients.iter_mut().zip(&correction).for_each(|(sum, c)| *sum += c);
+        }
+        product.fill(0.0);
+        self.mass.multiply_add(1.0, vector, &mut product);
+        let rest = dot(vector, &product).max(0.0).sqrt();
+        if rest > DEPENDENT * first.unwrap_or(0.0) {
+            self.basis.extend(vector.iter().map(|x| x / rest));
+            coefficients.push(rest);
+        }
+        coefficients
+    }
+
+    /// Appends a block of random vectors, multiplied by A to remove their parts without mass.
+    fn extend_at_random(&mut self) {
+        let mut block: Vec<f64> = (0..BLOCK * self.order()).map(|_| self.random()).collect();
+        self.apply(&mut block);
+        for vector in block.chunks_exact_mut(self.order()) {
+            self.append(vector);
+        }
+    }
+
+    /// SplitMix64 (Steele, Lea & Flood 2014), in [−½, ½).
+    fn random(&mut self) -> f64 {
+        self.seed = self.seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.seed;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    }
+
+    /// Applies A to the newest vectors and appends the independent results to the basis.
+    fn step(&mut self) {
+        let n = self.order();
+        let begin = self.columns.len();
+        let mut images = self.basis[begin * n..].to_vec();
+        self.apply(&mut images);
+        for image in images.chunks_exact_mut(n) {
+            let coefficients = self.append(image);
+            self.columns.push(coefficients);
+        }
+    }
+
+    /// The best approximations of the lowest `count` modes in this space.
+    fn approximations(&self, count: usize) -> Option<Approximations> {
+        let m = self.columns.len();
+        let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
+        let square = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
+        let matrix: Vec<f64> = square.map(|(i, j)| 0.5 * (entry(i, j) + entry(j, i))).collect();
+        let (values, vectors) = symmetric_modes(&matrix, m)?;
+        let top = values.last().copied().unwrap_or(0.0);
+        let mut found = Approximations { theta: vec![], shares: vec![], residual: 0.0 };
+        for k in (0..m).rev().take(count) {
+            let theta = values[k];
+            if !(theta.is_finite() && theta > f64::EPSILON * top) {
+                break;
+            }
+            let y: Vec<f64> = (0..m).map(|i| vectors[i * m + k]).collect();
+            let outside = |row: usize| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>();
+            let square: f64 = (m..self.vectors()).map(|row| outside(row).powi(2)).sum();
+            found.residual = found.residual.max(square.sqrt() / theta);
+            found.theta.push(theta);
+            found.shares.push(y);
+        }
+        Some(found)
+    }
+
+    /// λ and φ of the approximations.
+    fn modes(&self, found: &Approximations) -> Option<Pairs> {
+        let (n, m) = (self.order(), self.columns.len());
+        let mut modes = vec![0.0; found.theta.len() * n];
+        for (mode, y) in modes.chunks_exact_mut(n).zip(&found.shares) {
+            transposed_multiply_add(&self.basis[..m * n], 1.0, y, mode);
+        }
+        let finite = modes.iter().all(|x| x.is_finite());
+        finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))
+    }
+}
+
+/// Eigenpairs of H.
+struct Approximations {
+    theta: Vec<f64>,
+    /// Coordinates in the basis, one vector for each mode.
+    shares: Vec<Vec<f64>>,
+    /// Largest ‖A x − θ x‖/θ.
+    residual: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::{Triplets, largest};
+
+    /// `copies` equal chains of springs k = 1 and masses m = 1, fixed at one end:
+    /// λ_j = 4 sin²((2j−1)π/(4n+2)), each `copies` times.
+    fn chains(length: usize, copies: usize, massless: usize) -> [SparseMatrix; 2] {
+        let n = length * copies + massless;
+        let (mut stiffness, mut mass) = (Triplets::new(n), Triplets::new(n));
+        for copy in 0..copies {
+            for i in 0..length {
+                let at = copy * length + i;
+                mass.add(at, at, 1.0);
+                stiffness.add(at, at, 1.0);
+                if i > 0 {
+                    stiffness.add_spring(at - 1, at, 1.0);
+                    stiffness.add(at, at, -1.0);
+                }
+            }
+        }
+        for i in n - massless..n {
+            stiffness.add(i, i, 2.0);
+            stiffness.add_spring(i, 0, 1e-3);
+        }
+        [stiffness, mass].map(|m| SparseMatrix::new("test", &m).unwrap())
+    }
+
+    fn exact(length: usize, j: usize) -> f64 {
+        let n = length as f64;
+        let angle = (2.0 * j as f64 - 1.0) * std::f64::consts::PI / (4.0 * n + 2.0);
+        4.0 * angle.sin().powi(2)
+    }
+
+    #[test]
+    fn chains_have_their_frequencies_each_as_often_as_it_comes() {
+        for (length, copies, count) in [(300, 1, 20), (100, 2, 12), (60, 5, 23), (40, 12, 30)] {
+            let [stiffness, mass] = chains(length, copies, 0);
+            let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
+            let (values, modes) = lowest_modes(&factor, &mass, count).unwrap();
+            assert_eq!(values.len(), count);
+            let n = mass.order();
+            for (k, value) in values.iter().enumerate() {
+                let expected = exact(length, k / copies + 1);
+                assert!((value / expected - 1.0).abs() < 1e-11, "{copies} copies, mode {k}");
+                let mode = &modes[k * n..(k + 1) * n];
+                let mut force = vec![0.0; n];
+                stiffness.multiply_add(1.0, mode, &mut force);
+                mass.multiply_add(-value, mode, &mut force);
+                assert!(largest(&force) < 1e-8 * value.max(1e-3), "{:e}", largest(&force));
+                for (other, row) in modes.chunks_exact(n).enumerate() {
+                    let product = mass.form(mode, row);
+                    assert!((product - f64::from(u8::from(other == k))).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_mass_has_no_mode() {
+        let [stiffness, mass] = chains(5, 1, 4);
+        let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
+        let (values, _) = lowest_modes(&factor, &mass, 9).unwrap();
+        assert_eq!(values.len(), 5);
+        let (none, _) = lowest_modes(&factor, &mass, 0).unwrap();
+        assert!(none.is_empty());
+    }
+}

@@ -1,0 +1,80 @@
+//! Width of text, and cutting of text that is too long.
+//!
+//! The program that shows the SVG chooses the font. Widths are estimates for a wide font (DejaVu Sans, not
+//! condensed), so that other fonts fit as well.
+
+use crate::text::line_breaks::wrapped;
+
+/// Factor by which plotters divides font sizes.
+const FONT_SCALE: f64 = 1.24;
+
+/// Width of a letter over the font's size.
+fn letter(c: char) -> f64 {
+    match c {
+        'i' | 'j' | 'l' | 'I' | '|' | '!' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.37,
+        'm' | 'w' | 'M' | 'W' | '%' | '@' | '—' | '…' | 'Æ' | 'Œ' | 'Ω' => 1.01,
+        '0'..='9' | 'a'..='z' => 0.64,
+        // Hangul, Kana, Chinese characters, symbols and pictures are square.
+        '\u{1100}'..='\u{115f}' | '\u{2e80}'.. => 1.1,
+        _ => 0.82,
+    }
+}
+
+/// Width of a text, pixels, in plotters' font of this size in points.
+pub(super) fn width(text: &str, size: u32) -> f64 {
+    text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
+}
+
+/// The text in lines of at most `room` pixels, as [`wrapped`].
+pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String> {
+    wrapped(text, room, most, |text| width(text, size))
+}
+
+/// The text, cut where it is wider than `room` pixels.
+pub(super) fn fitted(text: &str, size: u32, room: f64) -> String {
+    lines(text, size, room, 1).swap_remove(0)
+}
+
+/// A number in four digits.
+pub(super) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_break_between_words_and_end_in_a_sign_if_cut() {
+        assert_eq!(lines("", 15, 100.0, 2), [""]);
+        assert_eq!(lines("base shear", 15, 400.0, 2), ["base shear"]);
+        assert_eq!(lines("base shear", 15, 60.0, 2), ["base", "shear"]);
+        assert_eq!(fitted("base shear", 15, 60.0), "base s…");
+        let long = "x".repeat(1000);
+        let three = lines(&long, 15, 80.0, 3);
+        assert_eq!(three.len(), 3);
+        assert!(three[2].ends_with('…') && !three[1].ends_with('…'));
+        assert!(three.iter().all(|line| width(line, 15) <= 80.0));
+        // A word too long for a line is broken, and the text after it is not lost.
+        let broken = lines(&format!("{} end", "x".repeat(15)), 15, 80.0, 9);
+        assert_eq!(broken.concat().replace(' ', ""), format!("{}end", "x".repeat(15)));
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (50.0, "50"),
+            (1.0 / 3.0, "0.3333"),
+            (123_456.0, "123500"),
+            (1.234e-7, "1.2e-7"),
+            (2e9, "2.0e9"),
+        ] {
+            assert_eq!(short(value), text);
+        }
+    }
+}

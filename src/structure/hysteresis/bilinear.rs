@@ -1,0 +1,36 @@
+//! Bilinear spring with kinematic hardening.
+
+use super::slider::{Slider, elastic_share, slider_law};
+use crate::error::{Result, positive};
+
+/// Bilinear force with kinematic hardening: yielding columns, braces, dampers of mild steel.
+///
+/// Elastic with stiffness k up to the yield force F_y, then with α k; after a reversal it is elastic over 2 F_y.
+/// Energy stored by hardening counts as recoverable.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bilinear {
+    slider: Slider,
+}
+
+impl Bilinear {
+    /// Spring with stiffness k, yield force F_y and hardening α.
+    ///
+    /// `stiffness`: N/m. `yield_force`: N. `hardening`: ratio of the slope after yield to k. All per metre of
+    /// thickness.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless k and F_y are positive and 0 ≤ α < 1.
+    pub fn new(stiffness: f64, yield_force: f64, hardening: f64) -> Result<Self> {
+        positive("stiffness of the bilinear spring", stiffness)?;
+        positive("yield force of the bilinear spring", yield_force)?;
+        let share = elastic_share(hardening)?;
+        let slider = Slider::new(
+            hardening * stiffness,
+            positive("stiffness of the bilinear spring", share * stiffness)?,
+            positive("yield force of the bilinear spring", share * yield_force)?,
+        );
+        Ok(Self { slider })
+    }
+}
+
+slider_law!(Bilinear);

@@ -1,0 +1,110 @@
+//! Elastic slider parallel to a spring, and laws made of it.
+
+use super::{SpringResponse, corrupt};
+use crate::error::{Result, require};
+use crate::structure::InternalEnergy;
+
+/// Spring `parallel` to a spring `series` with a slider that yields at the force `limit`.
+///
+/// The return mapping is exact for straight paths: the force is kinematically hardening bilinear.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Slider {
+    pub(super) parallel: f64,
+    pub(super) series: f64,
+    pub(super) limit: f64,
+    /// Displacement of the slider.
+    slip: f64,
+    dissipated: f64,
+}
+
+impl Slider {
+    pub(super) fn new(parallel: f64, series: f64, limit: f64) -> Self {
+        Self { parallel, series, limit, slip: 0.0, dissipated: 0.0 }
+    }
+
+    /// Force of the slider and its slip.
+    fn slide(&self, deformation: f64) -> (f64, f64) {
+        let trial = self.series * (deformation - self.slip);
+        if trial.abs() <= self.limit {
+            return (trial, self.slip);
+        }
+        let force = self.limit.copysign(trial);
+        (force, deformation - force / self.series)
+    }
+
+    pub(super) fn response(&self, deformation: f64) -> SpringResponse {
+        let (force, slip) = self.slide(deformation);
+        let tangent = if slip == self.slip { self.series } else { 0.0 };
+        SpringResponse {
+            force: self.parallel * deformation + force,
+            tangent: self.parallel + tangent,
+        }
+    }
+
+    pub(super) fn energy(&self, deformation: f64) -> InternalEnergy {
+        let (force, slip) = self.slide(deformation);
+        InternalEnergy {
+            stored: 0.5 * (self.parallel * deformation * deformation + force * force / self.series),
+            dissipated: self.dissipated + self.limit * (slip - self.slip).abs(),
+        }
+    }
+
+    pub(super) fn commit(&mut self, deformation: f64) {
+        self.dissipated = self.energy(deformation).dissipated;
+        self.slip = self.slide(deformation).1;
+    }
+
+    pub(super) fn save(&self) -> Vec<f64> {
+        vec![self.slip, self.dissipated]
+    }
+
+    pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
+        match values {
+            &[slip, dissipated]
+                if slip.is_finite() && dissipated.is_finite() && dissipated >= 0.0 =>
+            {
+                (self.slip, self.dissipated) = (slip, dissipated);
+                Ok(())
+            }
+            _ => Err(corrupt()),
+        }
+    }
+}
+
+/// Implements [`Hysteresis`](Hysteresis) for a type by its field `slider`.
+macro_rules! slider_law {
+    ($law:ty) => {
+        impl crate::structure::Hysteresis for $law {
+            fn response(&self, deformation: f64) -> crate::structure::SpringResponse {
+                self.slider.response(deformation)
+            }
+
+            fn energy(&self, deformation: f64) -> crate::structure::InternalEnergy {
+                self.slider.energy(deformation)
+            }
+
+            fn commit(&mut self, deformation: f64) {
+                self.slider.commit(deformation);
+            }
+
+            fn save(&self) -> Vec<f64> {
+                self.slider.save()
+            }
+
+            fn restore(&mut self, values: &[f64]) -> crate::error::Result<()> {
+                self.slider.restore(values)
+            }
+
+            fn clone_box(&self) -> Box<dyn crate::structure::Hysteresis> {
+                Box::new(self.clone())
+            }
+        }
+    };
+}
+pub(super) use slider_law;
+
+/// 1 − α for a hardening ratio 0 ≤ α < 1.
+pub(super) fn elastic_share(hardening: f64) -> Result<f64> {
+    let is_ratio = (0.0..1.0).contains(&hardening);
+    Ok(1.0 - require("hardening ratio", hardening, is_ratio, "from 0 to below 1")?)
+}
