@@ -172,14 +172,6 @@ impl InterfaceLaw for Bonded {
         &[Mode::Stick]
     }
 
-    fn conditions(&self, _mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        [Condition::gap_is(start.state.gap), Condition::slip_is(start.state.slip)]
-    }
-
-    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
-        Mode::Stick
-    }
-
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         Ok(Limits { bonded: true, gap_offset: start.state.gap, ..Limits::default() })
     }

@@ -1,6 +1,6 @@
 //! Hard unilateral contact with Coulomb friction.
 
-use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
+use super::{InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::{Result, not_negative, require};
 
 /// Quantity to which the contact conditions of a closed element apply.
@@ -132,17 +132,6 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// τ = ±friction (p + strength), in a form that has a limit for infinite friction.
-    ///
-    /// The limit is p + strength = 0 with the shear traction free. Without it the incremental problem need
-    /// not have a solution: an element about to open under shear could neither stick nor open.
-    fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
-        let (friction, strength) = (self.friction, self.strength(start));
-        let [shear, pressure] =
-            if friction > 1.0 { [-direction / friction, 1.0] } else { [direction, -friction] };
-        Condition { shear, pressure, value: -pressure * strength, ..Condition::default() }
-    }
-
     /// Gap of a closed element at the end of the step; `None` if the element cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
@@ -157,54 +146,6 @@ impl Coulomb {
 impl InterfaceLaw for Coulomb {
     fn modes(&self) -> &[Mode] {
         Mode::with_friction(self.friction)
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
-        let Some(closed_gap) = self.closed_gap(start) else { return open };
-        let closed = Condition::gap_is(closed_gap);
-        match mode.elastic() {
-            Mode::SlipRight => [closed, self.slip_condition(1.0, start)],
-            Mode::SlipLeft => [closed, self.slip_condition(-1.0, start)],
-            Mode::Open => open,
-            _ => [closed, Condition::slip_is(start.state.slip)],
-        }
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        let at_rest = self.modes()[0];
-        let Some(closed_gap) = self.closed_gap(start) else { return Mode::Open };
-        if mode == Mode::Open {
-            let closes = trial.gap < closed_gap - tolerance.length;
-            return if closes { at_rest } else { Mode::Open };
-        }
-        let advance = trial.slip - start.state.slip;
-        let (normal, slack) = (trial.pressure + self.strength(start), tolerance.traction);
-        let slides = |direction: f64| {
-            if normal < -slack || (self.friction > 0.0 && direction * trial.shear < -slack) {
-                Mode::Open
-            } else if self.friction > 0.0 && direction * advance < -tolerance.length {
-                Mode::Stick
-            } else {
-                mode
-            }
-        };
-        match mode {
-            Mode::SlipRight => slides(1.0),
-            Mode::SlipLeft => slides(-1.0),
-            _ if normal < -slack => Mode::Open,
-            // Infinite friction times zero pressure is not a limit.
-            _ if self.friction == f64::INFINITY => Mode::Stick,
-            _ if trial.shear > self.friction * normal.max(0.0) + slack => Mode::SlipRight,
-            _ if trial.shear < -self.friction * normal.max(0.0) - slack => Mode::SlipLeft,
-            _ => Mode::Stick,
-        }
     }
 
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
@@ -232,6 +173,7 @@ impl InterfaceLaw for Coulomb {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::interface::{ContactState, Tolerance};
 
     const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
 

@@ -1,5 +1,6 @@
-//! Limits of an element's tractions, for contact in plan.
+//! Limits of an element's tractions, and the modes in the plane that follow from them.
 
+use super::{Condition, ContactState, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, finite, not_negative, require};
 
 /// Bounds of the tractions of an element in plan during a step.
@@ -80,5 +81,111 @@ impl Limits {
             finite("gap of a closed element", self.gap_offset)?;
         }
         Ok(self)
+    }
+
+    /// Conditions of a mode in the plane; `compliance`: of the law's elastic layer, as in
+    /// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
+    ///
+    /// Not a number for a friction coefficient that is none.
+    pub(super) fn conditions(
+        &self,
+        mode: Mode,
+        start: &PreviousContact,
+        compliance: [f64; 2],
+    ) -> [Condition; 2] {
+        let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
+        let [normal, tangential] = compliance;
+        let ContactState { slip, shear, .. } = start.state;
+        let closed = Condition { pressure: normal, ..Condition::gap_is(self.gap_offset) };
+        let sticks =
+            Condition { shear: 0.0 - tangential, ..Condition::slip_is(slip - tangential * shear) };
+        if self.bonded {
+            return [closed, sticks];
+        }
+        if self.friction.is_nan() || self.friction < 0.0 {
+            return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
+        }
+        if mode == Mode::Open || self.gap_offset == f64::NEG_INFINITY {
+            return open;
+        }
+        let yields = mode.is_yield() && self.pressure_cap.is_finite();
+        let normal = if yields { Condition::pressure_is(self.pressure_cap) } else { closed };
+        match mode.elastic() {
+            Mode::SlipRight => [normal, self.slip_condition(1.0)],
+            Mode::SlipLeft => [normal, self.slip_condition(-1.0)],
+            _ => [normal, sticks],
+        }
+    }
+
+    /// τ = ±R, in a form that has a limit for infinite friction.
+    ///
+    /// The limit is p + attraction = 0 with the shear traction free. Without it the incremental problem need not have a
+    /// solution: an element about to open under shear could neither stick nor open.
+    fn slip_condition(&self, direction: f64) -> Condition {
+        let Self { friction, attraction, shear_strength, .. } = *self;
+        let [shear, pressure, cohesion] = if friction > 1.0 {
+            [-direction / friction, 1.0, -shear_strength / friction]
+        } else {
+            [direction, -friction, shear_strength]
+        };
+        let value = -pressure * attraction + cohesion;
+        Condition { shear, pressure, value, ..Condition::default() }
+    }
+
+    /// The mode to try after a `trial` in `mode` in the plane.
+    ///
+    /// `at_rest`: mode of an element that closes. `compliance`: as for [`Limits::conditions`]. An element that slides
+    /// keeps no tension beyond the attraction.
+    pub(super) fn next_mode(
+        &self,
+        [mode, at_rest]: [Mode; 2],
+        start: &PreviousContact,
+        trial: &ContactState,
+        tolerance: Tolerance,
+        compliance: [f64; 2],
+    ) -> Mode {
+        if self.bonded {
+            return Mode::Stick;
+        }
+        if self.gap_offset == f64::NEG_INFINITY {
+            return Mode::Open;
+        }
+        let [normal, tangential] = compliance;
+        let gap = trial.gap - self.gap_offset + normal * trial.pressure;
+        if mode == Mode::Open {
+            return if gap < -tolerance.length { at_rest } else { Mode::Open };
+        }
+        let slack = tolerance.traction;
+        let (pressed, has_shear) =
+            (trial.pressure + self.attraction, self.friction > 0.0 || self.shear_strength > 0.0);
+        let advance =
+            trial.slip - start.state.slip - tangential * (trial.shear - start.state.shear);
+        let still = tolerance.length + tangential * slack;
+        let slides = |direction: f64| {
+            if pressed < -slack || (has_shear && direction * trial.shear < -slack) {
+                Mode::Open
+            } else if has_shear && direction * advance < -still {
+                Mode::Stick
+            } else {
+                mode.elastic()
+            }
+        };
+        let limit = self.friction * pressed.max(0.0) + self.shear_strength;
+        let next = match mode.elastic() {
+            Mode::SlipRight => slides(1.0),
+            Mode::SlipLeft => slides(-1.0),
+            _ if trial.pressure + self.tension < -slack => Mode::Open,
+            // Infinite friction times zero pressure is not a limit.
+            _ if self.friction == f64::INFINITY => Mode::Stick,
+            _ if trial.shear > limit + slack => Mode::SlipRight,
+            _ if trial.shear < -limit - slack => Mode::SlipLeft,
+            _ => Mode::Stick,
+        };
+        let yields = if mode.is_yield() {
+            self.pressure_cap.is_finite() && gap <= tolerance.length
+        } else {
+            trial.pressure > self.pressure_cap + slack
+        };
+        if yields { next.yielding() } else { next }
     }
 }

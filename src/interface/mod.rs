@@ -279,22 +279,39 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// ```
 #[auto_impl::auto_impl(Box)]
 pub trait InterfaceLaw: Send {
-    /// The modes that this law uses, first the mode of an element at rest in contact.
-    fn modes(&self) -> &[Mode];
+    /// The modes that this law uses in the plane, first the mode of an element at rest in contact.
+    ///
+    /// The default has all modes of a law with [`limits`](InterfaceLaw::limits).
+    fn modes(&self) -> &[Mode] {
+        Mode::WITH_LIMITS
+    }
 
     /// The two conditions that `mode` imposes at the end of the step.
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2];
+    ///
+    /// The default follows from [`limits`](InterfaceLaw::limits) and [`compliance`](InterfaceLaw::compliance).
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+        let compliance = self.compliance(Mode::Stick, start);
+        self.limits(start).map_or_else(
+            |_| [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)],
+            |limits| limits.conditions(mode, start, compliance),
+        )
+    }
 
     /// The mode to try next after a `trial` with the conditions of `mode`.
     ///
-    /// Return `mode` itself if the trial is admissible.
+    /// Return `mode` itself if the trial is admissible. The default follows from [`limits`](InterfaceLaw::limits).
     fn next_mode(
         &self,
         mode: Mode,
         start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
-    ) -> Mode;
+    ) -> Mode {
+        let compliance = self.compliance(Mode::Stick, start);
+        let modes = [mode, self.modes().first().copied().unwrap_or(Mode::Stick)];
+        self.limits(start)
+            .map_or(mode, |limits| limits.next_mode(modes, start, trial, tolerance, compliance))
+    }
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
     ///
@@ -357,17 +374,23 @@ pub trait InterfaceLaw: Send {
     /// Called after a condition that is not finite; returns the reason if the law can name it.
     ///
     /// # Errors
-    /// An error with the cause, as [`Error::Input`] or [`Error::part`](crate::Error::part).
-    fn check_start(&self, _start: &PreviousContact) -> Result<()> {
-        Ok(())
+    /// An error with the cause, as [`Error::Input`] or [`Error::part`](crate::Error::part). By default errors of the
+    /// [`limits`](InterfaceLaw::limits) from which the conditions follow.
+    fn check_start(&self, start: &PreviousContact) -> Result<()> {
+        if self.modes() != Mode::WITH_LIMITS {
+            return Ok(());
+        }
+        self.limits(start)?.checked().map(drop)
     }
 
-    /// Limits of the tractions of an element on a ground in plan, in the step after `start`.
+    /// Limits of the tractions of an element in the step after `start`.
     ///
-    /// A ground in the plane uses modes and conditions instead. In plan the slip follows the shear traction,
-    /// and the law only bounds the tractions. Called once per attempted step.
+    /// A law that returns limits needs no other method, on a ground in plan or in the plane. In plan the slip follows the
+    /// shear traction, and the limits are all that a run needs of the law: they are returned once per attempted step. In
+    /// the plane modes and conditions follow from them, unless the law has its own.
     ///
-    /// The default returns an error that names the law: the law is valid in the plane only.
+    /// The default returns an error that names the law: a law with modes and conditions of its own is valid in the plane
+    /// only.
     ///
     /// # Errors
     /// If the law has no limits for this element, as [`Error::Scene`], [`Error::Input`] or [`Error::part`].

@@ -97,6 +97,17 @@ impl Mode {
         }
     }
 
+    /// All modes of a law with limits in the plane.
+    pub(super) const WITH_LIMITS: &'static [Self] = &[
+        Self::Stick,
+        Self::SlipLeft,
+        Self::SlipRight,
+        Self::Open,
+        Self::Yield,
+        Self::YieldLeft,
+        Self::YieldRight,
+    ];
+
     /// The modes of contact with uplift and Coulomb friction.
     pub(super) fn with_friction(friction: f64) -> &'static [Self] {
         if friction == 0.0 {

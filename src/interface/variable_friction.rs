@@ -1,7 +1,7 @@
 //! Coulomb friction whose coefficient changes from step to step.
 
 use super::coulomb::{Coulomb, UnilateralCondition};
-use super::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
+use super::{Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, UnilateralCondition};
 use crate::error::Result;
 
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
@@ -80,26 +80,6 @@ impl VariableFriction {
 impl InterfaceLaw for VariableFriction {
     fn modes(&self) -> &[Mode] {
         Mode::with_friction(f64::INFINITY)
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let law = self.at(start);
-        if law.friction() >= 0.0 {
-            law.conditions(mode, start)
-        } else {
-            // No mode may succeed with an invalid coefficient: see `check_start`.
-            [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)]
-        }
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        self.at(start).next_mode(mode, start, trial, tolerance)
     }
 
     fn check_start(&self, start: &PreviousContact) -> Result<()> {

@@ -1,8 +1,6 @@
 //! Contact on soil that yields under its bearing pressure.
 
-use super::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
-};
+use super::{ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::{Result, positive};
 
 /// Coulomb friction and uplift on soil whose contact pressure is bounded.
@@ -97,50 +95,8 @@ impl InterfaceLaw for Yielding {
             // The slip modes of infinite friction have no pressure.
             &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
         } else {
-            &[
-                Mode::Stick,
-                Mode::SlipLeft,
-                Mode::SlipRight,
-                Mode::Open,
-                Mode::Yield,
-                Mode::YieldLeft,
-                Mode::YieldRight,
-            ]
+            Mode::WITH_LIMITS
         }
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let [normal, tangential] = self.contact.conditions(mode.elastic(), start);
-        if mode.is_yield() {
-            let bearing = Condition::pressure_is(self.bearing_pressure);
-            return [bearing, tangential];
-        }
-        if mode == Mode::Open {
-            return [normal, tangential];
-        }
-        [Condition::gap_is(-indentation(start)), tangential]
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        // Gap relative to the indented surface.
-        let gap = trial.gap + indentation(start);
-        let seen = ContactState { gap, ..*trial };
-        let next = self.contact.next_mode(mode.elastic(), start, &seen, tolerance);
-        if next == Mode::Open {
-            return next;
-        }
-        let yields = if mode.is_yield() {
-            gap <= tolerance.length
-        } else {
-            mode.is_closed() && trial.pressure > self.bearing_pressure + tolerance.traction
-        };
-        if yields { next.yielding() } else { next }
     }
 
     fn state_variables(&self) -> usize {
