@@ -26,10 +26,7 @@ const TWO_PERIODS: usize = 430;
 /// Writes the matrices of a tower; returns its contact nodes and the displacement of its top.
 ///
 /// The tower is 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
-fn write_files(
-    mass_file: &Path,
-    stiffness_file: &Path,
-) -> Result<(Vec<ContactNode>, DofCombination)> {
+fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<BaseNode>, DofCombination)> {
     let layer = Layer::new(100.0, 500, Material::new(5.0e9, 0.2, 600.0)?);
     let mesh = Mesh::layered_block(-5.0..5.0, 50, &[layer])?;
     let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);

@@ -11,7 +11,7 @@
 use basemat::motion::Triaxial;
 use basemat::plot::contact_plan;
 use basemat::prelude::*;
-use basemat::structure::{FaceNode, MatrixModel};
+use basemat::structure::{BaseNode, MatrixModel};
 
 /// Ends of each wing along x and y, m; height, m; density, kg/m³.
 const WINGS: [[[f64; 2]; 2]; 2] = [[[0.0, 24.0], [0.0, 8.0]], [[0.0, 8.0], [8.0, 20.0]]];
@@ -42,7 +42,7 @@ fn main() -> basemat::Result<()> {
         let [[left, right], [front, back]] = wing;
         let corners = [[left, front], [right, front], [right, back], [left, back]];
         let from_center = corners.map(|[x, y]| [x - CENTER[0], y - CENTER[1]]);
-        faces.push(FaceNode::rigid_base(&from_center, CENTER, [0, 1, 2, 3, 4, 5]));
+        faces.push(BaseNode::rigid_face(&from_center, CENTER, [0, 1, 2, 3, 4, 5]));
     }
     // A rigid body has no stiffness.
     let body = MatrixModel::in_plan(mass, Triplets::new(6), faces)?;

@@ -1,6 +1,6 @@
 //! Points of the base: nodes of a line in the plane, corners of faces in plan.
 
-use basemat::structure::{ContactNode, FaceNode};
+use basemat::structure::BaseNode;
 use pyo3::prelude::*;
 
 use crate::array::wholes;
@@ -11,10 +11,10 @@ use crate::several::no_such;
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
 #[pyclass(name = "ContactNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyContactNode(pub(crate) ContactNode, Order);
+pub(crate) struct PyContactNode(pub(crate) BaseNode, Order);
 
-impl From<ContactNode> for PyContactNode {
-    fn from(node: ContactNode) -> Self {
+impl From<BaseNode> for PyContactNode {
+    fn from(node: BaseNode) -> Self {
         Self(node, Order::default())
     }
 }
@@ -24,14 +24,14 @@ impl PyContactNode {
     #[new]
     fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
         let order = horizontal.1.and(vertical.1)?;
-        Ok(Self(ContactNode { x, horizontal: horizontal.0, vertical: vertical.0 }, order))
+        Ok(Self(BaseNode { x, horizontal: horizontal.0, vertical: vertical.0, ..BaseNode::default() }, order))
     }
 
     /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
     /// numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
     fn rigid(x: f64, center: f64, #[pyo3(from_py_with = wholes)] dofs: [usize; 3]) -> Self {
-        ContactNode::rigid(x, center, dofs).into()
+        BaseNode::rigid(x, center, dofs).into()
     }
 
     /// Coordinate to the right, m.
@@ -60,11 +60,11 @@ impl PyContactNode {
         right: f64,
         #[pyo3(from_py_with = wholes)] dofs: [usize; 3],
     ) -> Vec<Self> {
-        ContactNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
+        BaseNode::rigid_base(left, right, dofs).into_iter().map(Self::from).collect()
     }
 
     fn __repr__(&self) -> String {
-        let ContactNode { x, horizontal, vertical } = &self.0;
+        let BaseNode { x, horizontal, vertical, .. } = &self.0;
         format!("ContactNode({x:?}, {:?}, {:?})", &**horizontal, &**vertical)
     }
 }
@@ -74,10 +74,10 @@ impl PyContactNode {
 /// ``vertical``.
 #[pyclass(name = "FaceNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyFaceNode(FaceNode, Order);
+pub(crate) struct PyFaceNode(BaseNode, Order);
 
-impl From<FaceNode> for PyFaceNode {
-    fn from(node: FaceNode) -> Self {
+impl From<BaseNode> for PyFaceNode {
+    fn from(node: BaseNode) -> Self {
         Self(node, Order::default())
     }
 }
@@ -94,7 +94,7 @@ impl PyFaceNode {
     ) -> PyResult<Self> {
         let order = horizontal.1.and(across.1)?.and(vertical.1)?;
         let (horizontal, across, vertical) = (horizontal.0, across.0, vertical.0);
-        Ok(Self(FaceNode { x, y, horizontal, across, vertical }, order))
+        Ok(Self(BaseNode { x, y, z: 0.0, horizontal, across, vertical }, order))
     }
 
     /// Coordinate to the right, m.
@@ -135,11 +135,11 @@ impl PyFaceNode {
         center: [f64; 2],
         #[pyo3(from_py_with = wholes)] dofs: [usize; 6],
     ) -> Vec<Self> {
-        FaceNode::rigid_base(&corners, center, dofs).into_iter().map(Self::from).collect()
+        BaseNode::rigid_face(&corners, center, dofs).into_iter().map(Self::from).collect()
     }
 
     fn __repr__(&self) -> String {
-        let FaceNode { x, y, horizontal, across, vertical } = &self.0;
+        let BaseNode { x, y, horizontal, across, vertical, .. } = &self.0;
         format!("FaceNode({x:?}, {y:?}, {:?}, {:?}, {:?})", &**horizontal, &**across, &**vertical)
     }
 }
@@ -162,7 +162,7 @@ extracts!(Contact<'py>, object => {
 
 impl Contact<'_> {
     /// Nodes and faces, one of them empty, of a structure of so many degrees of freedom.
-    pub(crate) fn nodes(&self, dofs: usize) -> PyResult<(Vec<ContactNode>, Vec<Vec<FaceNode>>)> {
+    pub(crate) fn nodes(&self, dofs: usize) -> PyResult<(Vec<BaseNode>, Vec<Vec<BaseNode>>)> {
         let check = |order: Order, x: f64| order.check(&format!("the contact node at {x} m"), dofs);
         let node = |node: &Bound<'_, PyContactNode>| {
             let PyContactNode(node, order) = node.get();

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::error::{Error, Result, finite, positive, require};
 use crate::fundamental::branch::Weight;
 use crate::geometry::{ContactElement, PLANE, check_count};
-use crate::structure::{FaceNode, Structure, foundation_nodes, from_the_left};
+use crate::structure::{BaseNode, Structure, foundation_nodes, from_the_left};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -113,11 +113,11 @@ impl Strip {
     pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
         let nodes = structure.contact_nodes();
         let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
-        let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
+        let nodes: Vec<_> = nodes.into_iter().collect();
         let strip = |own: Range<usize>| {
             let (first, last) = (nodes[own.start].x, nodes[own.end - 1].x);
             from_the_left(first, last)?;
-            let segments = FaceNode::segments(&nodes[own]);
+            let segments = BaseNode::segments(&nodes[own]);
             Self::new(first..last, if count == 0 { 0 } else { count.max(segments) }, grading)
         };
         foundations.into_iter().map(strip).collect()

@@ -47,6 +47,16 @@ impl ContactElement {
         Self { corners, directions: FLAT, in_plan: true, inside: 1.0 }
     }
 
+    /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
+    #[cfg(test)]
+    pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {
+        let [x, z] = [0, 1].map(|k| to[k] - from[k]);
+        let [x, z] = [x, z].map(|part| part / x.hypot(z));
+        let corners = [[from[0], METRE[0], from[1]], [to[0], METRE[1], to[1]]];
+        let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
+        Self { corners, directions, in_plan: false, inside: 1.0 }
+    }
+
     /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
     ///
     /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
@@ -79,6 +89,11 @@ impl ContactElement {
     /// Length along the first tangent, m.
     pub fn length(&self) -> f64 {
         self.sides()[0]
+    }
+
+    /// Places of both ends along the first tangent, m.
+    pub(crate) fn span(&self) -> [f64; 2] {
+        self.corners.map(|corner| self.components(corner)[1])
     }
 
     /// Sides along the tangents, m; the second is one metre in the plane.

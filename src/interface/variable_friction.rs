@@ -1,7 +1,7 @@
 //! Coulomb friction whose coefficient changes from step to step.
 
 use super::coulomb::{Coulomb, UnilateralCondition};
-use super::{Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, UnilateralCondition};
+use super::{InterfaceLaw, Limits, Mode, PreviousContact};
 use crate::error::Result;
 
 type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;

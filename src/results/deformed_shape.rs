@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
-    DofCombination, FaceNode, FemModel, ShearBuilding, StoreyBuilding, Structure,
+    BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
 
 /// A point of a [`DeformedShape`]: its place and its displacement.
@@ -114,11 +114,11 @@ impl DeformedShape {
         let (mut points, mut cells) = (Vec::new(), Vec::new());
         for face in block.contact_faces() {
             let (first, count) = (points.len(), face.len());
-            let top = |node: &FaceNode| {
-                let rows = FaceNode::carried(&face, node.place(), height);
+            let top = |node: &BaseNode| {
+                let rows = BaseNode::carried(&face, node.place(), height);
                 ShapePoint::in_space([node.x, node.y, height], rows)
             };
-            points.extend(face.iter().map(FaceNode::shape));
+            points.extend(face.iter().map(BaseNode::shape));
             points.extend(face.iter().map(top));
             add_outline(&mut cells, first, count);
             add_outline(&mut cells, first + count, count);
@@ -152,7 +152,7 @@ impl DeformedShape {
         let ([x, y], mut height) = (building.center(), 0.0);
         let base = building.contact_faces().concat();
         let (mut points, mut cells) = (Vec::new(), Vec::new());
-        points.extend(base.iter().map(FaceNode::shape));
+        points.extend(base.iter().map(BaseNode::shape));
         add_outline(&mut cells, 0, base.len());
         for (storey, own) in building.heights().enumerate() {
             height += own;
@@ -253,7 +253,7 @@ impl ShapePoint {
     }
 }
 
-impl FaceNode {
+impl BaseNode {
     /// Point of the shape at the node itself.
     fn shape(&self) -> ShapePoint {
         let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);

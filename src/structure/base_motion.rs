@@ -1,6 +1,6 @@
 //! Motions of a structure's base, and displacements relative to them.
 
-use super::{DofCombination, FaceNode, Structure, check_base_nodes};
+use super::{BaseNode, DofCombination, Structure, check_base_nodes};
 use crate::error::{Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 
@@ -90,7 +90,7 @@ impl DofCombination {
         }
         check_base_nodes(&nodes, structure.dofs())?;
         let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
-        let carried = FaceNode::carried(&nodes, [center[0] + x, center[1] + y], height);
+        let carried = BaseNode::carried(&nodes, [center[0] + x, center[1] + y], height);
         for &(_, weight) in carried.iter().flatten() {
             let needed = "corners that are not on one line";
             require("rotation of the base", weight, weight.is_finite(), needed)?;

@@ -9,23 +9,35 @@ use crate::geometry::{PLANE, SPACE};
 /// Relative difference of displacements, and of a distance from a line, that counts as rounding.
 const FLAT: f64 = 1e-9;
 
-/// A point of the base, and its motion by the degrees of freedom.
-#[derive(Debug, Clone, PartialEq)]
+/// A point of a structure's base, and its motion by the degrees of freedom.
+///
+/// Coordinates: x to the right, y away from the reader, z up. A node in the plane has no displacement along y.
+#[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct ContactNode {
-    /// Coordinate along the surface, m.
+pub struct BaseNode {
+    /// Coordinate to the right, m.
     pub x: f64,
-    /// Horizontal displacement (to the right) as a weighted sum of degrees of freedom.
+    /// Coordinate away from the reader, m; zero in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub y: f64,
+    /// Coordinate upwards from the surface, m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub z: f64,
+    /// Displacement to the right as a weighted sum of degrees of freedom.
     pub horizontal: DofCombination,
-    /// Vertical displacement (up) as a weighted sum of degrees of freedom.
+    /// Displacement along y as a weighted sum of degrees of freedom; empty in the plane.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub across: DofCombination,
+    /// Displacement upwards as a weighted sum of degrees of freedom.
     pub vertical: DofCombination,
 }
 
-impl ContactNode {
-    /// A node with a horizontal and a vertical degree of freedom of its own.
+impl BaseNode {
+    /// A node in the plane with a horizontal and a vertical degree of freedom of its own.
     pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
-        Self { x, horizontal: horizontal.into(), vertical: vertical.into() }
+        let (horizontal, vertical) = (horizontal.into(), vertical.into());
+        Self { x, horizontal, vertical, ..Self::default() }
     }
 
     /// A point of a rigid flat base in the plane.
@@ -33,68 +45,49 @@ impl ContactNode {
     /// `dofs`: `[horizontal, vertical, rotation]` at `center`.
     pub fn rigid(x: f64, center: f64, dofs: [usize; 3]) -> Self {
         let [horizontal, vertical, rotation] = dofs;
-        Self {
-            x,
-            horizontal: horizontal.into(),
-            vertical: [(vertical, 1.0), (rotation, x - center)].into(),
-        }
+        let vertical = [(vertical, 1.0), (rotation, x - center)].into();
+        Self { x, horizontal: horizontal.into(), vertical, ..Self::default() }
     }
 
-    /// The two ends of a rigid flat base from `left` to `right`.
+    /// The two ends of a rigid flat base in the plane, from `left` to `right`.
     ///
-    /// `dofs` as for [`ContactNode::rigid`], at the middle.
+    /// `dofs` as for [`BaseNode::rigid`], at the middle.
     pub fn rigid_base(left: f64, right: f64, dofs: [usize; 3]) -> Vec<Self> {
         let center = 0.5 * (left + right);
         vec![Self::rigid(left, center, dofs), Self::rigid(right, center, dofs)]
     }
-}
 
-/// A corner of a face of a base in plan, and its motion.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct FaceNode {
-    /// Coordinate along the surface to the right, m.
-    pub x: f64,
-    /// Coordinate along the surface away from the reader, m.
-    pub y: f64,
-    /// Displacement along x as a weighted sum of degrees of freedom.
-    pub horizontal: DofCombination,
-    /// Displacement along y as a weighted sum of degrees of freedom.
-    pub across: DofCombination,
-    /// Vertical displacement (up) as a weighted sum of degrees of freedom.
-    pub vertical: DofCombination,
-}
-
-impl FaceNode {
-    /// A point `[x, y]` (m) with its own degrees of freedom.
+    /// A node in plan, at `[x, y]` (m), with its own degrees of freedom.
     ///
     /// Displacements along x, along y and up.
-    pub fn free([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
-        Self { x, y, horizontal: along.into(), across: across.into(), vertical: up.into() }
+    pub fn free_in_plan([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
+        let [horizontal, across, vertical] = [along, across, up].map(DofCombination::from);
+        Self { x, y, z: 0.0, horizontal, across, vertical }
     }
 
-    /// A point `[x, y]` (m) of a rigid flat base.
+    /// A point `[x, y]` (m) of a rigid flat base in plan.
     ///
     /// `dofs` at `center`: displacements along x, along y and up, and rotations about the same axes by the
     /// right-hand rule.
-    pub fn rigid([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
+    pub fn rigid_in_plan([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
         let [along, across, up, about_x, about_y, about_z] = dofs;
         let [dx, dy] = [x - center[0], y - center[1]];
         Self {
             x,
             y,
+            z: 0.0,
             horizontal: [(along, 1.0), (about_z, -dy)].into(),
             across: [(across, 1.0), (about_z, dx)].into(),
             vertical: [(up, 1.0), (about_x, dy), (about_y, -dx)].into(),
         }
     }
 
-    /// The face of a rigid flat base.
+    /// The face of a rigid flat base in plan.
     ///
-    /// `corners`: m from `center`. `dofs` as for [`FaceNode::rigid`].
-    pub fn rigid_base(corners: &[[f64; 2]], center: [f64; 2], dofs: [usize; 6]) -> Vec<Self> {
-        let corner = |[x, y]: &[f64; 2]| Self::rigid([center[0] + x, center[1] + y], center, dofs);
+    /// `corners`: m from `center`. `dofs` as for [`BaseNode::rigid_in_plan`].
+    pub fn rigid_face(corners: &[[f64; 2]], center: [f64; 2], dofs: [usize; 6]) -> Vec<Self> {
+        let corner =
+            |[x, y]: &[f64; 2]| Self::rigid_in_plan([center[0] + x, center[1] + y], center, dofs);
         corners.iter().map(corner).collect()
     }
 
@@ -220,8 +213,9 @@ impl FaceNode {
 
     /// Error for a place or weight that is not finite, or a degree of freedom at `bound` or beyond.
     fn check(&self, bound: usize) -> Result<()> {
-        finite("coordinate of a contact node", self.x)?;
-        finite("coordinate of a contact node", self.y)?;
+        for coordinate in [self.x, self.y, self.z] {
+            finite("coordinate of a contact node", coordinate)?;
+        }
         for &(index, weight) in self.rows().into_iter().flatten() {
             finite("weight of a contact node", weight)?;
             in_bounds("degree of freedom of a contact node", index, bound)?;
@@ -230,27 +224,15 @@ impl FaceNode {
     }
 }
 
-impl From<ContactNode> for FaceNode {
-    /// A node of the plane, without displacement along y.
-    fn from(node: ContactNode) -> Self {
-        let ContactNode { x, horizontal, vertical } = node;
-        Self { x, y: 0.0, horizontal, across: DofCombination::default(), vertical }
-    }
-}
-
 /// The points by which a structure touches the ground: the nodes of its line, or the corners of all faces.
-pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<FaceNode> {
+pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<BaseNode> {
     let faces = structure.contact_faces();
-    if faces.is_empty() {
-        structure.contact_nodes().into_iter().map(FaceNode::from).collect()
-    } else {
-        faces.concat()
-    }
+    if faces.is_empty() { structure.contact_nodes() } else { faces.concat() }
 }
 
 /// Error for too few nodes, for places or weights that are not finite, and for degrees of freedom that do not
 /// exist.
-pub(crate) fn check_base_nodes(nodes: &[FaceNode], dofs: usize) -> Result<()> {
+pub(crate) fn check_base_nodes(nodes: &[BaseNode], dofs: usize) -> Result<()> {
     at_least("list of contact nodes", nodes.len(), 2)?;
     nodes.iter().try_for_each(|node| node.check(dofs))
 }
@@ -293,28 +275,29 @@ mod tests {
     #[test]
     fn only_nodes_that_leave_the_flat_divide_a_base() {
         for far in [0.0, 4500.0] {
-            let rigid = |x: f64| FaceNode::from(ContactNode::rigid(far + x, far, [0, 1, 2]));
+            let rigid = |x: f64| BaseNode::rigid(far + x, far, [0, 1, 2]);
             let mut nodes: Vec<_> = [-3.0, -1.0, 0.5, 2.0, 3.0].map(rigid).into();
-            assert!(FaceNode::are_flat(&nodes));
-            assert_eq!(FaceNode::segments(&nodes), 1);
+            assert!(BaseNode::are_flat(&nodes));
+            assert_eq!(BaseNode::segments(&nodes), 1);
             nodes[2].vertical = 7.into();
-            assert!(!FaceNode::are_flat(&nodes));
-            assert_eq!(FaceNode::segments(&nodes), 4);
+            assert!(!BaseNode::are_flat(&nodes));
+            assert_eq!(BaseNode::segments(&nodes), 4);
             let dofs = [0, 1, 2, 3, 4, 5];
-            let corner = |[x, y]: [f64; 2]| FaceNode::rigid([far + x, y - far], [far, -far], dofs);
+            let corner =
+                |[x, y]: [f64; 2]| BaseNode::rigid_in_plan([far + x, y - far], [far, -far], dofs);
             let mut face: Vec<_> =
                 [[0.0, 0.0], [4.0, 1.0], [5.0, 4.0], [1.0, 3.0], [0.0, 0.0]].map(corner).into();
-            assert!(FaceNode::are_flat(&face));
+            assert!(BaseNode::are_flat(&face));
             face[3].vertical = 7.into();
-            assert!(!FaceNode::are_flat(&face));
+            assert!(!BaseNode::are_flat(&face));
         }
         // Nodes on the line through free ends move with the ends; free ends alone are one segment.
-        let [left, right] = [ContactNode::free(0.0, 0, 1), ContactNode::free(4.0, 2, 3)];
-        let mut between = ContactNode::free(1.0, 0, 1);
+        let [left, right] = [BaseNode::free(0.0, 0, 1), BaseNode::free(4.0, 2, 3)];
+        let mut between = BaseNode::free(1.0, 0, 1);
         between.vertical = [(1, 0.75), (3, 0.25)].into();
         between.horizontal = [(0, 0.75), (2, 0.25)].into();
-        let nodes = [left, between, right].map(FaceNode::from);
-        assert_eq!(FaceNode::segments(&nodes), 1);
-        assert_eq!(FaceNode::segments(&nodes[..1]), 1);
+        let nodes = [left, between, right];
+        assert_eq!(BaseNode::segments(&nodes), 1);
+        assert_eq!(BaseNode::segments(&nodes[..1]), 1);
     }
 }

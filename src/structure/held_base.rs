@@ -5,14 +5,14 @@
 //! | N | displacements of the contact nodes |
 //! | γ | stiffness of the springs |
 
-use super::{DofCombination, FaceNode, Triplets};
+use super::{BaseNode, DofCombination, Triplets};
 use crate::error::Result;
 use crate::geometry::{PLANE, SPACE};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 /// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
 pub(crate) struct HeldBase<'a> {
-    nodes: &'a [FaceNode],
+    nodes: &'a [BaseNode],
     pub(crate) spring: f64,
     pub(crate) matrix: Triplets,
 }
@@ -20,9 +20,9 @@ pub(crate) struct HeldBase<'a> {
 impl<'a> HeldBase<'a> {
     pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
 
-    pub(crate) fn new(nodes: &'a [FaceNode], stiffness: &SparseMatrix, spring: f64) -> Self {
+    pub(crate) fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring: f64) -> Self {
         let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
-        for row in nodes.iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty()) {
+        for row in nodes.iter().flat_map(BaseNode::rows).filter(|row| !row.is_empty()) {
             matrix.add_outer(row, spring);
         }
         Self { nodes, spring, matrix }
@@ -45,7 +45,7 @@ impl<'a> HeldBase<'a> {
     /// y.
     pub(crate) fn turns<'b>(
         &self,
-        nodes: impl Iterator<Item = &'b FaceNode> + Clone,
+        nodes: impl Iterator<Item = &'b BaseNode> + Clone,
         [x, y]: [f64; 2],
     ) -> Vec<Vec<f64>> {
         let mut turns = vec![self.forces(nodes.clone().map(|node| (&node.vertical, node.x - x)))];
@@ -62,7 +62,7 @@ impl<'a> HeldBase<'a> {
 
     /// Number of directions in which the nodes move.
     fn directions(&self) -> usize {
-        self.nodes.first().map_or(PLANE, FaceNode::directions)
+        self.nodes.first().map_or(PLANE, BaseNode::directions)
     }
 
     /// Forces of springs with these elongations.

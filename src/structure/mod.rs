@@ -6,9 +6,9 @@ macro_rules! forward_structure {
         forward! {
             $own.$inner;
             fn dofs(&$own) -> usize;
-            fn contact_nodes(&$own) -> Vec<$crate::structure::ContactNode>;
+            fn contact_nodes(&$own) -> Vec<$crate::structure::BaseNode>;
             fn foundation_ends(&$own) -> Vec<usize>;
-            fn contact_faces(&$own) -> Vec<Vec<$crate::structure::FaceNode>>;
+            fn contact_faces(&$own) -> Vec<Vec<$crate::structure::BaseNode>>;
             fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
             fn has_active_damping(&$own) -> bool;
             fn has_active_stiffness(&$own) -> bool;
@@ -21,7 +21,7 @@ macro_rules! forward_structure {
 pub(crate) use forward_structure;
 
 mod base_motion;
-mod contact_node;
+mod base_node;
 mod detached;
 mod dof_combination;
 pub(crate) mod error;
@@ -38,8 +38,8 @@ mod rigid_motions;
 mod section_rows;
 
 pub use crate::linalg::Triplets;
-pub use contact_node::{ContactNode, FaceNode};
-pub(crate) use contact_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
+pub use base_node::BaseNode;
+pub(crate) use base_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
 pub use error::StructureError;
@@ -104,7 +104,7 @@ pub trait Structure: Any + Send {
     /// Points of the base that touch the ground, from left to right.
     ///
     /// Between neighbours the base is straight. A rigid base needs two.
-    fn contact_nodes(&self) -> Vec<ContactNode>;
+    fn contact_nodes(&self) -> Vec<BaseNode>;
 
     /// The last contact node of each foundation, except of the last foundation.
     ///
@@ -122,7 +122,7 @@ pub trait Structure: Any + Send {
     /// its outline. Faces that share a corner, or have a corner on the other's edge, belong to one
     /// foundation; other faces are foundations of their own. Default: none, a line of
     /// [`contact_nodes`](Structure::contact_nodes) in the plane. A structure with faces has no contact nodes.
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         Vec::new()
     }
 

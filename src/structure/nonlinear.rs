@@ -31,7 +31,7 @@ impl std::ops::Add for InternalEnergy {
 /// Newton's method.
 ///
 /// ```
-/// use basemat::structure::{ContactNode, NonlinearForce, RigidBlock, Structure, Triplets};
+/// use basemat::structure::{BaseNode, NonlinearForce, RigidBlock, Structure, Triplets};
 /// use basemat::Result;
 ///
 /// /// A block with a mass on top, on a spring that hardens: 1 MN/m and 10 GN/m³.
@@ -41,7 +41,7 @@ impl std::ops::Add for InternalEnergy {
 ///     fn dofs(&self) -> usize {
 ///         self.0.dofs() + 1
 ///     }
-///     fn contact_nodes(&self) -> Vec<ContactNode> {
+///     fn contact_nodes(&self) -> Vec<BaseNode> {
 ///         self.0.contact_nodes()
 ///     }
 ///     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::linalg::{Partition, SparseMatrix, dot};
-use crate::structure::{FaceNode, HeldBase, stiffest};
+use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// A part counts as at rest if it has less than this fraction of a motion's norm.
 const NOTHING: f64 = 1e-8;
@@ -10,8 +10,8 @@ const NOTHING: f64 = 1e-8;
 const DEPENDENT: f64 = 1e-6;
 
 /// Error for contact nodes with degrees of freedom at `n` or beyond.
-pub(super) fn check_rows(contact: &[FaceNode], n: usize) -> Result<()> {
-    let mut rows = contact.iter().flat_map(FaceNode::rows);
+pub(super) fn check_rows(contact: &[BaseNode], n: usize) -> Result<()> {
+    let mut rows = contact.iter().flat_map(BaseNode::rows);
     rows.try_for_each(|row| row.check("degree of freedom of a contact node", n))
 }
 
@@ -21,13 +21,13 @@ pub(super) fn check_rows(contact: &[FaceNode], n: usize) -> Result<()> {
 /// the motion of the contact nodes, whatever the degrees of freedom mean: K r + γ Nᵀ(N r − t) = 0, where N
 /// gives the nodes' displacements and t their prescribed values.
 pub(super) fn rigid_momenta(
-    contact: &[FaceNode],
+    contact: &[BaseNode],
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
     check_rows(contact, n)?;
-    let mean = |place: fn(&FaceNode) -> f64| {
+    let mean = |place: fn(&BaseNode) -> f64| {
         contact.iter().map(place).sum::<f64>() / contact.len().max(1) as f64
     };
     let center = [mean(|node| node.x), mean(|node| node.y)];

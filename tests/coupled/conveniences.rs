@@ -38,8 +38,8 @@ impl Structure for Ends {
     fn dofs(&self) -> usize {
         2
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        self.0.iter().map(|&x| ContactNode::free(x, 0, 1)).collect()
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        self.0.iter().map(|&x| BaseNode::free(x, 0, 1)).collect()
     }
     fn foundation_ends(&self) -> Vec<usize> {
         self.1.clone()

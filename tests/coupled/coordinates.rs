@@ -7,8 +7,7 @@ use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder,
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
-    ContactNode, DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure,
-    Triplets,
+    BaseNode, DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure, Triplets,
 };
 
 use basemat_problems::needed_from;
@@ -156,9 +155,8 @@ fn modes_know_a_base_that_cannot_lift() {
         fn dofs(&self) -> usize {
             2
         }
-        fn contact_nodes(&self) -> Vec<ContactNode> {
-            let node =
-                |x| ContactNode { x, horizontal: 0.into(), vertical: DofCombination::default() };
+        fn contact_nodes(&self) -> Vec<BaseNode> {
+            let node = |x| BaseNode { x, horizontal: 0.into(), ..BaseNode::default() };
             vec![node(-2.0), node(2.0)]
         }
         fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -31,7 +31,7 @@ use basemat::soil::{
     SoilProfile,
 };
 use basemat::structure::{
-    ContactNode, DofCombination, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Storey,
+    BaseNode, DofCombination, IsolationLevel, ModalDamping, RayleighDamping, RigidBlock, Storey,
 };
 use basemat::{Complex, Simulation, Soil, unobserved};
 use serde::Serialize;
@@ -314,7 +314,7 @@ fn probes_storeys_layers_and_formats_of_files() {
     let (material, formulation) =
         (Material::new(3e10, 0.2, 2400.0).unwrap(), QuadFormulation::Full);
     kept(&Layer { height: 1.0, rows: 2, material, formulation });
-    kept(&ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]));
+    kept(&BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2]));
     kept(&ContactElement::new(-1.0, 1.0));
     kept(&ColumnFormat {
         time_column: 2,

@@ -13,7 +13,7 @@ use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
 use basemat::results::Run;
 use basemat::structure::{
-    Bilinear, ContactNode, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding,
+    BaseNode, Bilinear, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding,
     Storey, Structure, StructureGroup, Triplets, WithSprings,
 };
 
@@ -192,7 +192,7 @@ impl Structure for Pounding {
         self.blocks.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.blocks.contact_nodes()
     }
 

@@ -8,7 +8,7 @@ use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
 use basemat::interface::{Bonded, Cohesive, Coulomb, Mode, PreviousContact, VariableFriction};
 use basemat::structure::{
-    ContactNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
+    BaseNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
 };
 use basemat::{Error, Observer, Result, Simulation};
 
@@ -147,8 +147,8 @@ impl Structure for Frame {
         self.masses.len()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|unknown| self.number[unknown]))
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|unknown| self.number[unknown]))
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
@@ -242,9 +242,9 @@ fn a_base_of_many_nodes_is_accepted() {
         fn dofs(&self) -> usize {
             3
         }
-        fn contact_nodes(&self) -> Vec<ContactNode> {
+        fn contact_nodes(&self) -> Vec<BaseNode> {
             let node = |k: usize| 4.0 * k as f64 / (self.0 - 1) as f64 - 2.0;
-            (0..self.0).map(|k| ContactNode::rigid(node(k), 0.0, [0, 1, 2])).collect()
+            (0..self.0).map(|k| BaseNode::rigid(node(k), 0.0, [0, 1, 2])).collect()
         }
         fn mass(&self, matrix: &mut Triplets) -> Result<()> {
             (0..3).for_each(|i| matrix.add(i, i, 1e4));
@@ -287,8 +287,8 @@ impl Structure for Told {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         (0..4).for_each(|i| matrix.add(i, i, 1e4));

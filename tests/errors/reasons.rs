@@ -10,7 +10,7 @@ use basemat::coupled::StepError;
 use basemat::interface::Bonded;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::{
-    ContactNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup, Triplets,
+    BaseNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup, Triplets,
     WithSprings,
 };
 use basemat::{Error, Result, Simulation};
@@ -56,8 +56,8 @@ impl Structure for Refusing {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

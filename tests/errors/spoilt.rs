@@ -3,7 +3,7 @@
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
-use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{BaseNode, NonlinearForce, Structure, Triplets};
 
 use basemat_problems::block_on_springs::bed;
 
@@ -11,7 +11,7 @@ use basemat_problems::block_on_springs::bed;
 #[derive(Clone)]
 pub(crate) struct Spoilt {
     pub(crate) dofs: usize,
-    pub(crate) nodes: Vec<ContactNode>,
+    pub(crate) nodes: Vec<BaseNode>,
     pub(crate) mass: (usize, usize, f64),
     pub(crate) stiffness: (usize, usize, f64),
     pub(crate) damping: (usize, usize, f64),
@@ -27,7 +27,7 @@ impl Spoilt {
     pub(crate) fn sound() -> Self {
         Self {
             dofs: 3,
-            nodes: ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]),
+            nodes: BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]),
             mass: (0, 0, 0.0),
             stiffness: (0, 0, 0.0),
             damping: (0, 0, 0.0),
@@ -49,7 +49,7 @@ impl Structure for Spoilt {
         self.dofs
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.nodes.clone()
     }
 

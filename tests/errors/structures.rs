@@ -7,7 +7,7 @@ use basemat::coupled::GravityStage;
 use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
-    ContactNode, CraigBampton, DofCombination, ModalDamping, Structure, StructureGroup, Triplets,
+    BaseNode, CraigBampton, ModalDamping, Structure, StructureGroup, Triplets,
 };
 use basemat::{Error, MemoryError, Simulation, Soil};
 
@@ -69,20 +69,20 @@ fn stiffness_that_is_not_symmetric_is_refused() {
 
 #[test]
 fn structures_with_a_bad_base_are_refused() {
-    let with = |nodes: Vec<ContactNode>| Spoilt { nodes, ..Spoilt::sound() }.scene();
-    let error = unbuilt("contact nodes", with(vec![ContactNode::free(0.0, 0, 1)]));
+    let with = |nodes: Vec<BaseNode>| Spoilt { nodes, ..Spoilt::sound() }.scene();
+    let error = unbuilt("contact nodes", with(vec![BaseNode::free(0.0, 0, 1)]));
     assert!(matches!(error, Error::Size { found: 1, needed: 2, .. }));
-    let far = vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(2.0, 0, 9)];
+    let far = vec![BaseNode::free(-2.0, 0, 1), BaseNode::free(2.0, 0, 9)];
     let error = unbuilt("degree of freedom of a contact node", with(far));
     assert!(matches!(error, Error::Index { index: 9, bound: 3, .. }));
     refused("coordinate of a contact node", &NOT_FINITE, |x| {
-        with(vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(x, 0, 1)]).build().map(drop)
+        with(vec![BaseNode::free(-2.0, 0, 1), BaseNode::free(x, 0, 1)]).build().map(drop)
     });
     refused("coordinate of a contact node", &[-2.0, -3.0], |x| {
-        with(vec![ContactNode::free(-2.0, 0, 1), ContactNode::free(x, 0, 1)]).build().map(drop)
+        with(vec![BaseNode::free(-2.0, 0, 1), BaseNode::free(x, 0, 1)]).build().map(drop)
     });
     refused("weight of a contact node", &NOT_FINITE, |x| {
-        let mut nodes = ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2]);
+        let mut nodes = BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]);
         nodes[0].vertical = (1, x).into();
         with(nodes).build().map(drop)
     });
@@ -96,14 +96,8 @@ fn structures_with_a_bad_base_are_refused() {
     assert!(matches!(floating, Error::Singular { order: 3, .. }));
 }
 
-fn empty_base() -> Vec<ContactNode> {
-    [-2.0, 2.0]
-        .map(|x| ContactNode {
-            x,
-            horizontal: DofCombination::default(),
-            vertical: DofCombination::default(),
-        })
-        .into()
+fn empty_base() -> Vec<BaseNode> {
+    [-2.0, 2.0].map(|x| BaseNode { x, ..BaseNode::default() }).into()
 }
 
 #[test]
@@ -146,8 +140,8 @@ impl Structure for Grown {
     fn dofs(&self) -> usize {
         3
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         (0..3).for_each(|i| matrix.add(i, i, 1e4));

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use basemat::Simulation;
 use basemat::interface::Coulomb;
-use basemat::structure::{ContactNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{BaseNode, NonlinearForce, Structure, Triplets};
 
 use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
@@ -36,8 +36,8 @@ impl Structure for Hardening {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use basemat::coupled::Coordinates;
 use basemat::interface::Bonded;
 use basemat::structure::{
-    ContactNode, CraigBampton, DofCombination, FaceNode, MatrixModel, ModalDamping, PlanStorey,
-    RigidBody, StoreyBuilding, Structure, Triplets, WithSprings,
+    BaseNode, CraigBampton, DofCombination, MatrixModel, ModalDamping, PlanStorey, RigidBody,
+    StoreyBuilding, Structure, Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
 
@@ -31,10 +31,10 @@ impl Structure for Mast {
     fn dofs(&self) -> usize {
         8
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         Vec::new()
     }
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.0.contact_faces()
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -7,7 +7,7 @@ use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
-    ContactNode, FaceNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
+    BaseNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
 };
 use basemat::{Error, Result, Simulation};
 
@@ -55,10 +55,10 @@ impl Structure for Both {
     fn dofs(&self) -> usize {
         6
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-2.0, 2.0, [0, 2, 4])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 2, 4])
     }
-    fn contact_faces(&self) -> Vec<Vec<basemat::structure::FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<basemat::structure::BaseNode>> {
         self.0.contact_faces()
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
@@ -238,7 +238,7 @@ fn a_torque_beyond_friction_is_named() {
 fn on_face(corners: &[[f64; 2]], center: [f64; 2]) -> MatrixModel {
     let masses = [2e5, 2e5, 2e5, 1e6, 1e6, 1e6];
     let mass = Triplets::from_entries(6, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
-    let face = FaceNode::rigid_base(corners, center, [0, 1, 2, 3, 4, 5]);
+    let face = BaseNode::rigid_face(corners, center, [0, 1, 2, 3, 4, 5]);
     MatrixModel::in_plan(mass, Triplets::new(6), vec![face]).unwrap()
 }
 

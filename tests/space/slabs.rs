@@ -6,7 +6,7 @@ use basemat::bem::{ElasticGround, Ground};
 use basemat::coupled::CoarseBaseError;
 use basemat::coupled::Warning;
 use basemat::interface::Coulomb;
-use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
+use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
 use basemat::{Error, Result, Simulation, Soil};
 
 /// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
@@ -167,11 +167,12 @@ impl Slab {
         MatrixModel::in_plan(mass, stiffness, faces)
     }
 
-    fn node(&self, node: [usize; 2]) -> FaceNode {
+    fn node(&self, node: [usize; 2]) -> BaseNode {
         let [x, y] = node.map(|k| self.place(k));
-        FaceNode {
+        BaseNode {
             x,
             y,
+            z: 0.0,
             horizontal: [(0, 1.0), (2, -y)].into(),
             across: [(1, 1.0), (2, x)].into(),
             vertical: self.dof(node).into(),

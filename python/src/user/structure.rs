@@ -1,9 +1,7 @@
 //! A structure written in Python.
 
 use basemat::Result;
-use basemat::structure::{
-    ContactNode, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
-};
+use basemat::structure::{BaseNode, InternalEnergy, NonlinearForce, Structure, Triplets};
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
@@ -24,7 +22,7 @@ const OPTIONAL: [&str; 7] =
 pub(crate) struct UserStructure {
     object: UserObject,
     dofs: usize,
-    contact: (Vec<ContactNode>, Vec<Vec<FaceNode>>),
+    contact: (Vec<BaseNode>, Vec<Vec<BaseNode>>),
     ends: Vec<usize>,
     names: Option<DofNames>,
     active_damping: bool,
@@ -121,11 +119,11 @@ impl Structure for UserStructure {
         self.dofs
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.contact.0.clone()
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.contact.1.clone()
     }
 

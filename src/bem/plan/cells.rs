@@ -8,7 +8,7 @@ use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
-use crate::structure::{FaceNode, Structure};
+use crate::structure::{BaseNode, Structure};
 
 /// Overhang of outer cells beyond the outline, as a fraction of their side: see [`Plan`].
 const OVERHANG: f64 = 0.105;
@@ -194,7 +194,7 @@ impl Plan {
     /// As for [`Plan::on_faces`].
     pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
         let bodies = structure.contact_faces();
-        let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
+        let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
         let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
         let numbered = corners.iter().enumerate();
         let faces = numbered.map(|(number, corners)| Face::new(number, corners));
@@ -205,7 +205,7 @@ impl Plan {
         for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
             let own = || (0..mats.len()).filter(|face| mats[*face] == mat);
             let nodes: Vec<_> = own().flat_map(|face| bodies[face].iter().cloned()).collect();
-            if cells > 1 && !FaceNode::are_flat(&nodes) {
+            if cells > 1 && !BaseNode::are_flat(&nodes) {
                 let pieces: f64 = own().map(|face| 0.5 * (corners[face].len() as f64 - 2.0)).sum();
                 let area = own().map(|face| faces[face].area()).sum::<f64>();
                 let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);

@@ -23,7 +23,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
-use crate::structure::{FaceNode, Triplets};
+use crate::structure::{BaseNode, Triplets};
 
 const NAME: &str = "stiffness matrix with its contact elements held";
 /// Smallest ρ at which elements are short enough.
@@ -148,7 +148,7 @@ fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (u
 }
 
 /// Norm of values at the nodes minus their best linear fit; NaN becomes infinite.
-fn bent(nodes: &[FaceNode], values: Vec<f64>) -> f64 {
+fn bent(nodes: &[BaseNode], values: Vec<f64>) -> f64 {
     let count = nodes.len() as f64;
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let columns = [

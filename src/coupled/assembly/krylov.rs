@@ -20,7 +20,7 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::structure::{FaceNode, HeldBase, stiffest};
+use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
@@ -241,7 +241,7 @@ impl<'a> Reduction<'a> {
         let mut rotations = Vec::new();
         for part in self.assembled.influence.parts() {
             let nodes = part.nodes(&self.assembled.base);
-            let mean = |place: fn(&FaceNode) -> f64| {
+            let mean = |place: fn(&BaseNode) -> f64| {
                 nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
             };
             let middle = [mean(|node| node.x), mean(|node| node.y)];

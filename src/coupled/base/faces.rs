@@ -8,7 +8,7 @@ use super::{Base, BasePoint, Outline, check_covered, mean_settlement};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
 use crate::geometry::Patch;
-use crate::structure::FaceNode;
+use crate::structure::BaseNode;
 
 /// Distance of a Gauss point from the middle of an interval, relative to its length: 1/(2√3).
 pub(crate) const GAUSS: f64 = 0.288_675_134_594_812_9;
@@ -17,7 +17,7 @@ const NO_AREA: f64 = 1e-12;
 
 impl Base {
     /// The base of these faces: faces that touch form one mat, and each mat is a foundation.
-    pub(crate) fn on_faces(faces: &[Vec<FaceNode>], patch: &Patch) -> Result<Self> {
+    pub(crate) fn on_faces(faces: &[Vec<BaseNode>], patch: &Patch) -> Result<Self> {
         let mats = mats(faces)?;
         let nodes = mats.concat().concat();
         let corners: Vec<usize> = mats.iter().flatten().map(Vec::len).collect();
@@ -26,7 +26,7 @@ impl Base {
         let mut first = 0;
         for mat in &mats {
             let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let [rise, about_x, twist] = FaceNode::mean_rotations(&nodes[own.clone()]);
+            let [rise, about_x, twist] = BaseNode::mean_rotations(&nodes[own.clone()]);
             // By the right-hand rule a rise to the right is a negative rotation about y.
             let rotations = [-rise, about_x, twist];
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
@@ -49,7 +49,7 @@ impl Base {
         }
         check_covered(&foundations)?;
         let mut points = Vec::new();
-        for own in foundations.iter().filter(|own| !FaceNode::are_flat(&nodes[own.nodes.clone()])) {
+        for own in foundations.iter().filter(|own| !BaseNode::are_flat(&nodes[own.nodes.clone()])) {
             points.extend(surface.points(own, patch));
         }
         Ok(Self::from_weights(nodes, foundations, weights, patch, points))
@@ -79,14 +79,14 @@ fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
 
 /// All faces, divided into triangles and quadrilaterals.
 struct Faces<'a> {
-    nodes: &'a [FaceNode],
+    nodes: &'a [BaseNode],
     /// Corners of each piece, in order.
     pieces: Vec<Vec<usize>>,
 }
 
 impl<'a> Faces<'a> {
     /// `faces`: number of corners of each face; `nodes`: the corners of all faces, one face after the other.
-    fn new(nodes: &'a [FaceNode], faces: &[usize]) -> Result<Self> {
+    fn new(nodes: &'a [BaseNode], faces: &[usize]) -> Result<Self> {
         let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
         for (number, &count) in faces.iter().enumerate() {
             let own: Vec<usize> = (first..first + count).collect();
@@ -193,8 +193,8 @@ impl<'a> Faces<'a> {
 }
 
 /// The faces of each mat, by their corners; faces that touch belong to one mat.
-fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
-    let corners = |face: &Vec<FaceNode>| face.iter().map(FaceNode::place).collect();
+fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
+    let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
     let checked = faces.iter().map(corners).enumerate();
     let checked: Result<Vec<_>> =
         checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
@@ -206,8 +206,8 @@ fn mats(faces: &[Vec<FaceNode>]) -> Result<Vec<Vec<Vec<FaceNode>>>> {
 }
 
 /// The corners of the convex hull of some nodes, counter-clockwise.
-pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a FaceNode>) -> Vec<Point> {
-    let mut sorted: Vec<Point> = nodes.map(FaceNode::place).collect();
+pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> {
+    let mut sorted: Vec<Point> = nodes.map(BaseNode::place).collect();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let mut hull: Vec<Point> = Vec::new();
     // From left to right along the lower side, and back along the upper.
@@ -251,8 +251,11 @@ mod tests {
     use super::*;
     use crate::geometry::ContactElement;
 
-    fn nodes(corners: &[Point]) -> Vec<FaceNode> {
-        corners.iter().map(|&place| FaceNode::rigid(place, [0.0; 2], [0, 1, 2, 3, 4, 5])).collect()
+    fn nodes(corners: &[Point]) -> Vec<BaseNode> {
+        corners
+            .iter()
+            .map(|&place| BaseNode::rigid_in_plan(place, [0.0; 2], [0, 1, 2, 3, 4, 5]))
+            .collect()
     }
 
     /// Mean over a cell of a field given at the corners.

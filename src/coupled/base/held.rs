@@ -12,7 +12,7 @@ use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{SparseMatrix, dot};
 use crate::structure::{
-    FaceNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, stiffest,
+    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
@@ -64,14 +64,14 @@ pub(crate) fn holds(ground: &dyn Ground) -> bool {
 }
 
 /// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all but rigid motions of its nodes.
-fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
-    let Some(directions) = nodes.first().map(FaceNode::directions) else { return };
+fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
+    let Some(directions) = nodes.first().map(BaseNode::directions) else { return };
     // Components of a node: along x, up, along y.
     let components = nodes.len() * directions;
     let mean =
-        |place: fn(&FaceNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
+        |place: fn(&BaseNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
     let [x, y] = [mean(|node| node.x), mean(|node| node.y)];
-    let motion = |of: &dyn Fn(&FaceNode) -> [f64; 3]| -> Vec<f64> {
+    let motion = |of: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
         nodes.iter().flat_map(|node| of(node).into_iter().take(directions)).collect()
     };
     let mut motions = vec![
@@ -102,7 +102,7 @@ fn keep_shape(nodes: &[FaceNode], spring: f64, matrix: &mut Triplets) {
     // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
     let rows: Vec<_> =
         nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
-    let mut dofs: Vec<usize> = nodes.iter().flat_map(FaceNode::dofs).collect();
+    let mut dofs: Vec<usize> = nodes.iter().flat_map(BaseNode::dofs).collect();
     dofs.sort_unstable();
     dofs.dedup();
     let dense = |row: usize| {

@@ -9,7 +9,7 @@ use crate::coupled::base::Base;
 use crate::coupled::base::transformation::Terms;
 use crate::geometry::ContactLayout;
 use crate::linalg::matrix::spread;
-use crate::structure::FaceNode;
+use crate::structure::BaseNode;
 
 /// The influence vectors of all connected parts.
 #[derive(Debug, Clone, Default)]
@@ -116,7 +116,7 @@ impl ConnectedPart {
     }
 
     /// The contact nodes of its foundations.
-    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a FaceNode> {
+    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a BaseNode> {
         base.foundations()
             .filter(|(_, elements)| self.elements.contains(&elements.start))
             .flat_map(|(nodes, _)| nodes)

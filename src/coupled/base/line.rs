@@ -6,13 +6,16 @@ use super::{Base, BasePoint, Outline, check_covered, mean_settlement};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, short};
 use crate::geometry::Patch;
-use crate::structure::{FaceNode, foundation_nodes, from_the_left};
+use crate::structure::{BaseNode, foundation_nodes, from_the_left};
+
+/// Distance from an element's line and ends that counts as rounding, relative to its length.
+const ROUNDING: f64 = 1e-9;
 
 impl Base {
     /// Averages the piecewise straight base over each element.
     ///
     /// A foundation ends at each of `ends`, and at the last node.
-    pub(crate) fn on_line(nodes: Vec<FaceNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
+    pub(crate) fn on_line(nodes: Vec<BaseNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
         check_order(&nodes)?;
         let mut foundations = Vec::with_capacity(ends.len() + 1);
         let mut element = 0;
@@ -39,11 +42,11 @@ impl Base {
             let numbered = |shares: Vec<(usize, f64)>| {
                 shares.into_iter().map(|(k, share)| (range.start + k, share)).collect::<Vec<_>>()
             };
-            let is_flexible = !FaceNode::are_flat(own);
+            let is_flexible = !BaseNode::are_flat(own);
             for e in under.clone() {
-                check_overlap(own, &elements[e])?;
-                weights.push(numbered(mean_weights(own, &elements[e])));
-                let points_of = is_flexible.then(|| gauss_points(own, &elements[e]));
+                let run = Run::new(own, &elements[e])?;
+                weights.push(numbered(run.mean_weights()));
+                let points_of = is_flexible.then(|| run.gauss_points());
                 points.extend(points_of.into_iter().flatten().map(|(area, shares)| BasePoint {
                     element: e,
                     area,
@@ -56,30 +59,15 @@ impl Base {
 }
 
 /// Error for nodes out of order.
-fn check_order(nodes: &[FaceNode]) -> Result<()> {
-    nodes.windows(2).try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
-}
-
-/// Error unless an element is wholly under the foundation with these nodes.
-fn check_overlap(nodes: &[FaceNode], element: &ContactElement) -> Result<()> {
-    let slack = 1e-9 * element.length();
-    let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
-    let [left, right] = element.ends()[0];
-    if first - left <= slack && right - last <= slack {
-        return Ok(());
-    }
-    let [left, right, first, last] = [left, right, first, last].map(short);
-    Err(Error::part(
-        "ground",
-        format!(
-            "its element from {left} to {right} m reaches beyond the structure's base, {first} to {last} m: `under` makes \
-             a ground of the base's width"
-        ),
-    ))
+///
+/// Nodes of one height run from left to right.
+fn check_order(nodes: &[BaseNode]) -> Result<()> {
+    let mut level = nodes.windows(2).filter(|pair| pair[0].z == pair[1].z);
+    level.try_for_each(|pair| from_the_left(pair[0].x, pair[1].x))
 }
 
 /// Rise of the last node over the first, per distance.
-fn chord_rotation(nodes: &[FaceNode]) -> Terms {
+fn chord_rotation(nodes: &[BaseNode]) -> Terms {
     let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
     let mut terms = Terms::new();
     accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
@@ -87,40 +75,75 @@ fn chord_rotation(nodes: &[FaceNode]) -> Terms {
     terms
 }
 
-/// The pieces of `element` between neighbouring nodes: number of the segment, and both ends.
-fn pieces(nodes: &[FaceNode], element: &ContactElement) -> impl Iterator<Item = (usize, [f64; 2])> {
-    let segments = nodes.windows(2).enumerate().map(|(k, pair)| {
-        // The outermost segments also include a part outside them by rounding.
-        let from = if k == 0 { element.left() } else { element.left().max(pair[0].x) };
-        let to =
-            if k + 2 == nodes.len() { element.right() } else { element.right().min(pair[1].x) };
-        (k, [from, to])
-    });
-    segments.filter(|(_, [from, to])| to > from)
+/// The nodes on the line of an element.
+struct Run {
+    /// Number of the first node.
+    first: usize,
+    /// Places of the nodes along the element's tangent, m.
+    places: Vec<f64>,
+    /// Ends of the element, m.
+    ends: [f64; 2],
 }
 
-/// (node, weight) of the mean over `element` of the piecewise linear interpolation.
-fn mean_weights(nodes: &[FaceNode], element: &ContactElement) -> Vec<(usize, f64)> {
-    let mut weights = Vec::new();
-    for (k, [from, to]) in pieces(nodes, element) {
-        let (x0, x1) = (nodes[k].x, nodes[k + 1].x);
-        let middle = (0.5 * (from + to) - x0) / (x1 - x0);
-        let share = (to - from) / element.length();
-        weights.push((k, share * (1.0 - middle)));
-        weights.push((k + 1, share * middle));
+impl Run {
+    /// Nodes on the line of an element; an error unless they reach from end to end.
+    fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
+        let place = |node: &BaseNode| element.components([node.x, node.y, node.z]);
+        let [depth, ..] = element.components(element.center());
+        let slack = ROUNDING * element.length();
+        let is_on = |node: &&BaseNode| (place(node)[0] - depth).abs() <= slack;
+        let first = nodes.iter().position(|node| is_on(&node)).unwrap_or(nodes.len());
+        let on = nodes[first..].iter().take_while(is_on);
+        let run =
+            Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
+        let [left, right] = run.ends;
+        let (start, end) = (run.places.first().copied(), run.places.last().copied());
+        let (start, end) = (start.unwrap_or(f64::NAN), end.unwrap_or(f64::NAN));
+        if start - left <= slack && right - end <= slack {
+            return Ok(run);
+        }
+        let [left, right, start, end] = [left, right, start, end].map(short);
+        Err(Error::part(
+            "ground",
+            format!(
+                "its element from {left} to {right} m reaches beyond the structure's base, {start} to {end} m: `under` \
+                 makes a ground of the base's width"
+            ),
+        ))
     }
-    weights
-}
 
-/// Gauss points on each piece of `element`: length (m) and node weights of each point.
-fn gauss_points(nodes: &[FaceNode], element: &ContactElement) -> Vec<(f64, Vec<(usize, f64)>)> {
-    let points = pieces(nodes, element).flat_map(|(k, [from, to])| {
-        let (x0, x1) = (nodes[k].x, nodes[k + 1].x);
-        [-GAUSS, GAUSS].map(|place| {
-            let x = 0.5 * (from + to) + place * (to - from);
-            let share = (x - x0) / (x1 - x0);
-            (0.5 * (to - from), vec![(k, 1.0 - share), (k + 1, share)])
-        })
-    });
-    points.collect()
+    /// The pieces of the element between neighbouring nodes: places of both nodes, and both ends.
+    fn pieces(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
+        let [left, right] = self.ends;
+        let segments = self.places.windows(2).enumerate().map(move |(k, pair)| {
+            // The outermost segments also include a part outside them by rounding.
+            let from = if k == 0 { left } else { left.max(pair[0]) };
+            let to = if k + 2 == self.places.len() { right } else { right.min(pair[1]) };
+            (self.first + k, [pair[0], pair[1]], [from, to])
+        });
+        segments.filter(|(.., [from, to])| to > from)
+    }
+
+    /// (node, weight) of the mean over the element of the piecewise linear interpolation.
+    fn mean_weights(&self) -> Vec<(usize, f64)> {
+        let length = self.ends[1] - self.ends[0];
+        let weights = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
+            let middle = (0.5 * (from + to) - x0) / (x1 - x0);
+            let share = (to - from) / length;
+            [(k, share * (1.0 - middle)), (k + 1, share * middle)]
+        });
+        weights.collect()
+    }
+
+    /// Gauss points on each piece of the element: length (m) and node weights of each point.
+    fn gauss_points(&self) -> Vec<(f64, Vec<(usize, f64)>)> {
+        let points = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
+            [-GAUSS, GAUSS].map(|place| {
+                let x = 0.5 * (from + to) + place * (to - from);
+                let share = (x - x0) / (x1 - x0);
+                (0.5 * (to - from), vec![(k, 1.0 - share), (k + 1, share)])
+            })
+        });
+        points.collect()
+    }
 }

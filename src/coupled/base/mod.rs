@@ -11,9 +11,9 @@ use std::ops::Range;
 
 use crate::coupled::base::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::error::{Error, Result, at_least};
-use crate::geometry::{ContactLayout, Patch, axis_name, far_ends, span};
+use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends, span};
 use crate::linalg::dot;
-use crate::structure::{DofCombination, FaceNode, Structure, base_nodes, check_base_nodes};
+use crate::structure::{BaseNode, DofCombination, Structure, base_nodes, check_base_nodes};
 
 /// Fraction of a foundation's length that may extend beyond the elements.
 const UNCOVERED: f64 = 0.1;
@@ -29,7 +29,7 @@ pub(crate) struct Base {
     rows: Rows,
     foundations: Vec<Outline>,
     elements: Patch,
-    nodes: Vec<FaceNode>,
+    nodes: Vec<BaseNode>,
     /// Points under flexible foundations, for integrals over elements; empty in stepping coordinates.
     points: Vec<BasePoint>,
 }
@@ -83,7 +83,7 @@ impl Base {
 
     /// A base of these foundations; `weights`: (node, weight) of the mean over each element.
     pub(crate) fn from_weights(
-        nodes: Vec<FaceNode>,
+        nodes: Vec<BaseNode>,
         foundations: Vec<Outline>,
         weights: Vec<Vec<(usize, f64)>>,
         elements: &Patch,
@@ -92,7 +92,8 @@ impl Base {
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for (e, weights) in weights.into_iter().enumerate() {
-            for (component, terms) in components(&nodes, &weights, layout).into_iter().enumerate() {
+            let own = components(&nodes, &weights, &elements[e]);
+            for (component, terms) in own.into_iter().enumerate() {
                 rows[layout.place(component, e)] = terms;
             }
         }
@@ -111,7 +112,7 @@ impl Base {
     pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
-            let mut own = components(&self.nodes, &point.shares, layout);
+            let mut own = components(&self.nodes, &point.shares, &self.elements[point.element]);
             for (component, terms) in own.iter_mut().enumerate() {
                 accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
             }
@@ -145,11 +146,11 @@ impl Base {
 
     /// The degrees of freedom that move a contact node, some more than once.
     pub(crate) fn dofs(&self) -> Vec<usize> {
-        self.nodes.iter().flat_map(FaceNode::dofs).collect()
+        self.nodes.iter().flat_map(BaseNode::dofs).collect()
     }
 
     /// The contact nodes and the elements of each foundation.
-    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[FaceNode], Range<usize>)> + '_ {
+    pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[BaseNode], Range<usize>)> + '_ {
         let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];
         self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
     }
@@ -164,7 +165,7 @@ impl Base {
     /// Too far: more than their longest side there or a tenth of the foundation.
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
         let ground = &self.elements;
-        let reach = |nodes: &[FaceNode], own: Range<usize>, axis: usize| {
+        let reach = |nodes: &[BaseNode], own: Range<usize>, axis: usize| {
             let ends = ground[own].iter().map(|own| own.ends()[axis]);
             let sides = ends.clone().map(|[low, high]| high - low);
             let longest = sides.fold(0.0, |longest: f64, side| side.max(longest));
@@ -274,13 +275,13 @@ impl Base {
     }
 
     /// The contact nodes.
-    pub(crate) fn nodes(&self) -> &[FaceNode] {
+    pub(crate) fn nodes(&self) -> &[BaseNode] {
         &self.nodes
     }
 }
 
 /// Mean displacement of `nodes`, downwards.
-pub(crate) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
+pub(crate) fn mean_settlement(nodes: &[BaseNode]) -> Weights {
     let mut terms = Terms::new();
     for node in nodes {
         accumulate(&mut terms, &node.vertical, -1.0 / nodes.len() as f64);
@@ -288,17 +289,24 @@ pub(crate) fn mean_settlement(nodes: &[FaceNode]) -> Weights {
     Weights::Sparse(terms)
 }
 
-/// Displacement by (node, weight) terms: down, along x, and in plan along y.
-fn components(nodes: &[FaceNode], weights: &[(usize, f64)], layout: ContactLayout) -> Vec<Terms> {
-    let mut components = vec![Terms::new(); layout.components()];
-    for &(node, weight) in weights {
-        let FaceNode { horizontal, vertical, across, .. } = &nodes[node];
-        let terms = [(vertical, -weight), (horizontal, weight), (across, weight)];
-        for (component, (terms, weight)) in components.iter_mut().zip(terms) {
-            accumulate(component, terms, weight);
+/// Displacement by (node, weight) terms along the directions of an element.
+fn components(
+    nodes: &[BaseNode],
+    weights: &[(usize, f64)],
+    element: &ContactElement,
+) -> Vec<Terms> {
+    let component = |direction: &[f64; 3]| {
+        let mut component = Terms::new();
+        for &(node, weight) in weights {
+            let BaseNode { horizontal, across, vertical, .. } = &nodes[node];
+            let rows = direction.iter().zip([horizontal, across, vertical]);
+            for (part, row) in rows.filter(|(part, _)| **part != 0.0) {
+                accumulate(&mut component, row, part * weight);
+            }
         }
-    }
-    components
+        component
+    };
+    element.directions().iter().map(component).collect()
 }
 
 /// Error for a foundation without elements.
@@ -310,18 +318,17 @@ pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bem::ContactElement;
-    use crate::structure::ContactNode;
+    use crate::structure::BaseNode;
 
-    fn base(nodes: Vec<ContactNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
-        let nodes: Vec<_> = nodes.into_iter().map(FaceNode::from).collect();
+    fn base(nodes: Vec<BaseNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
+        let nodes: Vec<_> = nodes.into_iter().collect();
         check_base_nodes(&nodes, dofs)?;
         Base::on_line(nodes, &[], &Patch::new(elements.to_vec())?)
     }
 
     #[test]
     fn matching_meshes_give_halves() {
-        let nodes: Vec<_> = (0..4).map(|k| ContactNode::free(k as f64, 2 * k, 2 * k + 1)).collect();
+        let nodes: Vec<_> = (0..4).map(|k| BaseNode::free(k as f64, 2 * k, 2 * k + 1)).collect();
         let elements: Vec<_> =
             (0..3).map(|k| ContactElement::new(f64::from(k), f64::from(k + 1))).collect();
         let base = base(nodes, &elements, 8).unwrap();
@@ -334,7 +341,7 @@ mod tests {
     fn means_of_a_linear_field_are_exact_on_any_mesh() {
         let xs = [-1.0, -0.3, 0.45, 2.0];
         let nodes: Vec<_> =
-            xs.iter().enumerate().map(|(k, &x)| ContactNode::free(x, 2 * k, 2 * k + 1)).collect();
+            xs.iter().enumerate().map(|(k, &x)| BaseNode::free(x, 2 * k, 2 * k + 1)).collect();
         let ends = [-1.0, -0.8, 0.1, 1.3, 2.0];
         let elements: Vec<_> = ends.windows(2).map(|w| ContactElement::new(w[0], w[1])).collect();
         let base = base(nodes, &elements, 8).unwrap();
@@ -356,10 +363,49 @@ mod tests {
         assert!((left - right).abs() < 1e-13);
     }
 
+    /// A block 4 m wide and 3 m deep, with two elements on each side: rigid motions by hand, along the normals into the
+    /// soil and along the outline.
+    #[test]
+    fn walls_move_along_their_own_directions() {
+        let node = |x: f64, z: f64| BaseNode {
+            x,
+            z,
+            horizontal: [(0, 1.0), (2, -z)].into(),
+            vertical: [(1, 1.0), (2, x)].into(),
+            ..BaseNode::default()
+        };
+        let outline =
+            [[-2.0, 0.0], [-2.0, -1.0], [-2.0, -3.0], [0.0, -3.0], [2.0, -3.0], [2.0, 0.0]];
+        let elements = outline.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1]));
+        let elements: Vec<_> = elements.collect();
+        let corners = [(-2.0, 0.0), (-2.0, -3.0), (2.0, -3.0), (2.0, 0.0)];
+        let base = base(corners.map(|(x, z)| node(x, z)).to_vec(), &elements, 3).unwrap();
+        let mut means = [0.0; 10];
+        base.means(&[0.3, 0.2, 0.1], &mut means);
+        for (e, ends) in outline.windows(2).enumerate() {
+            let [x, z] = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
+            let [right, up] = [0.3 - 0.1 * z, 0.2 + 0.1 * x];
+            let wanted = match e {
+                0 | 1 => [-right, -up],
+                4 => [right, up],
+                _ => [-up, right],
+            };
+            for (component, wanted) in wanted.into_iter().enumerate() {
+                assert!((means[5 * component + e] - wanted).abs() < 1e-15, "{e} {means:?}");
+            }
+        }
+        // Forces: pressures p on the walls push to the left and to the right, on the base up.
+        let mut force = [0.0; 3];
+        base.add_forces(1.0, &[1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0], &mut force);
+        assert!(force.iter().all(|own| own.abs() < 1e-14), "{force:?}");
+        base.add_forces(1.0, &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], &mut force);
+        assert!((force[1] + 4.0).abs() < 1e-14 && force[0].abs() < 1e-14, "{force:?}");
+    }
+
     #[test]
     fn bad_bases_are_errors() {
         let element = [ContactElement::new(0.0, 1.0)];
-        let node = |x| ContactNode::free(x, 0, 1);
+        let node = |x| BaseNode::free(x, 0, 1);
         assert!(base(vec![node(0.0)], &element, 2).is_err());
         assert!(base(vec![node(0.0), node(0.0)], &element, 2).is_err());
         assert!(base(vec![node(0.0), node(f64::NAN)], &element, 2).is_err());

@@ -19,7 +19,7 @@ use crate::geometry::Patch;
 use crate::linalg::matrix::spread;
 use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
-    FaceNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
+    BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
     check_stiffness, stiffest,
 };
 
@@ -150,7 +150,7 @@ impl Assembled {
     /// Largest inertia (kg) against the displacement of a single contact node.
     fn base_inertia(&self) -> f64 {
         let masses = self.mass.diagonal();
-        let rows = self.base.nodes().iter().flat_map(FaceNode::rows).filter(|row| !row.is_empty());
+        let rows = self.base.nodes().iter().flat_map(BaseNode::rows).filter(|row| !row.is_empty());
         let inertia = rows.map(|row| {
             let square: f64 = row.iter().map(|(_, weight)| weight * weight).sum();
             row.iter().map(|&(i, weight)| masses[i] * (weight / square).powi(2)).sum()
@@ -195,7 +195,7 @@ impl Assembled {
             parts.couple(matrix);
         }
         for (nodes, _) in self.base.foundations() {
-            let mut dofs = nodes.iter().flat_map(FaceNode::dofs);
+            let mut dofs = nodes.iter().flat_map(BaseNode::dofs);
             if let Some(first) = dofs.next() {
                 dofs.for_each(|dof| parts.join(first, dof));
             }

@@ -4,7 +4,7 @@ use super::dof_names::describe;
 use super::rigid_links::RigidLinks;
 use crate::error::{Error, Result, at_least, in_bounds, positive, require};
 use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
-use crate::structure::{ContactNode, DofCombination, RayleighDamping, Structure, Triplets};
+use crate::structure::{BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
 ///
@@ -38,7 +38,7 @@ pub struct FemModel {
     pub(super) links: Option<RigidLinks>,
     /// Nodes of the mesh that touch the ground; `contact` has their motion.
     feet: Vec<usize>,
-    contact: Vec<ContactNode>,
+    contact: Vec<BaseNode>,
     /// The last contact node of each foundation except the last foundation.
     ends: Vec<usize>,
     pub(super) mass_kind: MassKind,
@@ -59,7 +59,7 @@ impl FemModel {
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
         at_least("contact nodes", contact.len(), 2)?;
         let numbering = Numbering::new(&mesh);
-        let mut nodes: Vec<ContactNode> = Vec::with_capacity(contact.len());
+        let mut nodes: Vec<BaseNode> = Vec::with_capacity(contact.len());
         let mut height = None;
         for &index in contact {
             let [x, y] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
@@ -75,7 +75,7 @@ impl FemModel {
                     needed: "must have horizontal and vertical degrees of freedom from some element",
                 })
             };
-            nodes.push(ContactNode::free(x, dof(Direction::X)?, dof(Direction::Y)?));
+            nodes.push(BaseNode::free(x, dof(Direction::X)?, dof(Direction::Y)?));
         }
         Ok(Self {
             mesh,
@@ -215,7 +215,7 @@ impl FemModel {
             let row = |direction| linked.row(linked.feet[place], direction);
             let (horizontal, vertical) = (row(Direction::X)?, row(Direction::Y)?);
             let x = linked.contact[place].x;
-            linked.contact[place] = ContactNode { x, horizontal, vertical };
+            linked.contact[place] = BaseNode { x, horizontal, vertical, ..BaseNode::default() };
         }
         match linked.p_delta {
             Some(gravity) => linked.with_p_delta(gravity),
@@ -312,7 +312,7 @@ impl Structure for FemModel {
         self.links.as_ref().map_or(self.numbering.dofs(), RigidLinks::dofs)
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.contact.clone()
     }
 

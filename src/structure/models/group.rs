@@ -6,7 +6,7 @@ use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
 use crate::structure::{
-    ContactNode, DofCombination, FaceNode, InternalEnergy, NonlinearForce, Structure, Triplets,
+    BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
 };
 
 /// A structure of the group and where it stands.
@@ -108,7 +108,7 @@ impl StructureGroup {
             structure: Box::new(structure),
         };
         let others = self.contact_faces();
-        let touches = |face: &Vec<FaceNode>| others.iter().any(|other| !are_apart(face, other));
+        let touches = |face: &Vec<BaseNode>| others.iter().any(|other| !are_apart(face, other));
         if member.faces().iter().any(touches) {
             return refuse("must have a base apart from those before it: these touch or overlap");
         }
@@ -117,7 +117,7 @@ impl StructureGroup {
     }
 
     /// Error for a base in the plane without nodes, or not to the right of all others.
-    fn check_order(&self, nodes: &[ContactNode], shift: f64) -> Result<()> {
+    fn check_order(&self, nodes: &[BaseNode], shift: f64) -> Result<()> {
         let Some(left) = nodes.first() else {
             let quantity = "list of contact nodes";
             return Err(Error::Size { quantity, found: 0, needed: 2 });
@@ -190,7 +190,7 @@ impl Member {
     }
 
     /// Faces of the member in the group.
-    fn faces(&self) -> Vec<Vec<FaceNode>> {
+    fn faces(&self) -> Vec<Vec<BaseNode>> {
         let mut faces = self.structure.contact_faces();
         for node in faces.iter_mut().flatten() {
             node.x += self.shift;
@@ -203,9 +203,9 @@ impl Member {
 /// Whether there is a gap between two convex polygons.
 ///
 /// There is one if in the direction of some edge's normal one polygon ends before the other begins.
-fn are_apart(one: &[FaceNode], other: &[FaceNode]) -> bool {
+fn are_apart(one: &[BaseNode], other: &[BaseNode]) -> bool {
     let [one, other] =
-        [one, other].map(|face| face.iter().map(FaceNode::place).collect::<Vec<_>>());
+        [one, other].map(|face| face.iter().map(BaseNode::place).collect::<Vec<_>>());
     let separates = |edge: Edge| {
         let range = |corners: &[[f64; 2]]| span(corners.iter().map(|p| edge.outward(*p)));
         let ([low, high], [least, most]) = (range(&one), range(&other));
@@ -219,20 +219,19 @@ impl Structure for StructureGroup {
         self.members.last().map_or(0, |last| last.range().end)
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         let mut all = Vec::new();
         for member in &self.members {
             for mut node in member.structure.contact_nodes() {
                 node.x += member.shift;
-                node.horizontal = member.moved(&node.horizontal);
-                node.vertical = member.moved(&node.vertical);
+                node.map_rows(|row| member.moved(row));
                 all.push(node);
             }
         }
         all
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.members.iter().flat_map(Member::faces).collect()
     }
 

@@ -4,7 +4,7 @@ use crate::error::{Result, at_least, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::matrix_checks::{check_damping, check_mass};
 use crate::structure::{
-    ContactNode, FaceNode, RayleighDamping, Structure, Triplets, base_nodes, check_base_nodes,
+    BaseNode, RayleighDamping, Structure, Triplets, base_nodes, check_base_nodes,
 };
 
 const DAMPING: &str = "damping matrix";
@@ -24,14 +24,14 @@ const DAMPING: &str = "damping matrix";
 /// excepted (see [`Structure::stiffness`]). This is checked when a simulation is built.
 ///
 /// ```
-/// use basemat::structure::{ContactNode, MatrixModel, Structure, Triplets};
+/// use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
 ///
 /// // A rigid base [u_x, u_y, θ] with a mass on a spring, 5 m up.
 /// let masses = [2.0e4, 3.0e4, 6.0e4, 1.0e4];
 /// let mass = Triplets::from_entries(4, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
 /// let mut stiffness = Triplets::new(4);
 /// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
-/// let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+/// let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
 /// let model = MatrixModel::new(mass, stiffness, contact)?;
 /// assert_eq!(model.dofs(), 4);
 /// # Ok::<(), basemat::Error>(())
@@ -41,8 +41,8 @@ pub struct MatrixModel {
     mass: Triplets,
     damping: Triplets,
     stiffness: Triplets,
-    contact: Vec<ContactNode>,
-    faces: Vec<Vec<FaceNode>>,
+    contact: Vec<BaseNode>,
+    faces: Vec<Vec<BaseNode>>,
     /// Whether the damping may feed energy in; it is then not checked.
     active: bool,
     /// Whether the stiffness may be unsymmetric.
@@ -60,7 +60,7 @@ impl MatrixModel {
     /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a
     /// mass matrix that is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for a negative mass
     /// beyond rounding.
-    pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<ContactNode>) -> Result<Self> {
+    pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<BaseNode>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let faces = Vec::new();
         Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
@@ -72,11 +72,11 @@ impl MatrixModel {
     /// It touches the ground with `faces`, see [`Structure::contact_faces`]. Forces act on the whole body, N.
     ///
     /// ```
-    /// use basemat::structure::{FaceNode, MatrixModel, Structure, Triplets};
+    /// use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
     ///
     /// // A slab of one square element: u_x, u_y and u_z of its four nodes.
     /// let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
-    /// let node = |k: usize| FaceNode::free(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
+    /// let node = |k: usize| BaseNode::free_in_plan(corners[k], [3 * k, 3 * k + 1, 3 * k + 2]);
     /// let mass = Triplets::from_entries(12, (0..12).map(|k| (k, k, 20.0e3)));
     /// let mut stiffness = Triplets::new(12);
     /// // Stiffness against twisting of the corners out of their plane; the slab has no other stiffness.
@@ -89,7 +89,7 @@ impl MatrixModel {
     /// # Errors
     /// As for [`MatrixModel::new`], for the faces' corners. Whether faces are flat, convex and apart is checked
     /// when a simulation is built.
-    pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<FaceNode>>) -> Result<Self> {
+    pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<BaseNode>>) -> Result<Self> {
         let damping = Triplets::new(mass.order());
         let contact = Vec::new();
         Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
@@ -172,11 +172,11 @@ impl Structure for MatrixModel {
         self.mass.order()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.contact.clone()
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.faces.clone()
     }
 

@@ -1,7 +1,7 @@
 //! The rigid block on its flat base.
 
 use crate::error::{Result, finite, not_negative, positive};
-use crate::structure::{ContactNode, DofCombination, Structure, Triplets};
+use crate::structure::{BaseNode, DofCombination, Structure, Triplets};
 
 /// Rigid body on a flat base, with three degrees of freedom `[u_x, u_y, θ]`.
 ///
@@ -118,9 +118,9 @@ impl Structure for RigidBlock {
         3
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
-        ContactNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
+        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::{Result, at_least, finite, not_negative, positive, require};
-use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets};
+use crate::structure::{BaseNode, DofCombination, Structure, Triplets};
 
 /// Number of corners of the polygon that replaces a circular base; it has the same area.
 const CORNERS: usize = 32;
@@ -196,12 +196,12 @@ impl Structure for RigidBody {
         6
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         Vec::new()
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
-        vec![FaceNode::rigid_base(&self.outline, self.center, [0, 1, 2, 3, 4, 5])]
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
+        vec![BaseNode::rigid_face(&self.outline, self.center, [0, 1, 2, 3, 4, 5])]
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

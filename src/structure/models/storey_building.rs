@@ -6,7 +6,7 @@ use crate::error::{
 };
 use crate::structure::hysteresis::{Hysteresis, Springs};
 use crate::structure::{
-    ContactNode, DofCombination, FaceNode, NonlinearForce, SectionRows, Structure, Triplets,
+    BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
 };
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
@@ -298,11 +298,11 @@ impl Structure for StoreyBuilding {
         self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         Vec::new()
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.mat.contact_faces()
     }
 

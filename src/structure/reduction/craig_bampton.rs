@@ -18,7 +18,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers, restricted};
 use crate::structure::matrix_checks::{MASSLESS, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{ContactNode, DofCombination, FaceNode, Structure, Triplets, base_nodes};
+use crate::structure::{BaseNode, DofCombination, Structure, Triplets, base_nodes};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
@@ -56,8 +56,8 @@ pub struct CraigBampton {
 /// [`recovery`](ReducedModel::recovery) computes the degrees of freedom of the full model.
 pub struct ReducedModel {
     basis: Arc<Basis>,
-    contact: Vec<ContactNode>,
-    faces: Vec<Vec<FaceNode>>,
+    contact: Vec<BaseNode>,
+    faces: Vec<Vec<BaseNode>>,
     foundation_ends: Vec<usize>,
     /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
@@ -128,20 +128,15 @@ impl CraigBampton {
         let basis = Basis::new(parts.kept.clone(), rows, n);
         let order = basis.order();
         let kept = parts.kept.len();
-        let contact = structure.contact_nodes().into_iter();
-        let contact = contact.map(|ContactNode { x, horizontal, vertical }| {
-            let [horizontal, vertical] = [horizontal, vertical].map(|row| parts.renumbered(&row));
-            ContactNode { x, horizontal, vertical }
-        });
-        let mut faces = structure.contact_faces();
-        for node in faces.iter_mut().flatten() {
+        let (mut contact, mut faces) = (structure.contact_nodes(), structure.contact_faces());
+        for node in contact.iter_mut().chain(faces.iter_mut().flatten()) {
             node.map_rows(|row| parts.renumbered(row));
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
             damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
-            contact: contact.collect(),
+            contact,
             faces,
             frequencies: squares.iter().map(|square| square.sqrt()).collect(),
             foundation_ends: structure.foundation_ends(),
@@ -171,8 +166,8 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(n: usize, contact: &[FaceNode], more: &[usize]) -> Result<Self> {
-        let of_contact = contact.iter().flat_map(FaceNode::rows).flatten();
+    fn new(n: usize, contact: &[BaseNode], more: &[usize]) -> Result<Self> {
+        let of_contact = contact.iter().flat_map(BaseNode::rows).flatten();
         let mut is_kept = vec![false; n];
         for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
             is_kept[in_bounds("degree of freedom to be kept", index, n)?] = true;
@@ -314,7 +309,7 @@ impl Structure for ReducedModel {
         self.basis.order()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.contact.clone()
     }
 
@@ -322,7 +317,7 @@ impl Structure for ReducedModel {
         self.foundation_ends.clone()
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.faces.clone()
     }
 

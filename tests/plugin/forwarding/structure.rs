@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use basemat::structure::{
-    ContactNode, CraigBampton, FaceNode, InternalEnergy, ModalDamping, NonlinearForce, Structure,
+    BaseNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
     StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result};
@@ -33,9 +33,9 @@ impl Structure for Double {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.log.asked("contact_nodes");
-        [0.0, 1.0, 2.0, 3.0].map(|x| ContactNode::free(x, 0, 1)).to_vec()
+        [0.0, 1.0, 2.0, 3.0].map(|x| BaseNode::free(x, 0, 1)).to_vec()
     }
 
     fn foundation_ends(&self) -> Vec<usize> {
@@ -43,7 +43,7 @@ impl Structure for Double {
         vec![1]
     }
 
-    fn contact_faces(&self) -> Vec<Vec<FaceNode>> {
+    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
         self.log.asked("contact_faces");
         Vec::new()
     }

@@ -155,7 +155,7 @@ impl Structure for Rider {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+    fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
         self.block.contact_nodes()
     }
 

@@ -7,7 +7,7 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    ContactNode, DofCombination, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+    BaseNode, DofCombination, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -17,7 +17,7 @@ pub const TIME_STEP: f64 = 0.01;
 pub struct Tower {
     pub mass: Triplets,
     pub stiffness: Triplets,
-    pub contact: Vec<ContactNode>,
+    pub contact: Vec<BaseNode>,
     /// The sway of its top.
     pub top: DofCombination,
 }
@@ -37,11 +37,7 @@ impl Tower {
 }
 
 /// The structure of these matrices, 3 % of critical damping at 0.5 and 5 Hz.
-pub fn damped(
-    mass: Triplets,
-    stiffness: Triplets,
-    contact: Vec<ContactNode>,
-) -> Result<MatrixModel> {
+pub fn damped(mass: Triplets, stiffness: Triplets, contact: Vec<BaseNode>) -> Result<MatrixModel> {
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
     Ok(MatrixModel::new(mass, stiffness, contact)?.with_rayleigh(damping))
 }

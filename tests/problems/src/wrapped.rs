@@ -13,7 +13,7 @@ macro_rules! needed_from {
             self.$field.dofs()
         }
 
-        fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+        fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
             self.$field.contact_nodes()
         }
 

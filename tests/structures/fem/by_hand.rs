@@ -2,7 +2,7 @@
 //! SCENE: five storeys of springs and masses.
 //! REFERENCE: `ShearBuilding`.
 
-use basemat::structure::{ContactNode, ShearBuilding, Storey, Structure, Triplets};
+use basemat::structure::{BaseNode, ShearBuilding, Storey, Structure, Triplets};
 use basemat_problems::dense::{mass, stiffness};
 
 /// Five storeys on a rigid base: `[u_x, u_y, θ]` and the floors.
@@ -17,8 +17,8 @@ impl Structure for FiveStoreys {
         8
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        ContactNode::rigid_base(-5.0, 5.0, [0, 1, 2])
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        BaseNode::rigid_base(-5.0, 5.0, [0, 1, 2])
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -9,8 +9,8 @@ use basemat::interface::Bonded;
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::StructureError;
 use basemat::structure::{
-    Bilinear, ContactNode, CraigBampton, DofCombination, FemModel, MatrixModel, RigidBlock,
-    Structure, StructureGroup, Triplets, WithSprings,
+    BaseNode, Bilinear, CraigBampton, DofCombination, FemModel, MatrixModel, RigidBlock, Structure,
+    StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
 
@@ -219,7 +219,7 @@ fn appended(
         mass.add(j, i, value);
     }
     stiffness(&mut springs);
-    MatrixModel::new(mass, springs, ContactNode::rigid_base(-2.0, 2.0, [0, 1, 2])).unwrap()
+    MatrixModel::new(mass, springs, BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])).unwrap()
 }
 
 /// GOAL: coordinates relative to the base are held by their own stiffness and coupled by mass: a

@@ -4,7 +4,7 @@
 
 use basemat::Error;
 use basemat::fem::{Beam, Direction, Layer, LumpedMass, MassKind, Material, Mesh};
-use basemat::structure::{ContactNode, DofCombination, FemModel, RigidBlock, Structure};
+use basemat::structure::{BaseNode, DofCombination, FemModel, RigidBlock, Structure};
 use basemat_problems::dense::{
     dot, eigenvalues, form, largest, mass, multiply, part, solve_held, stiffness,
 };
@@ -164,7 +164,7 @@ fn a_block_of_followers_is_a_rigid_block() {
     }
     let feet = linked.contact_nodes();
     assert_eq!(feet.len(), 5);
-    assert_eq!(feet[0], ContactNode::rigid(-2.0, 0.0, [0, 1, 2]));
+    assert_eq!(feet[0], BaseNode::rigid(-2.0, 0.0, [0, 1, 2]));
     assert_eq!(feet[2].vertical, DofCombination::from(1));
     // The section at the base sees the same resultants in either numbering.
     let section = linked.section(0.0, 0.0).unwrap();

@@ -8,7 +8,7 @@ use basemat::fem::{Beam, Direction, Layer, LumpedMass, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    ContactNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+    BaseNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
     Structure, Triplets,
 };
 use basemat::{Error, Simulation};
@@ -222,7 +222,7 @@ impl Structure for Massless {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<basemat::structure::ContactNode> {
+    fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
         self.0.contact_nodes()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
@@ -257,8 +257,8 @@ impl Structure for Astray {
     fn dofs(&self) -> usize {
         2
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
-        vec![ContactNode::free(0.0, 0, 1), ContactNode::free(1.0, usize::MAX, 2)]
+    fn contact_nodes(&self) -> Vec<BaseNode> {
+        vec![BaseNode::free(0.0, 0, 1), BaseNode::free(1.0, usize::MAX, 2)]
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(0, 0, 1.0);

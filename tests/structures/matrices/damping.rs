@@ -4,7 +4,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Direction, Element, MassKind};
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    ContactNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping, RigidBlock,
+    BaseNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping, RigidBlock,
     ShearBuilding, Storey, Structure, StructureGroup, Triplets,
 };
 use basemat::{Error, Result, Simulation, Soil, interface::Bonded};
@@ -18,7 +18,7 @@ fn floor() -> MatrixModel {
     let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
     [2.0e4, 3.0e4, 6.0e4, 1.0e4].into_iter().enumerate().for_each(|(i, m)| mass.add(i, i, m));
     stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
-    MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2])).unwrap()
+    MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2])).unwrap()
 }
 
 fn matrix(entries: &[(usize, usize, f64)]) -> Triplets {

@@ -10,7 +10,7 @@ use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::StructureError;
 use basemat::structure::{
-    Bilinear, ContactNode, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure, Triplets,
+    BaseNode, Bilinear, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure, Triplets,
     WithSprings,
 };
 use basemat::{Error, Simulation, Soil};
@@ -67,7 +67,7 @@ fn bad_matrices_are_refused() {
         (0..n).for_each(|i| matrix.add(i, i, value));
         matrix
     };
-    let contact = || ContactNode::rigid_base(-1.0, 1.0, [0, 1, 2]);
+    let contact = || BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2]);
     let one = || diagonal(3, 1.0);
     assert!(MatrixModel::new(one(), Triplets::new(3), contact()).is_ok());
     let new = MatrixModel::new;
@@ -88,7 +88,7 @@ fn bad_matrices_are_refused() {
     let mut outside = one();
     outside.add(0, 3, 0.5);
     assert!(matches!(new(one(), outside, contact()), Err(Error::Index { .. })));
-    let far = ContactNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
+    let far = BaseNode::rigid_base(f64::NAN, 1.0, [0, 1, 2]);
     assert!(matches!(new(one(), one(), far), Err(Error::Input { .. })));
     let model = new(one(), one(), contact()).unwrap();
     assert!(matches!(model.clone().with_damping(diagonal(2, 1.0)), Err(Error::Size { .. })));
@@ -142,7 +142,7 @@ impl Structure for Light {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.0.contact_nodes()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
@@ -167,7 +167,7 @@ fn negative_masses_are_refused() {
         }
         let mut stiffness = Triplets::new(4);
         stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
-        MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
+        MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
     };
     let negative = of(&[(3, 3, -1000.0)]);
     let named = |row, diagonal| Error::Indefinite { matrix: "mass matrix", row, diagonal };
@@ -198,7 +198,7 @@ fn negative_stiffness_on_a_held_base_is_refused() {
             stiffness.add_outer(row, 1.0e6);
             stiffness.add_outer(sway, -load / 5.0);
         }
-        let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+        let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
         on_soil(MatrixModel::new(mass, stiffness, contact).unwrap()).gravity(0.0).build()
     };
     assert!(mast(0.999 * 5.0e6).is_ok());

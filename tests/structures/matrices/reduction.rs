@@ -7,7 +7,7 @@ use basemat::coupled::{Coordinates, Probe};
 use basemat::fem::Direction;
 use basemat::structure::StructureError;
 use basemat::structure::{
-    Bilinear, ContactNode, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping,
+    BaseNode, Bilinear, CraigBampton, FemModel, MatrixModel, ModalDamping, RayleighDamping,
     Recovery, ReducedModel, Structure, StructureGroup, Triplets, WithSprings,
 };
 
@@ -253,7 +253,7 @@ fn without_mass_or_dofs_there_are_no_modes() {
         let [mut mass, mut stiffness] = [(); 2].map(|()| Triplets::new(4));
         (0..3).for_each(|dof| mass.add(dof, dof, 1e4));
         stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4e6);
-        let contact = ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+        let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
         MatrixModel::new(mass, stiffness, contact).unwrap()
     };
     for modes in [0, 1] {

@@ -3,7 +3,7 @@
 //! REFERENCE: the same structure without the constraint; typed errors.
 
 use basemat::coupled::{Load, Newmark};
-use basemat::structure::{ContactNode, DofCombination, MatrixModel, Triplets};
+use basemat::structure::{BaseNode, DofCombination, MatrixModel, Triplets};
 use basemat::{Error, Result};
 
 use super::model::on_soil;
@@ -18,7 +18,7 @@ fn base_masses(order: usize) -> Triplets {
 }
 
 fn on_base(mass: Triplets, stiffness: Triplets) -> Result<MatrixModel> {
-    MatrixModel::new(mass, stiffness, ContactNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
+    MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))
 }
 
 /// Adds a column of stiffness `stiffness` from the base to the floor `dof`.

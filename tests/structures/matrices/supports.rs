@@ -10,7 +10,7 @@ use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::StructureError;
-use basemat::structure::{ContactNode, CraigBampton, FemModel, MatrixModel, Structure, Triplets};
+use basemat::structure::{BaseNode, CraigBampton, FemModel, MatrixModel, Structure, Triplets};
 use basemat::{Result, Simulation, Soil};
 
 /// The model by its matrices: every entry of K through `change`, and a spring to a fixed point, of a
@@ -158,7 +158,7 @@ fn craig_bampton(unit: f64, interface: [[f64; 2]; 2]) -> MatrixModel {
     for (i, row) in interface.iter().enumerate() {
         row.iter().enumerate().for_each(|(j, value)| stiffness.add(i, j, *value));
     }
-    let contact = ContactNode::rigid_base(-7.0, 7.0, [0, 1, 2]);
+    let contact = BaseNode::rigid_base(-7.0, 7.0, [0, 1, 2]);
     MatrixModel::new(scaled, stiffness, contact).unwrap()
 }
 

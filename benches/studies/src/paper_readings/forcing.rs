@@ -1,7 +1,7 @@
 //! The forcing of eq. 21 as printed: [K]{δᶠ} of the contact nodes beside the soil's part.
 
 use basemat::motion::Record;
-use basemat::structure::{ContactNode, FemModel, Structure, Triplets};
+use basemat::structure::{BaseNode, FemModel, Structure, Triplets};
 
 /// A model on which the free field also acts through the structure's own stiffness.
 pub(crate) struct PrintedForcing {
@@ -34,7 +34,7 @@ impl Structure for PrintedForcing {
         self.model.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.model.contact_nodes()
     }
 

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::STANDARD_GRAVITY;
-use basemat::structure::{ContactNode, RigidBlock, Structure, Triplets};
+use basemat::structure::{BaseNode, RigidBlock, Structure, Triplets};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
@@ -72,7 +72,7 @@ impl Structure for Pushed {
         self.0.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<ContactNode> {
+    fn contact_nodes(&self) -> Vec<BaseNode> {
         self.0.contact_nodes()
     }
 
