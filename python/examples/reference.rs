@@ -75,7 +75,7 @@ fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
 /// Every number as the sixteen digits of its bits: time, scalars, probes, energy balance's input.
 fn write(histories: &TimeSeries) -> Result<()> {
     let mut columns = vec![histories.times().to_vec()];
-    let quantities = Quantity::of(histories.in_plan());
+    let quantities = Quantity::recorded(histories.in_plan());
     columns.extend(quantities.map(|quantity| histories.series(quantity).to_vec()));
     for probe in histories.probes() {
         columns.push(histories.probe(&probe.name)?.to_vec());

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::plan::Unions;
 use super::{Ground, GroundDescription, NOT_PREPARED, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::{ContactElement, ContactLayout, PLANE, check_order};
+use crate::geometry::{ContactElement, PLANE, check_order};
 use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
 /// Ground for any soil that has convolution weights and a static compliance.
@@ -292,9 +292,6 @@ impl Ground for WeightsGround {
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
-        if ContactLayout::for_elements(&self.elements).is_plan() {
-            return Ok(None);
-        }
         let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::parts).collect();
         let mut matrix = vec![0.0; (PLANE * halves.len()).pow(2)];
         self.source.static_compliance(&halves, &mut matrix)?;

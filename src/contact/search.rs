@@ -21,7 +21,7 @@ use super::path::Path;
 use super::problem::{Bond, ContactInput, ContactSolver};
 use super::{ContactSearch, SearchMethod};
 use crate::error::StepError;
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::ContactLayout;
 use crate::interface::Mode;
 
 /// Number of trials after which the active set counts as cycling.
@@ -63,10 +63,10 @@ impl ModeSearch {
         is_linear: bool,
         search: ContactSearch,
     ) -> Self {
-        let is_plan = layout.components() != PLANE;
-        let count = if is_plan { 0 } else { layout.elements() };
+        let cone = layout.is_plan().then(|| Box::new(Cone::new(areas, is_linear)));
+        let count = cone.as_ref().map_or(layout.elements(), |_| 0);
         Self {
-            cone: is_plan.then(|| Box::new(Cone::new(areas, is_linear))),
+            cone,
             search,
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],

@@ -116,9 +116,8 @@ pub fn interaction(
     };
     let on_ground = run(scene()?)?;
     let on_fixed_base = run(scene()?.on_fixed_base())?;
-    let axes: &[usize] = if on_ground.in_plan { &[0, 1] } else { &[0] };
     let mut modes = Vec::new();
-    for &axis in axes {
+    for axis in on_ground.axes() {
         let builder = scene()?;
         let Some(structure) = builder.structure.as_deref() else { continue };
         let Some(fixed) = FixedBaseMode::dominant(structure, axis)? else { continue };

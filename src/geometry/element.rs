@@ -47,16 +47,6 @@ impl ContactElement {
         Self { corners, directions: FLAT, in_plan: true, inside: 1.0 }
     }
 
-    /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
-    #[cfg(test)]
-    pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {
-        let [x, z] = [0, 1].map(|k| to[k] - from[k]);
-        let [x, z] = [x, z].map(|part| part / x.hypot(z));
-        let corners = [[from[0], METRE[0], from[1]], [to[0], METRE[1], to[1]]];
-        let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
-        Self { corners, directions, in_plan: false, inside: 1.0 }
-    }
-
     /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
     ///
     /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
@@ -121,6 +111,13 @@ impl ContactElement {
         self.directions.map(|own| own[0] * vector[0] + own[1] * vector[1] + own[2] * vector[2])
     }
 
+    /// The vector `[x, y, z]` with these components along the normal and both sides.
+    pub(crate) fn vector(&self, components: [f64; 3]) -> [f64; 3] {
+        let [n, t, b] = self.directions;
+        let [along_n, along_t, along_b] = components;
+        [0, 1, 2].map(|k| n[k] * along_n + t[k] * along_t + b[k] * along_b)
+    }
+
     /// Fraction of the area that is inside the outline of the base.
     pub const fn fraction_inside(&self) -> f64 {
         self.inside
@@ -164,9 +161,9 @@ impl ContactElement {
         let ([left, right], [front, back]) = (self.ends()[0], self.depth());
         finite("left end of a contact element", left)?;
         finite("right end of a contact element", right)?;
-        positive("length of a contact element", self.length())?;
         finite("front end of a contact element", front)?;
         finite("back end of a contact element", back)?;
+        positive("length of a contact element", self.length())?;
         positive("depth of a contact element", self.sides()[1])?;
         let quantity = "fraction of an element inside the outline";
         require(
@@ -186,5 +183,17 @@ impl ContactElement {
         let ([low, high], [least, most]) = (self.ends()[axis], other.ends()[axis]);
         let rounding = Self::OVERLAP * self.sides()[axis].min(other.sides()[axis]);
         high.min(most) - low.max(least) > rounding
+    }
+}
+
+#[cfg(test)]
+impl ContactElement {
+    /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
+    pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {
+        let [x, z] = [0, 1].map(|k| to[k] - from[k]);
+        let [x, z] = [x, z].map(|part| part / x.hypot(z));
+        let corners = [[from[0], METRE[0], from[1]], [to[0], METRE[1], to[1]]];
+        let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
+        Self { corners, directions, in_plan: false, inside: 1.0 }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Patch, far_ends, middle, span};
+use super::{ContactElement, Patch, far_ends, middle, span};
 
 /// Ratio of the two components of an edge's normal from which they count as equal.
 const ALIKE: f64 = 1.0 - 1e-9;
@@ -42,7 +42,10 @@ pub(crate) struct Footing {
     /// Centre of the foundation relative to the point of the base moment, m.
     pub(crate) center: [f64; 2],
     /// Middle of each element relative to the foundation's centre, m.
-    pub(crate) arms: Vec<[f64; 2]>,
+    pub(crate) arms: Vec<[f64; 3]>,
+    /// Base moment and rotation over those about y by the right-hand rule: −1 in the plane, where they count
+    /// counter-clockwise, 1 in plan.
+    pub(crate) turn: f64,
     /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the centre.
     pub(crate) edges: [Vec<(Edge, f64)>; 2],
 }
@@ -77,13 +80,14 @@ impl Footing {
                 Edge::all(outline).filter(faces).map(with_reach).collect()
             });
         }
-        let arms = elements.map(|e| {
-            let place = patch[e].center();
-            [0, 1].map(|axis| place[axis] - center[axis])
-        });
-        let arms = arms.collect();
+        let arm = |own: &ContactElement| {
+            let [x, y, z] = own.center();
+            [x - center[0], y - center[1], z]
+        };
+        let arms = patch[elements].iter().map(arm).collect();
+        let turn = if outline.is_empty() { -1.0 } else { 1.0 };
         let center = [0, 1].map(|axis| center[axis] - origin[axis]);
-        Self { ends, center, arms, edges }
+        Self { ends, center, arms, turn, edges }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::{Condition, ContactState, Mode, PreviousContact, Tolerance};
 use crate::error::{Result, finite, not_negative, require};
 
-/// Bounds of the tractions of an element in plan during a step.
+/// Bounds of the tractions of an element during a step.
 ///
 /// See [`InterfaceLaw::limits`](super::InterfaceLaw::limits).
 ///
@@ -14,7 +14,8 @@ use crate::error::{Result, finite, not_negative, require};
 /// | shear traction τ, slip Δs | \|τ\| ≤ R, Δs = 0 or along τ with \|τ\| = R |
 /// | R | `friction` · max(p + `attraction`, 0) + `shear_strength` |
 ///
-/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens.
+/// An element with a tension, an attraction or a shear strength loses them in the step in which it opens. In the plane an
+/// element that slides under more tension than its attraction opens.
 /// Elastic layers are in addition to these limits: see
 /// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance) of the mode stick. The default is
 /// frictionless and hard contact.

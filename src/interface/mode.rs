@@ -89,7 +89,7 @@ impl Mode {
     }
 
     /// The corresponding mode on a ground in plan, where slip has any direction.
-    pub(crate) fn in_plan(self) -> Self {
+    pub(crate) fn in_any_direction(self) -> Self {
         match self {
             Mode::SlipLeft | Mode::SlipRight => Mode::Slip,
             Mode::YieldLeft | Mode::YieldRight => Mode::YieldSlip,

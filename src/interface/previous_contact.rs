@@ -266,8 +266,8 @@ impl PreviousContacts {
         for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
             let along = state.slip - past.state.slip;
             let across = state.slip_across - past.state.slip_across;
-            let in_plan = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
-            past.slip_rate = if in_plan { along.hypot(across) } else { along } / past.time_step;
+            let is_turned = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
+            past.slip_rate = if is_turned { along.hypot(across) } else { along } / past.time_step;
             past.has_opened |= !mode.is_closed();
             (past.state, past.mode) = (*state, *mode);
         }

@@ -94,9 +94,13 @@ fn write(
     Ok(entries.len())
 }
 
+/// A vector in the file's axes; in the plane the second one points up.
+fn shown(in_plan: bool, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    if in_plan { [x, y, z] } else { [x, z, 0.0] }
+}
+
 fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> Result<String> {
-    let turned =
-        |[right, up, away]: [f64; 3]| if in_plan { [right, away, up] } else { [right, up, 0.0] };
+    let turned = |[right, up, away]: [f64; 3]| shown(in_plan, [right, away, up]);
     let vectors = |dofs| -> Result<Vec<[f64; 3]>> {
         Ok(shape.displacements(dofs)?.into_iter().map(turned).collect())
     };
@@ -114,9 +118,8 @@ fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> R
 }
 
 fn base(time_series: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
-    let place = |[x, y, z]: [f64; 3]| if time_series.in_plan() { [x, y, z] } else { [x, z, 0.0] };
     let corners = time_series.elements().iter().flat_map(ContactElement::outline);
-    let points = corners.map(place).collect();
+    let points = corners.map(|place| shown(time_series.in_plan(), place)).collect();
     let numbers = ContactState::NUMBERS.iter().filter(|own| time_series.in_plan() || !own.2);
     let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
     let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();

@@ -2,6 +2,7 @@
 
 use super::{Quantity, TimeSeries};
 use crate::coupled::{EnergyTerm, Probe};
+use crate::geometry::ContactLayout;
 use crate::interface::ContactState;
 use crate::text::column::{column, distinct};
 
@@ -23,15 +24,12 @@ pub(super) const MOTION: [&str; 5] = [
 impl TimeSeries {
     /// Ends of the elements.
     pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
-        let mut ends = vec![
-            ("left_m", self.elements().iter().map(|own| own.left()).collect()),
-            ("right_m", self.elements().iter().map(|own| own.right()).collect()),
-        ];
-        if self.in_plan() {
-            ends.push(("front_m", self.elements().iter().map(|own| own.depth()[0]).collect()));
-            ends.push(("back_m", self.elements().iter().map(|own| own.depth()[1]).collect()));
-        }
-        ends
+        let ends = |axis: usize, end: usize| {
+            let name = [["left_m", "right_m"], ["front_m", "back_m"]][axis][end];
+            (name, self.elements().iter().map(|own| own.ends()[axis][end]).collect())
+        };
+        let axes = ContactLayout::for_elements(self.elements()).axes();
+        axes.flat_map(|axis| [ends(axis, 0), ends(axis, 1)]).collect()
     }
 
     /// Columns of contact frames with a number per element, and their values.

@@ -160,9 +160,8 @@ impl TimeSeries {
             &[count, 2],
             frames().flat_map(|frame| frame.free_field),
         )?;
-        if !self.in_plan() {
-            return Ok(());
-        }
-        archive.add_numbers(across, &[count], frames().map(|frame| frame.free_field_across))
+        let values = frames().map(|frame| frame.free_field_across);
+        let across = self.in_plan().then(|| archive.add_numbers(across, &[count], values));
+        across.unwrap_or(Ok(()))
     }
 }

@@ -141,12 +141,12 @@ impl PyStructure {
         Ok(DofCombination::from(names.number(name)?).into())
     }
 
-    /// Points of the base that touch the ground: list of :class:`BaseNode`, from left to right; none in plan.
+    /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right; none in plan.
     fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
         Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
     }
 
-    /// Faces of the base of a structure in plan: list of lists of :class:`BaseNode`; none in the plane.
+    /// Faces of the base of a structure in plan: list of lists of :class:`FaceNode`; none in the plane.
     fn contact_faces(&self) -> PyResult<Vec<Vec<PyFaceNode>>> {
         let faces = (self.make)().or_raise()?.contact_faces().into_iter();
         Ok(faces.map(|face| face.into_iter().map(PyFaceNode::from).collect()).collect())

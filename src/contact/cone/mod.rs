@@ -93,7 +93,7 @@ impl Cone {
         self.newton.begin_step();
         let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
         for mode in modes.iter_mut() {
-            *mode = mode.in_plan();
+            *mode = mode.in_any_direction();
         }
         let tried = self.repeat(modes);
         if tried {

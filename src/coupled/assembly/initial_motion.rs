@@ -4,7 +4,6 @@ use crate::coupled::parts::SimulationBuilder;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
 use crate::error::{Result, require, require_part};
-use crate::geometry::PLANE;
 use crate::interface::{Mode, PreviousContact, PreviousContacts};
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
@@ -66,11 +65,11 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
     } else {
         let mut starts = Vec::with_capacity(scene.count());
         for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
-            let [down, along] = layout.places(e);
-            contact.gap = -moved[down];
-            contact.slip = moved[along];
-            if layout.is_plan() {
-                contact.slip_across = moved[layout.place(PLANE, e)];
+            let jump = [&mut contact.gap, &mut contact.slip, &mut contact.slip_across];
+            for ((own, sign), component) in
+                jump.into_iter().zip([-1.0, 1.0, 1.0]).zip(0..layout.components())
+            {
+                *own = sign * moved[layout.place(component, e)];
             }
             let quantity = "gap of an element under the initial displacement, m";
             require(quantity, contact.gap, contact.gap >= -closed, "zero or more")?;

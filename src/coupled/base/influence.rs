@@ -155,11 +155,8 @@ impl ConnectedPart {
         displacement: &mut [f64],
     ) {
         for &e in &self.elements {
-            let [down, along, across] = layout.places(e);
-            displacement[down] += up;
-            displacement[along] -= right;
-            if layout.is_plan() {
-                displacement[across] -= away;
+            for (component, moved) in (0..layout.components()).zip([-up, right, away]) {
+                displacement[layout.place(component, e)] -= moved;
             }
         }
     }

@@ -101,8 +101,9 @@ impl Assembled {
     /// factored stiffness with springs at the base; their part in the work of the weight is neglected (an error of
     /// 1 %).
     pub(crate) fn period_on_fixed_base(&self, held: &mut SparseFactor) -> f64 {
-        let directions: &[usize] = if self.base.layout().is_plan() { &[0, 2] } else { &[0] };
-        directions.iter().map(|&k| self.period(k, held)).fold(f64::NAN, f64::max)
+        // Directions to the right, and in plan away.
+        let directions = self.base.layout().axes().map(|axis| 2 * axis);
+        directions.map(|k| self.period(k, held)).fold(f64::NAN, f64::max)
     }
 
     fn period(&self, direction: usize, held: &mut SparseFactor) -> f64 {

@@ -1,5 +1,6 @@
 //! A run in numbers.
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 mod base_view;
@@ -263,8 +264,8 @@ impl Run {
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
         let length = |own: &ElementEnvelope| {
-            let [along, across] = own.element.sides();
-            if self.in_plan { along.min(across) } else { along }
+            let sides = own.element.sides().into_iter().take(own.element.directions().len() - 1);
+            sides.fold(f64::INFINITY, f64::min)
         };
         let lengths: f64 = self.envelope.iter().map(length).sum();
         let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;
@@ -277,8 +278,8 @@ impl Run {
             self.least_algorithmic,
         );
         for (k, (own, settlement)) in self.foundations.iter().zip(&self.settlements).enumerate() {
-            let ([left, right], [front, back]) = (own.ends, own.depth);
-            let width = if self.in_plan { (right - left).min(back - front) } else { right - left };
+            let widths = self.axes().map(|axis| [own.ends, own.depth][axis]);
+            let width = widths.fold(f64::INFINITY, |least, [low, high]| least.min(high - low));
             self.warnings.extend(Warning::of_settlement(k, *settlement, width));
         }
         self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
@@ -302,11 +303,15 @@ impl Run {
         probe_index(&self.probes, name, |probe| &probe.name).map(|k| self.probes[k].extremes)
     }
 
+    /// Axes along the surface: x (0), and in plan y (1).
+    pub(crate) fn axes(&self) -> Range<usize> {
+        0..1 + usize::from(self.in_plan)
+    }
+
     /// Largest base shear (in plan, horizontal force) over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
-        let Summary { static_normal_force, base_shear, horizontal_force, .. } = &self.whole;
-        let shear = if self.in_plan { horizontal_force } else { base_shear };
-        (*static_normal_force > 0.0).then(|| shear.magnitude() / static_normal_force)
+        let Summary { static_normal_force, horizontal_force, .. } = &self.whole;
+        (*static_normal_force > 0.0).then(|| horizontal_force.magnitude() / static_normal_force)
     }
 
     /// Growth of a response in the last step, relative to its value.

@@ -6,7 +6,7 @@ use crate::coupled::run::ground_motion::seconds;
 use crate::coupled::run::peak::Peak;
 use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
-use crate::geometry::{middle, resultant, span};
+use crate::geometry::{axis_name, middle, resultant, span};
 use crate::text::readable_number::{number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
@@ -37,7 +37,7 @@ impl fmt::Display for Run {
             writeln!(f, "{}", self.each_foundation().text())?;
         }
         if let Some(coefficient) = self.shear_coefficient() {
-            let name = if self.in_plan { "horizontal force" } else { "base shear" };
+            let name = ["base shear", "horizontal force"][self.axes().len() - 1];
             writeln!(f, "Largest {name}: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
@@ -95,11 +95,12 @@ impl Run {
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
         let row = |own: &Summary| {
             let ends = |[low, high]: [f64; 2]| format!("{low:.2} to {high:.2}");
-            let place = if self.in_plan {
-                format!("x {}, y {}", ends(own.ends), ends(own.depth))
-            } else {
-                ends(own.ends)
-            };
+            let place = self.axes().map(|axis| {
+                let name = axis_name(self.in_plan, axis);
+                let ends = ends([own.ends, own.depth][axis]);
+                name.map_or_else(|| ends.clone(), |name| format!("{name} {ends}"))
+            });
+            let place = place.collect::<Vec<_>>().join(", ");
             let value = |quantity: &Quantity| match own.peak(*quantity).value {
                 safety if quantity.limit().is_some() => factor(safety),
                 value => number(printed(quantity).0 * value),
@@ -118,20 +119,18 @@ impl Run {
             let peak = self.whole.peak(quantity);
             let (name, least) = (quantity.name(), factor(peak.value));
             write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
-            match quantity {
-                Quantity::OverturningSafety if self.in_plan => {
+            match (quantity, axis_name(self.in_plan, 0)) {
+                (Quantity::OverturningSafety, Some(_)) => {
                     writeln!(f, ", over the edge to the left or the right (x)")?;
                 }
-                Quantity::OverturningSafetyAcross => {
+                (Quantity::OverturningSafetyAcross, _) => {
                     writeln!(f, ", over the front or the back edge (y)")?;
                 }
                 _ => writeln!(f)?,
             }
         }
-        if !self.in_plan {
-            return Ok(());
-        }
-        let [along, across] = [0, 1].map(|axis| self.lever(axis));
+        let levers: Vec<f64> = self.axes().map(|axis| self.lever(axis)).collect();
+        let [along, across] = levers[..] else { return Ok(()) };
         writeln!(
             f,
             "  the outermost cells bear at {along:.2} (x) and {across:.2} (y) of the half width: a base stands on them at \
@@ -191,7 +190,7 @@ impl Run {
             number(1e3 * self.whole.residual_slip),
             number(1e3 * self.whole.largest_slip.highest.value)
         )?;
-        if self.in_plan {
+        for _across in self.axes().skip(1) {
             let (across, end) =
                 (self.whole.mean_slip_across.largest(), self.whole.residual_slip_across);
             let [value, end] = [across.value, end].map(|slip| number(1e3 * slip));
@@ -222,19 +221,14 @@ impl Run {
     }
 
     fn pressures(&self) -> Table {
-        let heading = ["x, m", "static kPa", "least kPa", "largest kPa", "at s", "open s"];
-        let mut heading = heading.map(str::to_owned).to_vec();
-        if self.in_plan {
-            heading.insert(1, "y, m".to_owned());
-        }
+        let places = self.axes().map(|axis| ["x, m", "y, m"][axis]);
+        let numbers = ["static kPa", "least kPa", "largest kPa", "at s", "open s"];
+        let heading: Vec<_> = places.chain(numbers).map(str::to_owned).collect();
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
         let row = |envelope: &ElementEnvelope| {
-            let [x, y, _] = envelope.element.center();
-            let mut cells = vec![thousandths(x)];
-            if self.in_plan {
-                cells.push(thousandths(y));
-            }
+            let center = envelope.element.center();
+            let mut cells: Vec<_> = self.axes().map(|axis| thousandths(center[axis])).collect();
             cells.extend([
                 number(1e-3 * envelope.static_pressure),
                 number(1e-3 * envelope.pressure.lowest.value),
@@ -263,12 +257,11 @@ impl Run {
             self.trials as f64 / steps,
         )?;
         // In plan nearly every step uses sweeps.
-        let shown = if self.in_plan {
-            [(newton, "Newton's method"), (proximal, "proximal steps")]
-        } else {
-            [(gauss_seidel, "Gauss–Seidel"), (path, "path following")]
-        };
-        let shown = shown.into_iter().filter(|(steps, _)| *steps > 0);
+        let shown = [
+            [(gauss_seidel, "Gauss–Seidel"), (path, "path following")],
+            [(newton, "Newton's method"), (proximal, "proximal steps")],
+        ];
+        let shown = shown[self.axes().len() - 1].into_iter().filter(|(steps, _)| *steps > 0);
         for (k, (steps, method)) in shown.enumerate() {
             let begin = if k == 0 { "\nFallbacks of the search for contact modes:" } else { "," };
             write!(f, "{begin} {steps} steps by {method}")?;

@@ -353,10 +353,10 @@ impl Summary {
     /// Records a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
-        let in_plan = state.context.elements.is_plan();
-        self.see_values(&base, if in_plan { WORDS.len() } else { ACROSS }, time);
+        let seen = [ACROSS, WORDS.len()][usize::from(state.context.elements.is_plan())];
+        self.see_values(&base, seen, time);
         let slip = (Quantity::MeanSlip.row().value)(&base);
-        let across = if in_plan { (Quantity::MeanSlipAcross.row().value)(&base) } else { 0.0 };
+        let across = (Quantity::MeanSlipAcross.row().value)(&base);
         let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
         self.uplift.see(uplifted, base.modes(), time - begin);
         let change = [slip - self.residual_slip, across - self.residual_slip_across];

@@ -181,11 +181,13 @@ impl Resolution {
             let ends = |axis: usize| {
                 elements[own.elements.clone()].iter().map(|own| own.ends()[axis]).collect()
             };
-            let along = Axis::new(ends(0), own.base_moment);
-            if !in_plan {
-                return [along, Axis { elements: usize::MAX, ..Axis::default() }];
+            let unlimited = Axis { elements: usize::MAX, ..Axis::default() };
+            let mut axes = [unlimited; 2];
+            for (axis, moment) in elements.layout().axes().zip([own.base_moment, own.moment_across])
+            {
+                axes[axis] = Axis::new(ends(axis), moment);
             }
-            [along, Axis::new(ends(1), own.moment_across)]
+            axes
         });
         let count = |axes: &[Axis; 2]| axes[0].elements.min(axes[1].elements);
         let fewest = foundations.enumerate().min_by_key(|(_, axes)| count(axes));
@@ -300,7 +302,7 @@ impl Resolution {
 
     /// Elements per wavelength: smallest and recommended number.
     fn per_wavelength(&self) -> [f64; 2] {
-        if self.in_plan { CELLS_PER_WAVELENGTH } else { PER_WAVELENGTH }
+        [PER_WAVELENGTH, CELLS_PER_WAVELENGTH][usize::from(self.in_plan)]
     }
 
     /// Wavelength of the base shear if elements are too long for it, m.

@@ -90,6 +90,7 @@ pub(crate) struct Sums {
     pub(crate) area: f64,
     pub(crate) open: f64,
     pub(crate) slip: f64,
+    slip_across: f64,
 }
 
 impl Foundation {
@@ -128,43 +129,41 @@ impl Foundation {
     ) -> Sums {
         let own = self.elements.clone();
         let friction = if friction.len() > 1 { &friction[own.clone()] } else { friction };
-        let (areas, contact) = (&patch.areas()[own.clone()], &contact[own.clone()]);
         let (mut sums, mut resistance, mut largest_slip) = (Sums::default(), 0.0, 0.0_f64);
-        let ([mut normal, mut shear], mut moment) = ([0.0; 2], [0.0; 2]);
-        for (e, (area, state)) in areas.iter().zip(contact).enumerate() {
-            let force = area * state.pressure;
-            let coefficient = friction.get(e).or(friction.first()).copied().unwrap_or(f64::NAN);
+        let ([mut normal, mut shear, mut across, mut torque], mut moment) = ([0.0; 4], [0.0; 2]);
+        for (k, (e, &[x, y, z])) in own.zip(&footing.arms).enumerate() {
+            let (element, area, state) = (&patch[e], patch.areas()[e], &contact[e]);
+            let pressing = area * state.pressure;
+            let coefficient = friction.get(k).or(friction.first()).copied().unwrap_or(f64::NAN);
             // Infinity times zero counts as no resistance.
-            if force != 0.0 && !(coefficient == f64::INFINITY && force < 0.0) {
-                resistance += coefficient * force;
+            if pressing != 0.0 && !(coefficient == f64::INFINITY && pressing < 0.0) {
+                resistance += coefficient * pressing;
             }
+            let [right, away, up] = element.vector(state.traction());
+            let force = area * -up;
             normal += force;
-            shear += area * state.shear;
-            moment[0] += force * footing.arms[e][0];
-            moment[1] += force * footing.arms[e][1];
+            shear += area * right;
+            across += area * away;
+            torque += area * (x * away - y * right);
+            moment[0] += force * x + area * right * z;
+            moment[1] += force * y + area * away * z;
+            let [right, away, _] = element.vector([0.0, state.slip, state.slip_across]);
             sums.area += area;
-            sums.slip += area * state.slip;
+            sums.slip += area * right;
+            sums.slip_across += area * away;
             largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
-            if !modes[own.start + e].is_closed() {
+            if !modes[e].is_closed() {
                 sums.open += area;
             }
         }
-        (self.base_shear, self.normal_force) = (shear, normal);
-        // In the plane counter-clockwise is the right-hand rule about the axis towards the reader; y points away.
         self.in_plan = patch.is_plan();
-        self.base_moment = if self.in_plan { moment[0] } else { -moment[0] };
+        (self.base_shear, self.shear_across, self.normal_force) = (shear, across, normal);
+        // Zero in the plane, without the sign of minus zero.
+        (self.moment_across, self.torque) = (0.0 - moment[1], torque);
+        self.base_moment = footing.turn * moment[0];
         self.uplifted_fraction = sums.open / sums.area;
         self.mean_slip = sums.slip / sums.area;
-        if self.in_plan {
-            let [mut across, mut torque, mut slip] = [0.0; 3];
-            for ((area, state), [x, y]) in areas.iter().zip(contact).zip(&footing.arms) {
-                across += area * state.shear_across;
-                slip += area * state.slip_across;
-                torque += area * (x * state.shear_across - y * state.shear);
-            }
-            (self.shear_across, self.moment_across, self.torque) = (across, -moment[1], torque);
-            self.mean_slip_across = slip / sums.area;
-        }
+        self.mean_slip_across = sums.slip_across / sums.area;
         let demand = resultant(shear, self.shear_across).abs();
         let sliding =
             if friction.is_empty() { f64::NAN } else { ratio(normal, resistance, demand) };

@@ -53,7 +53,7 @@ impl StaticState {
             if known.contains(mode) && !mode.is_closed() {
                 *mode
             } else if is_plan {
-                known[0].in_plan()
+                known[0].in_any_direction()
             } else {
                 known[0]
             }

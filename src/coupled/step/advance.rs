@@ -105,7 +105,7 @@ impl State {
             sums.open += own.open;
             sums.slip += own.slip;
             let lever = foundation.normal_force * footing.center[0];
-            let moment = foundation.base_moment + if foundation.in_plan { lever } else { -lever };
+            let moment = foundation.base_moment + footing.turn * lever;
             let forces = [foundation.base_shear, foundation.normal_force, moment];
             total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
             let own = [

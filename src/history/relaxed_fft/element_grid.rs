@@ -21,7 +21,7 @@ use rustfft::{Fft, FftPlanner};
 use super::plan_spectra::{CHUNK, coefficients_in_plan, smooth};
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::geometry::{Lattice, SERIES, SPACE};
+use crate::geometry::{Lattice, PLANE, SERIES, SPACE};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 
@@ -157,16 +157,18 @@ impl ElementGrid {
 
     /// Number of components of each element.
     pub(super) fn components(&self) -> usize {
-        if self.is_plan() { SPACE } else { 2 }
+        match self.offsets {
+            Offsets::Strip(_) => PLANE,
+            Offsets::Plan(_) => SPACE,
+        }
     }
 
     /// Number of kinds of coefficients.
     pub(super) fn kinds(&self) -> usize {
-        if self.is_plan() { SERIES } else { KINDS }
-    }
-
-    fn is_plan(&self) -> bool {
-        matches!(self.offsets, Offsets::Plan(_))
+        match self.offsets {
+            Offsets::Strip(_) => KINDS,
+            Offsets::Plan(_) => SERIES,
+        }
     }
 
     /// Real numbers held.
