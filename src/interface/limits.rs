@@ -87,7 +87,7 @@ impl Limits {
     /// Conditions of a mode in the plane; `compliance`: of the law's elastic layer, as in
     /// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
     ///
-    /// Not a number for a friction coefficient that is none.
+    /// NaN for a friction coefficient below zero.
     pub(super) fn conditions(
         &self,
         mode: Mode,
