@@ -124,7 +124,7 @@ fn boxed_incident_fields() {
     let log = Log::default();
     let part: Box<dyn IncidentField> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("bem/full_plane/mod.rs"), "IncidentField"));
+    assert_eq!(log.take(), methods(source!("bem/full_plane/incident_field.rs"), "IncidentField"));
 }
 
 #[test]
