@@ -31,7 +31,7 @@ words! { pub(crate) Grading, "grading", {
 /// use basemat::bem::Strip;
 /// let strip = Strip::graded(-5.0..5.0, 10)?;
 /// assert_eq!(strip.elements().len(), 10);
-/// assert_eq!(strip.elements()[9].right, 5.0);
+/// assert_eq!(strip.elements()[9].right(), 5.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

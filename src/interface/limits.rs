@@ -130,7 +130,7 @@ impl Limits {
             [direction, -friction, shear_strength]
         };
         let value = -pressure * attraction + cohesion;
-        Condition { shear, pressure, value, ..Condition::default() }
+        Condition { pressure, shear, value, ..Condition::default() }
     }
 
     /// The mode to try after a `trial` in `mode` in the plane.

@@ -337,7 +337,7 @@ fn records_are_their_samples() {
     kept(&record.response_spectrum(&[0.2, 1.0], 0.05, &mut unobserved).unwrap());
     for (bad, reason) in [
         (json!({"time_step": 0.0, "acceleration": [0.0, 1.0]}), "time step of the record is 0"),
-        (json!({"time_step": 0.1, "acceleration": [0.0]}), "1 samples, at least 2"),
+        (json!({"time_step": 0.1, "acceleration": [0.0]}), "has length 1, but must have 2"),
         (json!({"time_step": 0.1, "acceleration": [0.0, null]}), "invalid type: null"),
         (json!({"time_step": 1e200, "acceleration": [0.0, 1e200]}), "of the record is inf"),
     ] {

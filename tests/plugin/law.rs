@@ -95,19 +95,9 @@ fn modes_follow_from_limits() {
 
 #[test]
 fn laws_without_valid_limits_name_them() {
-    let refused = |law: Box<dyn InterfaceLaw>| {
-        let built = shaken().structure(block()).ground(bed(6)).interface(law).build();
-        let error = built.and_then(|mut simulation| simulation.run(1, |_| {})).err();
-        let error = error.expect("no law without limits");
-        let reasons =
-            std::iter::successors(Some(&error as &dyn std::error::Error), |own| own.source());
-        reasons.map(|own| own.to_string()).collect::<Vec<_>>().join(": ")
-    };
     /// Neither limits nor modes.
     struct Nothing;
     impl InterfaceLaw for Nothing {}
-    let text = refused(Box::new(Nothing));
-    assert!(text.contains("`limits`"), "{text}");
     /// Friction below zero.
     struct Wrong;
     impl InterfaceLaw for Wrong {
@@ -115,6 +105,16 @@ fn laws_without_valid_limits_name_them() {
             Ok(Limits { friction: -0.1, ..Limits::default() })
         }
     }
+    let refused = |law: Box<dyn InterfaceLaw>| {
+        let built = shaken().structure(block()).ground(bed(6)).interface(law).build();
+        let error = built.and_then(|mut simulation| simulation.run(1, |_| {})).err();
+        let error = error.expect("no law without limits");
+        let reasons =
+            std::iter::successors(Some(&error as &dyn std::error::Error), |own| own.source());
+        reasons.map(ToString::to_string).collect::<Vec<_>>().join(": ")
+    };
+    let text = refused(Box::new(Nothing));
+    assert!(text.contains("`limits`"), "{text}");
     let text = refused(Box::new(Wrong));
     assert!(text.contains("friction coefficient"), "{text}");
 }

@@ -169,14 +169,15 @@ impl FullPlaneGround {
     /// [`Ground::prepare`] for the same step then does not assess again.
     ///
     /// ```
-    /// use basemat::{Error, Soil, bem::{Ground, full_plane::FullPlaneGround}, unobserved};
+    /// use basemat::{Error, Soil, bem::{Ground, GroundError, full_plane::FullPlaneGround}, unobserved};
     /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 2000.0)?;
     /// let step = |beta: f64| beta / soil.pressure_wave_speed();
     /// let mut ground = FullPlaneGround::strip(soil, -3.0..3.0, 6, 5)?;
     /// // The step of the paper, β = 1/2.
     /// let found = ground.assess(step(0.5))?.clone();
     /// assert!(found.uplifted.growth_per_step > 0.05 && !found.is_bounded());
-    /// assert!(matches!(ground.prepare(step(0.5), None, &mut unobserved), Err(GroundError::Unstable { .. })));
+    /// let refused = ground.prepare(step(0.5), None, &mut unobserved).unwrap_err();
+    /// assert!(matches!(refused, Error::Ground(GroundError::Unstable { .. })));
     /// let mut ground = ground.allow_growth();
     /// ground.prepare(step(0.5), None, &mut unobserved)?;
     /// assert_eq!(ground.stability(), Some(&found));

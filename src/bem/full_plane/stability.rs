@@ -74,7 +74,7 @@ impl Stability {
     /// use basemat::bem::full_plane::{
     ///     BoundaryCondition, ConvolutionQuadrature, CqMethod, Segment, Stability,
     /// };
-    /// use basemat::{Error, Soil};
+    /// use basemat::{Error, Soil, bem::GroundError};
     ///
     /// let soil = Soil::new(80.0e6, 1.0 / 3.0, 1900.0)?;
     /// let flat: Vec<_> =
@@ -86,7 +86,7 @@ impl Stability {
     ///     Stability::assess(&kernel, &conditions, 1e-3)
     /// };
     /// assert!(assess(2.0)?.require_bounded().is_ok());
-    /// assert!(matches!(assess(0.1)?.require_bounded(), Err(GroundError::Unstable { .. })));
+    /// assert!(matches!(assess(0.1)?.require_bounded(), Err(Error::Ground(GroundError::Unstable { .. }))));
     /// # Ok::<(), Error>(())
     /// ```
     ///

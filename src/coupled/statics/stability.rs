@@ -130,9 +130,8 @@ fn resultants(
             return Some(slides);
         }
         if let Some(across) = across {
-            let distance = |[x, y, _]: [f64; 3]| (x - middles[0]).hypot(y - middles[1]);
-            let arms = all_middles.map(distance).zip(lengths());
-            let resistance = friction * pressure * arms.map(|(arm, area)| arm * area).sum::<f64>();
+            let resistance =
+                friction * pressure * polar_moment(all_middles.zip(lengths()), middles);
             let (torque, ratio) = (moments[2], moments[2].abs() / resistance);
             if ratio > 1.0 {
                 let error =
@@ -152,6 +151,14 @@ fn resultants(
             StabilityError::BearingFailure { ends, across, normal, width, capacity, ratio };
         (ratio > 1.0).then_some(failure)
     })
+}
+
+/// Sum of the areas of elements, each times its distance from `middle`.
+///
+/// `elements`: centre and area of each.
+fn polar_moment(elements: impl Iterator<Item = ([f64; 3], f64)>, middle: [f64; 2]) -> f64 {
+    let arm = |[x, y, _]: [f64; 3]| (x - middle[0]).hypot(y - middle[1]);
+    elements.map(|(center, area)| arm(center) * area).sum()
 }
 
 /// Work of a load on the displacements that these forces cause.

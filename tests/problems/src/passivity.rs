@@ -92,7 +92,7 @@ pub fn least_work(ground: &mut dyn Ground, steps: usize, seed: u64) -> f64 {
     let mut operator = vec![0.0; size * size];
     ground.step_compliance(&mut operator).unwrap();
     let inverse = inverse(&operator, size);
-    let sides = ground.elements().iter().map(|own| own.sides());
+    let sides = ground.elements().iter().map(basemat::bem::ContactElement::sides);
     let areas: Vec<f64> = sides.map(|[along, across]| along * across).collect();
     let mut random = Random(seed);
     let (mut traction, mut history) = (vec![0.0; size], vec![0.0; size]);
