@@ -141,7 +141,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// A law is a rule and stores nothing itself. [`PreviousContact`] holds the end of the previous step. If a
 /// law needs more of the past, it declares state variables per element. The simulation stores them, passes
 /// them in [`PreviousContact::state_variables`] and saves them in checkpoints. A law that returns a number
-/// that is not finite, or a mode that it does not list, causes a [`LawError`](crate::interface::LawError).
+/// that is not finite, or a mode that it does not list, causes a [`LawError`].
 ///
 /// Friction that falls from 0.5 to 0.3 with the distance that an element has slid:
 /// ```

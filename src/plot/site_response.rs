@@ -17,7 +17,7 @@ type Value = fn(&LayerResponse, f64) -> f64;
 /// Depth goes down from y = 0. Spectra are, for example, those at the surface and at the rock.
 ///
 /// # Errors
-/// As for [`spectra`](spectra()).
+/// As for [`spectra`](crate::plot::spectra()).
 pub fn site_response(
     title: &str,
     response: &EquivalentLinear,

@@ -7,7 +7,7 @@
 //! ωₙ = Σ_k A_k Δt^{−2k} [ζⁿ] δ(ζ)^{2k} ln δ(ζ)      once n Δt exceeds the S wave's travel time,
 //! ```
 //!
-//! and with [ζⁿ] (1−ζ)^m ln(1−ζ) = −(−1)^m m!/(n(n−1)…(n−m)) for n > m:
+//! and with \[ζⁿ\] (1−ζ)^m ln(1−ζ) = −(−1)^m m!/(n(n−1)…(n−m)) for n > m:
 //!
 //! * BDF1: δ = 1−ζ;
 //! * BDF2: δ = (1−ζ)(1 + (1−ζ)/2), expanded binomially; the factor ln(1 + (1−ζ)/2) is singular

@@ -71,7 +71,7 @@ impl Slider {
     }
 }
 
-/// Implements [`Hysteresis`](Hysteresis) for a type by its field `slider`.
+/// Implements [`Hysteresis`](super::Hysteresis) for a type by its field `slider`.
 macro_rules! slider_law {
     ($law:ty) => {
         impl crate::structure::Hysteresis for $law {

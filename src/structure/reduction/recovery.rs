@@ -67,7 +67,7 @@ impl Basis {
     }
 }
 
-/// Recovers the full model's degrees of freedom from a [`ReducedModel`](ReducedModel).
+/// Recovers the full model's degrees of freedom from a [`ReducedModel`](crate::structure::ReducedModel).
 #[derive(Debug, Clone)]
 pub struct Recovery {
     basis: Arc<Basis>,
