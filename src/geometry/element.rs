@@ -130,6 +130,7 @@ impl ContactElement {
     }
 
     /// Corners in order, m; in the plane both ends.
+    #[cfg(feature = "io")]
     pub(crate) fn outline(&self) -> impl Iterator<Item = [f64; 3]> {
         // A coordinate changes along the first side, or else along the second.
         let side = |k: usize| usize::from(self.directions[1][k] == 0.0);

@@ -498,12 +498,12 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
         complex_modulus: ComplexModulus::Magnitude,
         ..Default::default()
     };
-    const COMPATIBLE: &str = "strain-compatible damping ratio";
+    let compatible = "strain-compatible damping ratio";
     let half = StrainCurves::Linear { damping: 0.6 };
     let found = column
         .equivalent_linear(&quiet, &[good.clone(), half], &options, &mut unobserved)
         .unwrap_err();
-    assert!(is_input_of(&found, "layer 2", COMPATIBLE, 0.6), "{found}");
+    assert!(is_input_of(&found, "layer 2", compatible, 0.6), "{found}");
     // So much damping that no body has it, and a motion beyond all numbers.
     let damped = StrainCurves::Linear { damping: 0.99 };
     let found = column
@@ -514,7 +514,7 @@ fn bad_sites_are_told_by_layer_quantity_value_and_need() {
             &mut unobserved,
         )
         .unwrap_err();
-    assert!(is_input_of(&found, "layer 1", COMPATIBLE, 0.99), "{found}");
+    assert!(is_input_of(&found, "layer 1", compatible, 0.99), "{found}");
     let shaken = |size: f64| {
         let motion = Record::new(1.0, vec![size, -size, size]).unwrap();
         column.equivalent_linear(

@@ -112,8 +112,16 @@ fn arrays_are_what_was_kept() {
 
     let elements = time_series.elements();
     let count = elements.len();
-    same("element_left_m", &[count], &elements.iter().map(ContactElement::left).collect::<Vec<_>>());
-    same("element_right_m", &[count], &elements.iter().map(ContactElement::right).collect::<Vec<_>>());
+    same(
+        "element_left_m",
+        &[count],
+        &elements.iter().map(ContactElement::left).collect::<Vec<_>>(),
+    );
+    same(
+        "element_right_m",
+        &[count],
+        &elements.iter().map(ContactElement::right).collect::<Vec<_>>(),
+    );
     let frames: Vec<_> = states.iter().step_by(5).collect();
     let shape = [frames.len(), count];
     let contact = |of: fn(&basemat::interface::ContactState) -> f64| -> Vec<f64> {

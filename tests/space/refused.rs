@@ -141,6 +141,13 @@ fn errors_of_stability_name_the_axis_and_the_edge() {
     }
 }
 
+/// Moves the ends of an element to the right and away, m.
+fn stretch(own: &mut ContactElement, [right, front, back]: [f64; 3]) {
+    let [low, high] = own.depth();
+    let along = [own.left(), own.right() + right];
+    *own = ContactElement::in_plan(along, [low + front, high + back]);
+}
+
 #[test]
 fn elements_that_are_no_cells() {
     let wrong = |change: fn(&mut Cells)| {
@@ -155,12 +162,6 @@ fn elements_that_are_no_cells() {
     // One that has no place in plan, unlike the others.
     let error = wrong(|own| own.elements[3] = ContactElement::new(-1.0, 1.0));
     assert!(matches!(error, Error::Scene { quantity: "contact elements of the ground", .. }));
-    /// Moves the ends of an element to the right and away, m.
-    fn stretch(own: &mut ContactElement, [right, front, back]: [f64; 3]) {
-        let [low, high] = own.depth();
-        let along = [own.left(), own.right() + right];
-        *own = ContactElement::in_plan(along, [low + front, high + back]);
-    }
     let flat = |own: &mut Cells| own.elements[3] = ContactElement::in_plan([0.0, 1.0], [1.0, 1.0]);
     assert_eq!(quantity(wrong(flat)), "depth of a contact element");
     for (stretched, blamed) in [

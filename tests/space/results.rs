@@ -1,8 +1,7 @@
 //! Results in plan: quantities of three directions by sums over the cells, in files, on pages, in comparisons.
 
-use basemat::bem::ElasticGround;
-use basemat::bem::SpringGround;
 use basemat::bem::plan::Plan;
+use basemat::bem::{ContactElement, ElasticGround, SpringGround};
 use basemat::coupled::State;
 use basemat::interface::{Coulomb, InterfaceLaw, Mode};
 use basemat::io::paraview;
@@ -65,7 +64,7 @@ fn extreme(values: impl Iterator<Item = f64>) -> f64 {
 fn quantities_are_sums_over_the_cells() {
     let (_, time_series, run, states) = rocking();
     let elements = time_series.elements();
-    let areas: Vec<f64> = elements.iter().map(|own| own.area()).collect();
+    let areas: Vec<f64> = elements.iter().map(ContactElement::area).collect();
     let whole: f64 = areas.iter().sum();
     assert!((whole - SIDES[0] * SIDES[1]).abs() < 1e-9);
     // By hand, of a state: along, across, both, moments, torque, open area, slip, sliding element.

@@ -71,8 +71,8 @@ const ENTRIES: usize = MOTIONS * MOTIONS;
 /// # Errors
 /// [`Error::Input`](crate::Error::Input) for a frequency that is negative or not finite; [`PlanError::CoarseCells`]
 /// for less than six cells in a shear wave of the top layer;
-/// [`GroundError::Unresolved`] without damping at a frequency at which guided
-/// waves begin; [`GroundError::TooFine`] for a top layer too thin relative to the mat;
+/// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) without damping at a frequency at which guided
+/// waves begin; [`GroundError::TooFine`](crate::bem::GroundError::TooFine) for a top layer too thin relative to the mat;
 /// [`Error::Memory`](crate::Error::Memory); [`Error::Stopped`](crate::Error::Stopped) by the observer.
 pub fn impedances_in_plan(
     profile: &SoilProfile,
