@@ -159,7 +159,7 @@ impl ContactElement {
 
     /// Error unless ends are finite, the sides positive, and the fraction inside above 0 and at most 1.
     pub(super) fn check(&self) -> Result<()> {
-        let ([left, right], [front, back]) = (self.ends()[0], self.depth());
+        let [[left, right], [front, back]] = self.ends();
         finite("left end of a contact element", left)?;
         finite("right end of a contact element", right)?;
         finite("front end of a contact element", front)?;

@@ -17,7 +17,6 @@ impl Patch {
     /// Returns an error unless all elements have a size and equally many directions, and none overlap; in the plane
     /// they must also run from left to right.
     pub(crate) fn new(elements: Vec<ContactElement>) -> Result<Self> {
-        at_least("list of contact elements", elements.len(), 1)?;
         let count = |element: &ContactElement| element.directions().len();
         if elements.windows(2).any(|pair| count(&pair[0]) != count(&pair[1])) {
             return Err(Error::Scene {
@@ -25,8 +24,8 @@ impl Patch {
                 needed: "all of them, or none, in plan",
             });
         }
-        match count(&elements[0]) {
-            SPACE => check_cells(&elements)?,
+        match elements.first().map(count) {
+            Some(SPACE) => check_cells(&elements)?,
             _ => check_order(&elements)?,
         }
         let areas = elements.iter().map(ContactElement::area).collect();

@@ -242,8 +242,8 @@ impl<'a> Fields<'a> {
     }
 
     /// Whether a comma of thousands, or an empty field between tabs, may have shifted the following columns.
-    pub(super) fn may_be_shifted(&self, text: &str) -> bool {
-        self.separator == Some(',') || text.contains("\t\t")
+    pub(super) fn may_be_shifted(&self) -> bool {
+        self.separator == Some(',') || self.line.contains("\t\t")
     }
 
     /// Time (s) in a column, counted from 1: seconds or a time of day.

@@ -216,7 +216,7 @@ impl Table {
             // The cells behind the last comma may be empty in all lines.
             let found = if all { filled } else { found };
             let expected = *columns.get_or_insert(found);
-            if found != expected && (all || fields.may_be_shifted(&text)) {
+            if found != expected && (all || fields.may_be_shifted()) {
                 return Err(lines.refuse(unequal_columns(found, expected)));
             }
             table.lines.push(lines.number);

@@ -54,14 +54,15 @@ pub fn animation(
     require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let view = [View::AlongY, View::Slanted][usize::from(time_series.in_plan())];
+    let in_plan = time_series.in_plan();
+    let view = if in_plan { View::Slanted } else { View::AlongY };
     let seen = |frame| Ok(view.all(&places(shape, frame, magnification)?));
     let moved: Vec<Vec<[f64; 2]>> = frames.iter().map(seen).collect::<Result<_>>()?;
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
     let mut out = head(title);
     let screen;
-    if time_series.in_plan() {
+    if in_plan {
         let floor = Floor::new(time_series);
         screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
         out += &floor.draw(time_series, &screen, frames.len(), &duration);

@@ -135,7 +135,7 @@ pub fn deformed_shapes(
     };
     let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
         let name = if *view == View::AlongX { "y, m" } else { "x, m" };
-        let height = ["y, m", "z, m"][usize::from(time_series.in_plan())];
+        let height = if time_series.in_plan() { "z, m" } else { "y, m" };
         let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
         let mut chart = chart(area, &axes.0, &axes.1, false)?;
         let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());

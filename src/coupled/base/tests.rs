@@ -4,7 +4,6 @@ use super::*;
 use crate::structure::BaseNode;
 
 fn base(nodes: Vec<BaseNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
-    let nodes: Vec<_> = nodes.into_iter().collect();
     check_base_nodes(&nodes, dofs)?;
     Base::on_line(nodes, &[], &Patch::new(elements.to_vec())?)
 }

@@ -37,7 +37,7 @@ impl fmt::Display for Run {
             writeln!(f, "{}", self.each_foundation().text())?;
         }
         if let Some(coefficient) = self.shear_coefficient() {
-            let name = ["base shear", "horizontal force"][self.axes().len() - 1];
+            let name = if self.in_plan { "horizontal force" } else { "base shear" };
             writeln!(f, "Largest {name}: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
@@ -119,18 +119,20 @@ impl Run {
             let peak = self.whole.peak(quantity);
             let (name, least) = (quantity.name(), factor(peak.value));
             write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
-            match (quantity, axis_name(self.in_plan, 0)) {
-                (Quantity::OverturningSafety, Some(_)) => {
+            match quantity {
+                Quantity::OverturningSafety if self.in_plan => {
                     writeln!(f, ", over the edge to the left or the right (x)")?;
                 }
-                (Quantity::OverturningSafetyAcross, _) => {
+                Quantity::OverturningSafetyAcross => {
                     writeln!(f, ", over the front or the back edge (y)")?;
                 }
                 _ => writeln!(f)?,
             }
         }
-        let levers: Vec<f64> = self.axes().map(|axis| self.lever(axis)).collect();
-        let [along, across] = levers[..] else { return Ok(()) };
+        if !self.in_plan {
+            return Ok(());
+        }
+        let [along, across] = [0, 1].map(|axis| self.lever(axis));
         writeln!(
             f,
             "  the outermost cells bear at {along:.2} (x) and {across:.2} (y) of the half width: a base stands on them at \
@@ -190,7 +192,7 @@ impl Run {
             number(1e3 * self.whole.residual_slip),
             number(1e3 * self.whole.largest_slip.highest.value)
         )?;
-        for _across in self.axes().skip(1) {
+        if self.in_plan {
             let (across, end) =
                 (self.whole.mean_slip_across.largest(), self.whole.residual_slip_across);
             let [value, end] = [across.value, end].map(|slip| number(1e3 * slip));
@@ -257,11 +259,12 @@ impl Run {
             self.trials as f64 / steps,
         )?;
         // In plan nearly every step uses sweeps.
-        let shown = [
-            [(gauss_seidel, "Gauss–Seidel"), (path, "path following")],
-            [(newton, "Newton's method"), (proximal, "proximal steps")],
-        ];
-        let shown = shown[self.axes().len() - 1].into_iter().filter(|(steps, _)| *steps > 0);
+        let shown = if self.in_plan {
+            [(newton, "Newton's method"), (proximal, "proximal steps")]
+        } else {
+            [(gauss_seidel, "Gauss–Seidel"), (path, "path following")]
+        };
+        let shown = shown.into_iter().filter(|(steps, _)| *steps > 0);
         for (k, (steps, method)) in shown.enumerate() {
             let begin = if k == 0 { "\nFallbacks of the search for contact modes:" } else { "," };
             write!(f, "{begin} {steps} steps by {method}")?;

@@ -353,7 +353,7 @@ impl Summary {
     /// Records a step that began at `begin`; `foundation` as at the start.
     pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
         let (base, time) = (state.base(foundation), state.time);
-        let seen = [ACROSS, WORDS.len()][usize::from(state.context.elements.is_plan())];
+        let seen = if state.context.elements.is_plan() { WORDS.len() } else { ACROSS };
         self.see_values(&base, seen, time);
         let slip = (Quantity::MeanSlip.row().value)(&base);
         let across = (Quantity::MeanSlipAcross.row().value)(&base);

@@ -302,7 +302,7 @@ impl Resolution {
 
     /// Elements per wavelength: smallest and recommended number.
     fn per_wavelength(&self) -> [f64; 2] {
-        [PER_WAVELENGTH, CELLS_PER_WAVELENGTH][usize::from(self.in_plan)]
+        if self.in_plan { CELLS_PER_WAVELENGTH } else { PER_WAVELENGTH }
     }
 
     /// Wavelength of the base shear if elements are too long for it, m.

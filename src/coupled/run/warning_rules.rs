@@ -198,10 +198,11 @@ impl Warning {
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;
         let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
-        let greatest = || laws.map(|law| friction_at_rest(law.as_ref(), true)).fold(0.0, f64::max);
-        let greatest = scene.layout().is_plan().then(greatest);
-        let high = greatest.filter(|friction| *friction >= Self::HIGH_FRICTION);
-        high.map(|friction| Self::HighFriction { friction })
+        if !scene.layout().is_plan() {
+            return None;
+        }
+        let greatest = laws.map(|law| friction_at_rest(law.as_ref(), true)).fold(0.0, f64::max);
+        (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }
 
     /// Warnings of `soils` with unusual numbers.

@@ -130,8 +130,7 @@ fn resultants(
             return Some(slides);
         }
         if let Some(across) = across {
-            let resistance =
-                friction * pressure * polar_moment(all_middles.zip(lengths()), middles);
+            let resistance = friction * pressure * area_moment(all_middles.zip(lengths()), middles);
             let (torque, ratio) = (moments[2], moments[2].abs() / resistance);
             if ratio > 1.0 {
                 let error =
@@ -156,7 +155,7 @@ fn resultants(
 /// Sum of the areas of elements, each times its distance from `middle`.
 ///
 /// `elements`: centre and area of each.
-fn polar_moment(elements: impl Iterator<Item = ([f64; 3], f64)>, middle: [f64; 2]) -> f64 {
+fn area_moment(elements: impl Iterator<Item = ([f64; 3], f64)>, middle: [f64; 2]) -> f64 {
     let arm = |[x, y, _]: [f64; 3]| (x - middle[0]).hypot(y - middle[1]);
     elements.map(|(center, area)| arm(center) * area).sum()
 }
