@@ -13,7 +13,6 @@
 
 mod elastic_ground;
 mod elastic_source;
-pub(crate) mod error;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod influence;
@@ -28,8 +27,8 @@ mod strip;
 mod strip_impedance;
 mod weights_ground;
 
+pub use crate::error::{GroundError, PlanError};
 pub use elastic_ground::ElasticGround;
-pub use error::{GroundError, PlanError};
 pub use influence::InfluenceKernel;
 pub use patch_kernel::PatchKernel;
 pub use shared::SharedKernels;

@@ -4,21 +4,24 @@
 //! complete, and printed with its chain of sources nothing occurs twice. A field called `source` is therefore
 //! written `r#source`, which `thiserror` does not treat as a source.
 
+mod checkpoint;
 mod file;
+mod ground;
+mod law;
 pub(crate) mod memory;
 mod part;
 mod progress;
 mod requirement;
+mod soil;
+mod stability;
+mod step;
+mod structure;
+mod sweep;
 
-pub(crate) use crate::bem::error::{GroundError, PlanError};
-pub(crate) use crate::coupled::error::{
-    CheckpointError, CoarseBaseError, StabilityError, StepError, along,
-};
-pub(crate) use crate::interface::error::LawError;
-pub(crate) use crate::soil::error::SoilError;
-pub(crate) use crate::structure::error::StructureError;
-pub(crate) use crate::sweep::error::{CaseError, SweepError};
+pub use checkpoint::CheckpointError;
 pub use file::{FileError, FileFault};
+pub use ground::{GroundError, PlanError};
+pub use law::LawError;
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress, unobserved};
@@ -26,6 +29,12 @@ pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
     positive, require, require_part, same_length, short,
 };
+pub use soil::SoilError;
+pub(crate) use stability::along;
+pub use stability::{CoarseBaseError, StabilityError};
+pub use step::StepError;
+pub use structure::StructureError;
+pub use sweep::{CaseError, SweepError};
 
 /// Result of every fallible function of the crate.
 pub type Result<T> = std::result::Result<T, Error>;

@@ -7,7 +7,6 @@
 mod cohesive;
 mod condition;
 mod coulomb;
-pub(crate) mod error;
 mod limits;
 mod mode;
 mod previous_contact;
@@ -15,10 +14,10 @@ mod thin_layer;
 mod variable_friction;
 mod yielding;
 
+pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
-pub use error::LawError;
 pub use limits::Limits;
 pub use mode::Mode;
 pub(crate) use previous_contact::state_variable_ends;

@@ -2,13 +2,12 @@
 
 #[cfg(feature = "serde")]
 mod damping_form;
-pub(crate) mod error;
 mod maxwell;
 mod profile;
 mod relaxation;
 mod strain_curves;
 
-pub use error::SoilError;
+pub use crate::error::SoilError;
 pub use maxwell::GeneralizedMaxwell;
 pub(crate) use profile::layer_name;
 pub use profile::{Bedrock, SoilLayer, SoilProfile};

@@ -24,7 +24,6 @@ mod base_motion;
 mod base_node;
 mod detached;
 mod dof_combination;
-pub(crate) mod error;
 mod held_base;
 mod hysteresis;
 mod matrix_checks;
@@ -37,12 +36,12 @@ mod reduction;
 mod rigid_motions;
 mod section_rows;
 
+pub use crate::error::StructureError;
 pub use crate::linalg::Triplets;
 pub use base_node::BaseNode;
 pub(crate) use base_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
-pub use error::StructureError;
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber, SpringResponse, WithSprings,

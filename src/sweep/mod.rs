@@ -34,13 +34,12 @@
 //! [`Sweep::table_in`] stores its rows in a file, from which a restarted process continues. [`Sweep::merge`]
 //! combines the files of all shards. `docs/guide.md` has a complete job array.
 
-pub(crate) mod error;
 mod file;
 mod run;
 mod table;
 mod tables;
 
-pub use error::{CaseError, SweepError};
+pub use crate::error::{CaseError, SweepError};
 pub use run::{Sweep, SweepCase};
 pub use table::{CaseRow, CaseTable};
 
