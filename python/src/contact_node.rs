@@ -24,7 +24,10 @@ impl PyContactNode {
     #[new]
     fn new(x: f64, horizontal: RowLike, vertical: RowLike) -> PyResult<Self> {
         let order = horizontal.1.and(vertical.1)?;
-        Ok(Self(BaseNode { x, horizontal: horizontal.0, vertical: vertical.0, ..BaseNode::default() }, order))
+        Ok(Self(
+            BaseNode { x, horizontal: horizontal.0, vertical: vertical.0, ..BaseNode::default() },
+            order,
+        ))
     }
 
     /// A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
