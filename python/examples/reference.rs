@@ -67,7 +67,7 @@ fn storeys(friction: f64) -> Result<Simulation> {
 
 fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
     let mut histories = Recorder::new().start(simulation)?;
-    histories.reserve(steps);
+    histories.reserve(steps)?;
     let run = simulation.run(steps, |state| histories.record(state))?;
     Ok((run, histories))
 }

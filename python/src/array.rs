@@ -79,11 +79,11 @@ where
 }
 
 /// An array of this shape of `values`, in a memory that numpy allocates: it raises a `MemoryError` if there is too little.
-pub(crate) fn filled<'py, T: Element>(
-    py: Python<'py>,
+pub(crate) fn filled<T: Element>(
+    py: Python<'_>,
     shape: [usize; 2],
     values: impl Iterator<Item = T>,
-) -> PyResult<Bound<'py, PyArray2<T>>> {
+) -> PyResult<Bound<'_, PyArray2<T>>> {
     let numpy = py.import("numpy")?;
     let array = numpy.call_method1("empty", (shape, numpy::dtype::<T>(py)))?;
     let array = array.cast_into::<PyArray2<T>>()?;

@@ -9,7 +9,7 @@ use crate::error::{OrRaise, refuse};
 
 /// All modes, in the order of their numbers in arrays.
 pub(crate) static MODES: LazyLock<Vec<String>> =
-    LazyLock::new(|| Mode::ALL.iter().map(|mode| mode.to_string()).collect());
+    LazyLock::new(|| Mode::ALL.iter().map(ToString::to_string).collect());
 
 pub(crate) fn mode_name(mode: Mode) -> &'static str {
     &MODES[mode as usize]

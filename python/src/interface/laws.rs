@@ -21,8 +21,8 @@ pub(crate) struct PyBonded;
 #[pymethods]
 impl PyBonded {
     #[new]
-    fn new() -> PyResult<PyClassInitializer<Self>> {
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self))
+    fn new() -> PyClassInitializer<Self> {
+        PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
     }
 }
 

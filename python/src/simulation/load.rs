@@ -64,9 +64,9 @@ impl PyLoad {
     /// ``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
     /// between its samples and zero beyond its ends.
     #[staticmethod]
-    fn record(row: RowLike, record: &PyRecord, force: f64) -> PyResult<Self> {
+    fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
         let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
-        Ok(Self::from_recipe(order, move || Ok(Load::record(row.clone(), &record, force))))
+        Self::from_recipe(order, move || Ok(Load::record(row.clone(), &record, force)))
     }
 
     /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of

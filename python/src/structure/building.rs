@@ -203,10 +203,10 @@ impl PyPlanStorey {
         mass_center: [f64; 2],
         stiffness_center: [f64; 2],
         damping: [f64; 3],
-    ) -> PyResult<Self> {
+    ) -> Self {
         let own = PlanStorey::new(height, mass, sides, stiffness);
         let inertia = inertia.unwrap_or(own.inertia);
-        Ok(Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own }))
+        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own })
     }
 }
 

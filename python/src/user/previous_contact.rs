@@ -179,10 +179,10 @@ impl PyLimits {
         pressure_cap: f64,
         gap_offset: f64,
         bonded: bool,
-    ) -> PyResult<Self> {
+    ) -> Self {
         let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
         (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
-        Ok(Self(Limits { bonded, ..own }))
+        Self(Limits { bonded, ..own })
     }
 
     /// Friction coefficient; infinite where nothing slides.
