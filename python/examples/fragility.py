@@ -101,10 +101,10 @@ def shake(
     soil = bm.Soil.from_shear_wave_speed(250.0, 0.33, 1900.0)
     record = motion_of(motion)
     simulation = bm.Simulation(
+        STEP,
         building,
         bm.ElasticGround.under(soil, building, ELEMENTS, kernels=KERNELS),
         bm.Coulomb(friction),
-        STEP,
         motion=record.scaled(peak_velocity_m_per_s / record.peak_velocity),
         probes=[
             bm.Probe.displacement(f"drift {storey}", building.drift(storey))

@@ -47,10 +47,10 @@ def main() -> None:
     print(f"{model.dofs} degrees of freedom")
     for law in (bm.Bonded(), bm.Coulomb(0.5)):
         simulation = bm.Simulation(
+            0.005,
             model,
             bm.ElasticGround.under(soil, model, 10),
             law,
-            0.005,
             motion=bm.el_centro_1940(),
             probes=[bm.Probe.displacement("roof", roof)],
         )

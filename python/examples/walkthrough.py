@@ -37,7 +37,7 @@ probes = [
 def simulation(law: bm.InterfaceLaw, motion: bm.Record = record) -> bm.Simulation:
     """The building with a law between base and soil."""
     ground = bm.ElasticGround.under(soil, building, 16)
-    return bm.Simulation(building, ground, law, 0.005, motion=motion, probes=probes)
+    return bm.Simulation(0.005, building, ground, law, motion=motion, probes=probes)
 
 
 laws = {
@@ -106,10 +106,10 @@ names = ["base_x", "base_y", "base_rotation", *(f"floor_{k}" for k in range(5))]
 matrices = building.mass(), building.stiffness(), building.contact_nodes()
 model = bm.MatrixModel(*matrices, damping=building.damping(), dof_names=names)
 own = bm.Simulation(
+    0.005,
     model,
     bm.ElasticGround.under(soil, model, 16),
     bm.Coulomb(0.25),
-    0.005,
     motion=record,
     probes=[bm.Probe.acceleration(name, model.dof(name)) for name in names[3:]],
 )
@@ -134,7 +134,7 @@ site = bm.SoilProfile(layers, rock)
 surface = bm.SoilColumn(site).to_surface(record.resampled(0.005).padded(2.0, 5.0))
 print(f"peak acceleration: rock {record.peak_acceleration:.2f}, surface {surface.peak_acceleration:.2f} m/s²")
 ground = bm.ElasticGround.under(site, building, 8)
-layered = bm.Simulation(building, ground, bm.Coulomb(0.25), 0.01, motion=surface, probes=probes)
+layered = bm.Simulation(0.01, building, ground, bm.Coulomb(0.25), motion=surface, probes=probes)
 run = layered.run(duration=10.0)
 print(f"layered site: uplift {100.0 * run.uplifted_fraction.value:.0f} %, slip {1e3 * run.residual_slip:.1f} mm")
 
@@ -154,7 +154,7 @@ motion = bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5))
 def in_plan(structure, law, motion=motion, **others) -> bm.Run:
     """A run on the soil, with four cells along the shorter side."""
     ground = bm.ElasticGround.under(soil, structure, 4)
-    return bm.Simulation(structure, ground, law, 0.005, motion=motion, **others).run(duration=10.0, contact_every=5)
+    return bm.Simulation(0.005, structure, ground, law, motion=motion, **others).run(duration=10.0, contact_every=5)
 
 
 run = in_plan(tank, bm.Coulomb(0.4))
@@ -314,7 +314,7 @@ class Degrading:
 
 yielding = bm.ShearBuilding(10.0, 50e3, 4e5, storeys, damping=0.05, laws={0: Degrading()})
 ground = bm.ElasticGround.under(soil, yielding, 16)
-degraded = bm.Simulation(yielding, ground, bm.Coulomb(0.5), 0.005, motion=record, probes=probes)
+degraded = bm.Simulation(0.005, yielding, ground, bm.Coulomb(0.5), motion=record, probes=probes)
 run = degraded.run(duration=10.0)
 [columns] = degraded.hysteresis
 print(f"drift {1e3 * run.probes['lowest drift'].magnitude:.1f} mm, plastic way {1e3 * columns.way:.1f} mm")

@@ -60,7 +60,7 @@ def block(friction: float) -> bm.Simulation:
     body, record = bm.RigidBody.cuboid(8.0, 8.0, 10.0, 400.0), bm.el_centro_1940()
     motion = bm.triaxial(record, record.scaled(0.8), record.scaled(0.5))
     ground = bm.ElasticGround.under(bm.Soil(80e6, 0.25, 1900.0), body, 4)
-    return bm.Simulation(body, ground, bm.Coulomb(friction), 0.01, motion=motion)
+    return bm.Simulation(0.01, body, ground, bm.Coulomb(friction), motion=motion)
 
 
 def storeys(friction: float) -> bm.Simulation:
@@ -71,7 +71,7 @@ def storeys(friction: float) -> bm.Simulation:
     wave = bm.PlaneWave.sh(bm.Soil(80e6, 0.25, 1900.0), 0.5)
     motion = wave.field_from_across(bm.el_centro_1940(), -12.0, azimuth=0.6)
     ground = bm.SpringGround.under(building, 4, 30e6, 20e6, dashpots=(4e5, 3e5))
-    return bm.Simulation(building, ground, bm.Coulomb(friction), 0.01, motion=motion)
+    return bm.Simulation(0.01, building, ground, bm.Coulomb(friction), motion=motion)
 
 
 @pytest.mark.parametrize("scene", [block, storeys])

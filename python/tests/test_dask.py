@@ -113,7 +113,7 @@ class Logged:
 def rocking(steps: int) -> bm.Run:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
     ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
-    simulation = bm.Simulation(block, ground, bm.Coulomb(0.4), 0.01, motion=bm.el_centro_1940())
+    simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940())
     return simulation.run(steps, series=False)
 
 

@@ -172,7 +172,7 @@ WAVE = bm.InclinedWave.sv(PROFILE, 0.1)
 
 def simulation(**options: object) -> bm.Simulation:
     ground = bm.SpringGround.under(BLOCK, 4, 1e8, 5e7)
-    return bm.Simulation(BLOCK, ground, bm.Bonded(), 0.01, **options)  # type: ignore[arg-type]
+    return bm.Simulation(0.01, BLOCK, ground, bm.Bonded(), **options)  # type: ignore[arg-type]
 
 
 def read(word: str) -> object:
@@ -250,7 +250,7 @@ def test_messages_are_pythons() -> None:
     layer = bm.SoilLayer(SOIL, 5.0, damping=bm.DampingLaw.hysteretic(0.05))
     ground = bm.ElasticGround.under(bm.SoilProfile([layer], SOIL), BLOCK, 4)
     with pytest.raises(bm.InputError, match="is not causal") as caught:
-        bm.Simulation(BLOCK, ground, bm.Bonded(), 1e-3).run(10)
+        bm.Simulation(1e-3, BLOCK, ground, bm.Bonded()).run(10)
     assert "::" not in str(caught.value) and "use DampingLaw.constant_q with" in str(caught.value)
 
 

@@ -65,7 +65,7 @@ def simulation(structure: object, soil: bm.Soil) -> bm.Simulation:
     ground = bm.ElasticGround.under(soil, structure, 6)  # type: ignore[arg-type]
     drift = bm.Probe.displacement("drift", building(bm.Bilinear(1e6, 1e6, 0.0)).drift(0))
     motion = bm.el_centro_1940()
-    return bm.Simulation(structure, ground, bm.Coulomb(0.4), 0.005, motion=motion, probes=[drift])  # type: ignore[arg-type]
+    return bm.Simulation(0.005, structure, ground, bm.Coulomb(0.4), motion=motion, probes=[drift])  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("own", [Slider, Whole])
@@ -163,10 +163,10 @@ def test_an_oscillator_follows_its_differential_equation(place: str) -> None:
     record = bm.el_centro_1940()
     probe = bm.Probe.displacement("drift", {0: -1.0, 3: 1.0})
     made = bm.Simulation(
+        step,
         structure,  # type: ignore[arg-type]
         ground,
         bm.Bonded(),
-        step,
         motion=record,
         initial=bm.InitialConditions(gravity=0.0),
         probes=[probe],
@@ -251,7 +251,7 @@ def test_energy_that_a_spring_does_not_tell(soil: bm.Soil) -> None:
     def shares(law: object) -> tuple[float, float, float]:
         building = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 20e6)] * 2, laws={0: law})
         ground = bm.ElasticGround.under(soil, building, 8)
-        run = bm.Simulation(building, ground, bm.Coulomb(0.6), 0.002, motion=bm.el_centro_1940()).run(duration=6.0)
+        run = bm.Simulation(0.002, building, ground, bm.Coulomb(0.6), motion=bm.el_centro_1940()).run(duration=6.0)
         assert run.energy_error < 1e-9
         return run.energy_balance.hysteresis, run.energy_balance.strain, run.energy_balance.input
 

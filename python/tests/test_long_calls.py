@@ -23,7 +23,7 @@ BLOCK = bm.RigidBlock(10.0, 8.0, 1500.0)
 def simulation(time_step: float = 0.01, elements: int = 4, **keywords: object) -> bm.Simulation:
     ground = bm.ElasticGround.under(PROFILE, BLOCK, elements)
     motion = bm.el_centro_1940()
-    return bm.Simulation(BLOCK, ground, bm.Coulomb(0.4), time_step, motion=motion, **keywords)  # type: ignore[arg-type]
+    return bm.Simulation(time_step, BLOCK, ground, bm.Coulomb(0.4), motion=motion, **keywords)  # type: ignore[arg-type]
 
 
 def test_a_line_for_coefficients_and_one_for_steps(capsys: pytest.CaptureFixture[str]) -> None:

@@ -59,7 +59,7 @@ for k in range(free):
     springs[np.ix_([0, 3 + k], [0, 3 + k])] += 1e6 * np.array([[1.0, -1.0], [-1.0, 1.0]])
 model = bm.MatrixModel(np.diag(masses), springs, bm.ContactNode.rigid_base(-3.0, 3.0, [0, 1, 2]))
 ground = bm.SpringGround.under(model, 4, 1e8, 1e8)
-simulation = bm.Simulation(model, ground, bm.Bonded(), 0.01, motion=bm.el_centro_1940())
+simulation = bm.Simulation(0.01, model, ground, bm.Bonded(), motion=bm.el_centro_1940())
 simulation.run(2)
 taken = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (taken + 40_000_000, resource.RLIM_INFINITY))

@@ -84,7 +84,7 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil
     ground = bm.ElasticGround.under(soil, BUILDING, 4)
 
     def simulation(**parts: object) -> bm.Simulation:
-        return bm.Simulation(BUILDING, ground, bm.Bonded(), 0.01, **parts)
+        return bm.Simulation(0.01, BUILDING, ground, bm.Bonded(), **parts)
 
     three, eight = np.array([1.0, 0.0, 0.0]), np.eye(8)[7]
     simulation(probes=[bm.Probe.displacement("roof", eight)], loads=[bm.Load.constant(eight, 1.0)])

@@ -74,7 +74,7 @@ def simulation(model: opensees.OpenSeesModel, **excitation: object) -> bm.Simula
     strip = bm.Strip(-0.5 * WIDTH, 0.5 * WIDTH, ELEMENTS, grading="uniform")
     ground = bm.SpringGround(strip, NORMAL, TANGENTIAL, dashpots=DASHPOTS)
     probe = bm.Probe.displacement("top", model.row(4))
-    return bm.Simulation(model, ground, bm.Bonded(), STEP, probes=[probe], **excitation)
+    return bm.Simulation(STEP, model, ground, bm.Bonded(), probes=[probe], **excitation)
 
 
 def test_a_frame_moves_as_in_opensees() -> None:
@@ -130,7 +130,7 @@ def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
     assert not model.damping().any()
     soil = bm.Soil.from_shear_wave_speed(250.0, 0.33, 1900.0)
     ground = bm.ElasticGround.under(soil, model, 6)
-    run = bm.Simulation(model, ground, bm.Coulomb(0.4), 0.002, motion=bm.el_centro_1940()).run(200)
+    run = bm.Simulation(0.002, model, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940()).run(200)
     assert run.energy_error < 1e-9
     with pytest.raises(bm.InputError, match="no node 8"):
         model.row(8)

@@ -22,7 +22,7 @@ def bouncing(ground: bm.Ground | None = None, **options: object) -> bm.Simulatio
     """A bonded block on springs; a probe reads its vertical displacement."""
     ground = bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS) if ground is None else ground
     options.setdefault("probes", [bm.Probe.displacement("up", UP)])
-    return bm.Simulation(BLOCK, ground, bm.Bonded(), 1e-4, **options)
+    return bm.Simulation(1e-4, BLOCK, ground, bm.Bonded(), **options)
 
 
 def test_initial_velocity_and_dashpots() -> None:
@@ -46,10 +46,10 @@ def test_initial_displacement_unloaded_and_gravity() -> None:
     expected = -settlement * (1.0 - np.cos(OMEGA * fallen.time))
     np.testing.assert_allclose(fallen["up"], expected, rtol=0.0, atol=5e-3 * settlement)
     lifted = bm.Simulation(
+        1e-3,
         BLOCK,
         bm.SpringGround.under(BLOCK, 4, STIFFNESS, STIFFNESS),
         bm.Coulomb(0.5),
-        1e-3,
         initial=bm.InitialConditions(gravity=10.0, gravity_stage="unloaded", displacement=[0.0, 0.02, 0.0]),
         probes=[bm.Probe.displacement("up", UP)],
     ).run(60)
@@ -92,10 +92,10 @@ def test_schemes_differ_as_they_should() -> None:
         "hht": bm.TimeScheme.hht_alpha(-0.2),
     }.items():
         simulation = bm.Simulation(
+            5e-3,
             building,
             stiff,
             bm.Bonded(),
-            5e-3,
             solver=bm.SolverOptions(scheme=scheme),
             initial=bm.InitialConditions(velocity=start),
         )
@@ -143,7 +143,7 @@ def test_coordinates_change_rounding_only(soil: bm.Soil) -> None:
 
     def run(**options: object) -> bm.Run:
         law, motion = bm.Coulomb(0.4), bm.el_centro_1940()
-        return bm.Simulation(building, ground, law, 0.005, motion=motion, **options).run(400)
+        return bm.Simulation(0.005, building, ground, law, motion=motion, **options).run(400)
 
     dofs, modes = (run(solver=bm.SolverOptions(coordinates=own)) for own in ("physical", "modes"))
     scale = dofs.base_shear.magnitude
@@ -270,7 +270,7 @@ def test_a_fixed_base_and_the_system_on_its_ground(soil: bm.Soil) -> None:
     storeys = [bm.Storey(3.0, 20.0e3, 40.0e6)] * 5
     building = bm.ShearBuilding(10.0, 50.0e3, 4.0e5, storeys, damping=0.05)
     ground = bm.ElasticGround.under(soil, building, 8)
-    parts = (building, ground, bm.Coulomb(0.5), 0.01)
+    parts = (0.01, building, ground, bm.Coulomb(0.5))
     given = {"motion": bm.el_centro_1940(), "probes": [bm.Probe.displacement("drift", building.drift(0))]}
     simulation = bm.Simulation(*parts, **given)
     found = simulation.interaction(4.0)
@@ -329,7 +329,7 @@ def test_all_modes_of_the_crate_have_a_number(rocking) -> None:
 
 
 def test_options_are_in_groups(soil, block) -> None:
-    parts = (block, bm.ElasticGround.under(soil, block, 4), bm.Bonded(), 0.01)
+    parts = (0.01, block, bm.ElasticGround.under(soil, block, 4), bm.Bonded())
     for name, given in (
         ("gravity", "initial=InitialConditions(gravity=…)"),
         ("initial_velocity", "initial=InitialConditions(velocity=…)"),
@@ -341,8 +341,8 @@ def test_options_are_in_groups(soil, block) -> None:
             bm.Simulation(*parts, **{name: 1.0})
     with pytest.raises(TypeError, match="no argument 'colour'$"):
         bm.Simulation(*parts, colour=1.0)
-    with pytest.raises(TypeError, match=r"seconds: Simulation\(structure, ground, interface, time_step\)$"):
-        bm.Simulation(parts[3], *parts[:3])
+    with pytest.raises(TypeError, match=r"seconds: Simulation\(time_step, structure, ground, interface\)$"):
+        bm.Simulation(*parts[1:], parts[0])
     for group in (
         bm.InitialConditions(gravity=9.8, gravity_stage="frictional", velocity=[0.0, 0.1, 0.0]),
         bm.SolverOptions(scheme=bm.TimeScheme.theta(0.6), coordinates=1e-6, expected_steps=5),

@@ -23,10 +23,10 @@ def test_yielding_storey_against_scipys_integration() -> None:
     building = bm.ShearBuilding(20.0, 50.0e3, 1.0e6, [storey], laws=laws)
     record = bm.el_centro_1940()
     simulation = bm.Simulation(
+        0.001,
         building,
         stiff_ground(building),
         bm.Bonded(),
-        0.001,
         motion=record,
         probes=[bm.Probe.displacement("drift", building.drift(0))],
     )
@@ -76,10 +76,10 @@ def test_linear_oscillator_from_matrices_against_its_state_space() -> None:
     )
     record = bm.el_centro_1940()
     simulation = bm.Simulation(
+        0.001,
         model,
         stiff_ground(model),
         bm.Bonded(),
-        0.001,
         motion=record,
         probes=[
             bm.Probe.displacement("stretch", {3: 1.0, 0: -1.0, 2: height}),
@@ -127,10 +127,10 @@ def test_snap_back_is_a_cosine() -> None:
     stiffness = 5.0e7
     force = -1.0e5
     simulation = bm.Simulation(
+        1e-4,
         block,
         bm.SpringGround.under(block, 4, stiffness, stiffness),
         bm.Bonded(),
-        1e-4,
         loads=[bm.Load.released(bm.RigidBlock.VERTICAL, force)],
         probes=[bm.Probe.displacement("down", bm.RigidBlock.VERTICAL)],
     )

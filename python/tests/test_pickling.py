@@ -67,7 +67,7 @@ STRUCTURES = {
 
 
 def shaken(structure: object, ground: bm.Ground, motion: object, law: object) -> np.ndarray:
-    simulation = bm.Simulation(structure, ground, law, 0.005, motion=motion)  # type: ignore[arg-type]
+    simulation = bm.Simulation(0.005, structure, ground, law, motion=motion)  # type: ignore[arg-type]
     return simulation.run(150)["base_shear"]
 
 
@@ -128,7 +128,7 @@ def test_motions_laws_loads_and_probes() -> None:
     ground = bm.ElasticGround.under(SOIL, BUILDING, 4)
     for law in (bm.Bonded(), bm.Cohesive(1e5, 1e5, 0.4), bm.ThinLayer(SOIL, 1.0, 0.4)):
         runs = [
-            bm.Simulation(BUILDING, ground, own, 0.005, loads=[load], probes=[probe]).run(50)[
+            bm.Simulation(0.005, BUILDING, ground, own, loads=[load], probes=[probe]).run(50)[
                 "shear"
             ]
             for own in (law, copied(law))
@@ -225,10 +225,10 @@ def test_what_changes_later_was_copied() -> None:
     assert same_bits(found, expected)
     pushed = [
         bm.Simulation(
+            0.01,
             BUILDING,
             bm.ElasticGround.under(SOIL, BUILDING, 4),
             bm.Bonded(),
-            0.01,
             loads=[load],
         ).run(20)["base_shear"]
         for load in (row, copied(row))

@@ -58,7 +58,7 @@ def test_bodies_beside_each_other_answer_like_mirrored_ones() -> None:
     pair = bm.StructureGroup([(body, 1.0), (other, 1.0)])
     assert pair.row(1, other.dof("y")).terms == [(7, 1.0)]
     ground = bm.ElasticGround.under(SOIL, pair, 3)
-    simulation = bm.Simulation(pair, ground, bm.Coulomb(0.3), 0.01, motion=bm.triaxial(x=RECORD))
+    simulation = bm.Simulation(0.01, pair, ground, bm.Coulomb(0.3), motion=bm.triaxial(x=RECORD))
     run = simulation.run(300, motion_every=100)
     front, back = run.foundations
     assert front.ends == back.ends == [-2.0, 4.0] and (front.depth, back.depth) == ([-9.0, -3.0], [3.0, 9.0])

@@ -26,7 +26,7 @@ PLANE = bm.ElasticGround.under(SOIL, FLAT, 6)
 def simulation(structure=BODY, law=None, motion=THREE, **others) -> bm.Simulation:
     ground = bm.SpringGround.under(structure, 4, 30e6, 20e6, dashpots=(4e5, 3e5))
     law = bm.Coulomb(0.25, tensile_strength=2e3) if law is None else law
-    return bm.Simulation(structure, ground, law, 0.01, motion=motion, **others)
+    return bm.Simulation(0.01, structure, ground, law, motion=motion, **others)
 
 
 def same(one: bm.Run, other: bm.Run, tolerance: float = 0.0) -> None:
@@ -137,9 +137,9 @@ def test_limits_of_the_packages_laws() -> None:
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (lambda: bm.Simulation(FLAT, PLANE, Limited(bm.Bonded()), 0.01), "no method `conditions`"),
-        (lambda: bm.Simulation(FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded(), 0.01), "faces"),
-        (lambda: bm.Simulation(BODY, PLANE, bm.Bonded(), 0.01), "contact nodes"),
+        (lambda: bm.Simulation(0.01, FLAT, PLANE, Limited(bm.Bonded())), "no method `conditions`"),
+        (lambda: bm.Simulation(0.01, FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded()), "faces"),
+        (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
         (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),
         (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "in plan a list of faces, lists of FaceNode"),
         (lambda: BODY.dof("x").relative_to_base(BODY), "none of the plane"),
@@ -192,7 +192,7 @@ def test_a_block_slides_by_newtons_law() -> None:
     push = bm.Record(0.01, 2.0 * np.ones(101))
     ground = bm.SpringGround(bm.Plan(bm_square(10.0), 2), 1e11, 1e11)
     motion = bm.triaxial(push.scaled(0.6), push.scaled(0.8))
-    state = bm.Simulation(body, ground, bm.Coulomb(0.1), 0.001, motion=motion)
+    state = bm.Simulation(0.001, body, ground, bm.Coulomb(0.1), motion=motion)
     run = state.run(1000, series=False)
     expected = -0.5 * (2.0 - 0.1 * GRAVITY)
     assert state.state.value("mean_slip") == pytest.approx(0.6 * expected, rel=1e-3)
@@ -219,10 +219,10 @@ def test_winklers_bed() -> None:
     body = bm.RigidBody.cuboid(4.0, 4.0, 2.0, 1000.0)
     loads = [bm.Load.constant(row, 1e4) for row in body.displacement_at(0.0, 0.0, 0.0)[:2]]
     own = bm.Simulation(
+        0.01,
         body,
         ground,
         bm.Bonded(),
-        0.01,
         loads=loads,
         initial=bm.InitialConditions(gravity_stage="frictional"),
     )

@@ -74,16 +74,16 @@ def test_the_others_run(
     assert len(table) == 4 and table["error"].isna().all()  # type: ignore[attr-defined, arg-type]
     polished, soil, model = (names[name] for name in ("Polished", "soil", "model"))
     simulation = bm.Simulation(
+        0.005,
         model,  # type: ignore[arg-type]
         bm.ElasticGround.under(soil, model, 6),  # type: ignore[arg-type]
         polished(),  # type: ignore[operator]
-        0.005,
         motion=bm.el_centro_1940(),
     )
     assert simulation.run(200).steps == 200
     braced = names["braced"]
     ground = bm.ElasticGround.under(soil, braced, 6)  # type: ignore[arg-type]
-    simulation = bm.Simulation(braced, ground, bm.Coulomb(0.5), 0.005, motion=bm.el_centro_1940())  # type: ignore[arg-type]
+    simulation = bm.Simulation(0.005, braced, ground, bm.Coulomb(0.5), motion=bm.el_centro_1940())  # type: ignore[arg-type]
     simulation.run(1000)
     assert simulation.hysteresis[0].slack > 1e-3
 

@@ -76,7 +76,7 @@ def test_results_pickle_to_the_same_bits(run: bm.Run, rocking) -> None:
 def made(friction: float) -> bm.Run:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
     ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 4)
-    return bm.Simulation(block, ground, bm.Coulomb(friction), 0.01, motion=bm.el_centro_1940()).run(200)
+    return bm.Simulation(0.01, block, ground, bm.Coulomb(friction), motion=bm.el_centro_1940()).run(200)
 
 
 def test_runs_come_back_from_other_processes() -> None:
@@ -161,7 +161,7 @@ def test_arrays_and_grids_for_other_programs(run: bm.Run, block: bm.RigidBlock, 
         run.save_paraview(tmp_path, "block", block)
     with pytest.raises(bm.InputError, match="base: give `contact_every` to `run`"):
         ground = bm.SpringGround.under(block, 4, 1e8, 5e7)
-        bm.Simulation(block, ground, bm.Bonded(), 0.01).run(2).save_paraview(tmp_path, "x")
+        bm.Simulation(0.01, block, ground, bm.Bonded()).run(2).save_paraview(tmp_path, "x")
 
 
 @pytest.mark.parametrize("kind", ["frame", "building", "plan"])
@@ -178,7 +178,7 @@ def test_structures_have_shapes(kind: str, tmp_path: Path) -> None:
         structure = bm.StoreyBuilding(mat, [bm.PlanStorey(3.0, 2e4, (8.0, 6.0), (4e7, 4e7, 1e9))])
         points = 2 * 4
     ground = bm.SpringGround.under(structure, 4, *springs)
-    run = bm.Simulation(structure, ground, bm.Bonded(), 0.01).run(4, motion_every=2, warn=False)
+    run = bm.Simulation(0.01, structure, ground, bm.Bonded()).run(4, motion_every=2, warn=False)
     assert run.save_paraview(tmp_path, kind, structure) == 3
     piece = ElementTree.parse(tmp_path / f"{kind}_0002.vtu").find(".//Piece")
     assert piece is not None and piece.get("NumberOfPoints") == str(points)
@@ -276,7 +276,7 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
         run.plot([shear, energy])
     pair = bm.StructureGroup([(bm.RigidBlock(2.0, 3.0, 1000.0), x) for x in (-4.0, 4.0)])
     ground = bm.SpringGround.under(pair, 2, 1e8, 5e7)
-    own = bm.Simulation(pair, ground, bm.Coulomb(0.3), 0.01).run(4, contact_every=1)
+    own = bm.Simulation(0.01, pair, ground, bm.Coulomb(0.3)).run(4, contact_every=1)
     [drawn] = own.plot_modes().collections
     assert np.isnan(np.ma.filled(drawn.get_array(), np.nan)).all(axis=1).tolist() == [0, 0, 1, 0, 0]
     moving = run.animate()

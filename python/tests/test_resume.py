@@ -37,13 +37,13 @@ def push(factor: float) -> bm.Load:
 def plane(law: Any = None, motion: Any = RECORD, load: float = 1e3, **others: Any) -> bm.Simulation:
     ground = bm.SpringGround(bm.Strip(-2.0, 2.0, 4, grading="uniform"), 5e7, 4e7, dashpots=(4e5, 3e5))
     law = bm.Coulomb(0.3) if law is None else law
-    return bm.Simulation(BLOCK, ground, law, 0.01, motion=motion, loads=[push(load)], **others)
+    return bm.Simulation(0.01, BLOCK, ground, law, motion=motion, loads=[push(load)], **others)
 
 
 def plan(law: Any = None, motion: Any = RECORD, load: float = 1e3, **others: Any) -> bm.Simulation:
     ground = bm.SpringGround.under(BODY, 4, 30e6, 20e6, dashpots=(4e5, 3e5))
     law = Limited(0.3) if law is None else law
-    return bm.Simulation(BODY, ground, law, 0.01, motion=motion, loads=[push(load)], **others)
+    return bm.Simulation(0.01, BODY, ground, law, motion=motion, loads=[push(load)], **others)
 
 
 OTHERS = [
@@ -92,7 +92,7 @@ def test_own_bonds_hold_while_the_weight_comes_on() -> None:
     ground = bm.SpringGround.under(leaning, 4, 30e6, 20e6)
 
     def pressures(law: Any) -> Any:
-        return bm.Simulation(leaning, ground, law, 0.01).state.pressure
+        return bm.Simulation(0.01, leaning, ground, law).state.pressure
 
     bonded = pressures(bm.Bonded())
     assert min(bonded) < -0.1 * PRESSURE

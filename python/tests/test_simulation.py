@@ -231,7 +231,7 @@ def test_checkpoints_pickle_and_go_on_to_the_same_bits(rocking) -> None:
 def test_no_damaged_checkpoint_resumes_with_other_numbers() -> None:
     block = bm.RigidBlock(4.0, 3.0, 2000.0)
     ground = bm.SpringGround(bm.Strip(-2.0, 2.0, 2, grading="uniform"), 5e7, 4e7)
-    simulation = bm.Simulation(block, ground, bm.Coulomb(0.3), 0.01, motion=bm.el_centro_1940())
+    simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.3), motion=bm.el_centro_1940())
     simulation.run(9)
     saved = simulation.checkpoint()
     data = saved.to_bytes()

@@ -20,7 +20,7 @@ STOREYS = [bm.Storey(3.0, 20e3, 40e6)] * 3
 
 def shaken(structure: object, soil: bm.Soil, **others: object) -> bm.Run:
     ground = bm.ElasticGround.under(soil, structure, 6)
-    simulation = bm.Simulation(structure, ground, bm.Coulomb(0.4), 0.005, motion=bm.el_centro_1940(), **others)
+    simulation = bm.Simulation(0.005, structure, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940(), **others)
     return simulation.run(600)
 
 
@@ -211,7 +211,7 @@ def test_layers_over_a_half_plane_of_the_same_soil_are_the_half_plane(soil: bm.S
     # And in time, with friction, to the error of the convolution quadrature.
     motion = bm.el_centro_1940().scaled(0.5)
     runs = [
-        bm.Simulation(block, ground, bm.Coulomb(0.4), 0.005, motion=motion).run(600)
+        bm.Simulation(0.005, block, ground, bm.Coulomb(0.4), motion=motion).run(600)
         for ground in (layered, half_plane)
     ]
     first, second = (run["base_shear"] for run in runs)
@@ -297,7 +297,7 @@ def test_names_of_degrees_of_freedom_reach_probes_frames_and_errors(soil: bm.Soi
     assert model.dof_names == NAMES and model.dof("roof") == bm.DofCombination(3)
     ground = bm.ElasticGround.under(soil, model, 4)
     probe = bm.Probe.velocity("v", model.dof("roof"))
-    run = bm.Simulation(model, ground, bm.Bonded(), 0.01, motion=bm.el_centro_1940(), probes=[probe]).run(
+    run = bm.Simulation(0.01, model, ground, bm.Bonded(), motion=bm.el_centro_1940(), probes=[probe]).run(
         100, motion_every=10
     )
     frame = run.motion_frame()
@@ -318,7 +318,7 @@ def test_names_of_degrees_of_freedom_reach_probes_frames_and_errors(soil: bm.Soi
         run.motion_frame("force")  # type: ignore[arg-type]
     loose = named(factor=0.0)
     with pytest.raises(bm.InputError, match="'roof'"):
-        bm.Simulation(loose, bm.ElasticGround.under(soil, loose, 4), bm.Bonded(), 0.01)
+        bm.Simulation(0.01, loose, bm.ElasticGround.under(soil, loose, 4), bm.Bonded())
     for names, text in ((NAMES[:3], "3 names, but must have 4"), ([*NAMES[:3], "base_x"], "'base_x' twice")):
         with pytest.raises(bm.InputError, match=f"dof_names has {text}"):
             named(names)
@@ -336,5 +336,5 @@ def test_structures_name_what_they_can(soil: bm.Soil, block: bm.RigidBlock) -> N
     with pytest.raises(bm.InputError, match="the structure has no dof_names"):
         group.dof("x")
     ground = bm.ElasticGround.under(soil, group, 4)
-    run = bm.Simulation(group, ground, bm.Bonded(), 0.01).run(5, motion_every=1)
+    run = bm.Simulation(0.01, group, ground, bm.Bonded()).run(5, motion_every=1)
     assert [*run.motion_frame().columns] == [0, 1, 2]

@@ -23,7 +23,7 @@ def make(friction: float, peak: float) -> bm.Simulation:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
     ground = bm.ElasticGround.under(bm.Soil(80.0e6, 0.33, 1900.0), block, 6)
     motion = bm.el_centro_1940().scaled_to_peak(peak)
-    return bm.Simulation(block, ground, bm.Coulomb(friction), 0.01, motion=motion)
+    return bm.Simulation(0.01, block, ground, bm.Coulomb(friction), motion=motion)
 
 
 def results(run: bm.Run) -> dict[str, float]:

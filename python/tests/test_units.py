@@ -16,7 +16,7 @@ def built(motion: bm.FreeField, *, friction: float = 0.5, height: float = 3.0, *
     storeys = [bm.Storey(height, 20e3, 40e6)] * 3
     building = bm.ShearBuilding(10.0, 50e3, 4e5, storeys, damping=0.05)
     ground = bm.ElasticGround.under(SOIL, building, 10)
-    return bm.Simulation(building, ground, bm.Coulomb(friction), 0.01, motion=motion, **options)  # type: ignore[arg-type]
+    return bm.Simulation(0.01, building, ground, bm.Coulomb(friction), motion=motion, **options)  # type: ignore[arg-type]
 
 
 def told(simulation: bm.Simulation, steps: int = 20) -> str:
@@ -52,7 +52,7 @@ def test_a_run_ends_when_a_block_has_overturned() -> None:
     def falling(**options: bm.SolverOptions) -> bm.Simulation:
         ground = bm.SpringGround.under(block, 8, 2e9, 1e9, dashpots=(1e6, 1e6))
         motion = bm.el_centro_1940().scaled(2.0)
-        return bm.Simulation(block, ground, bm.Coulomb(0.6), 0.01, motion=motion, **options)  # type: ignore[arg-type]
+        return bm.Simulation(0.01, block, ground, bm.Coulomb(0.6), motion=motion, **options)  # type: ignore[arg-type]
 
     simulation = falling()
     run = simulation.run(2000, warn=False)
@@ -74,16 +74,16 @@ def test_unsymmetric_stiffness_is_refused_unless_active() -> None:
     model = bm.MatrixModel(mass, stiffness, contact)
     ground = bm.ElasticGround.under(SOIL, model, 8)
     with pytest.raises(bm.InputError, match=r"entry \(2, 3\) is 1e5, entry \(3, 2\) 0e0"):
-        bm.Simulation(model, ground, bm.Coulomb(0.5), 0.01)
+        bm.Simulation(0.01, model, ground, bm.Coulomb(0.5))
     active = bm.MatrixModel(mass, stiffness, contact, active_stiffness=True)
-    bm.Simulation(active, ground, bm.Coulomb(0.5), 0.01)
+    bm.Simulation(0.01, active, ground, bm.Coulomb(0.5))
 
 
 def test_moments_are_vectors_by_the_right_hand_rule() -> None:
     body = bm.RigidBody.cuboid(8.0, 6.0, 4.0, 2000.0)
     push = bm.Load.constant(body.dof("x"), 1e5)
     ground = bm.ElasticGround.under(SOIL, body, 4)
-    state = bm.Simulation(body, ground, bm.Bonded(), 0.01, loads=[push]).state
+    state = bm.Simulation(0.01, body, ground, bm.Bonded(), loads=[push]).state
     assert state.force_vector[0] == pytest.approx(1e5) and state.force_vector[2] == pytest.approx(-state.normal_force)
     assert state.moment_vector[1] == state.base_moment == pytest.approx(0.0, abs=1.0)
     assert state.foundations[0].rotation_vector[1] == state.base_rotation

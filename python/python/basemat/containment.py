@@ -92,11 +92,11 @@ def scene(friction: float | None, record: bm.Record | None = None, steps: int | 
     model = structure()
     law: bm.InterfaceLaw = bm.Bonded() if friction is None else bm.Coulomb(friction)
     simulation = bm.Simulation(
+        time_step(),
         model,
         # Equal elements, as in the paper.
         bm.ElasticGround(soil, bm.Strip(-half, half, ELEMENTS, grading="uniform")),
         law,
-        time_step(),
         motion=record,
         solver=bm.SolverOptions(expected_steps=steps),
         probes=probes(model),

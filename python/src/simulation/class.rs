@@ -28,11 +28,11 @@ use crate::ticker::{progress_function, watched};
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
 ///
 /// Args:
+///     time_step: time step, s.
 ///     structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
 ///     ground: an :class:`ElasticGround` or a :class:`SpringGround`.
 ///     interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
 ///         all contact elements, or a list of one each, from left to right.
-///     time_step: time step, s.
 ///     motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
 ///         :func:`free_field` makes of a function. The ground rests unless given.
 ///     loads: forces from outside, a list of :class:`Load`; none unless given.
@@ -133,20 +133,20 @@ impl PySimulation {
     #[new]
     #[pyo3(
         signature = (
-            structure, ground, interface, time_step, *, motion=None, loads=None, probes=None,
+            time_step, structure, ground, interface, *, motion=None, loads=None, probes=None,
             initial=None, solver=None, results=None, service_limits=None, fixed_base=false,
             progress=None, **others
         ),
-        text_signature = "(structure, ground, interface, time_step, *, motion=None, loads=None, \
+        text_signature = "(time_step, structure, ground, interface, *, motion=None, loads=None, \
             probes=None, initial=None, solver=None, results=None, service_limits=None, \
             fixed_base=False, progress=None)"
     )]
     fn new(
         py: Python<'_>,
+        time_step: Bound<'_, PyAny>,
         structure: Bound<'_, PyAny>,
         ground: Bound<'_, PyAny>,
         interface: Bound<'_, PyAny>,
-        time_step: Bound<'_, PyAny>,
         motion: Option<Bound<'_, PyAny>>,
         loads: Option<Several<'_, PyLoad>>,
         probes: Option<Several<'_, PyProbe>>,
@@ -160,7 +160,7 @@ impl PySimulation {
     ) -> PyResult<Self> {
         refuse_others(others.as_ref())?;
         take_raised();
-        let needed = "a number of seconds: Simulation(structure, ground, interface, time_step)";
+        let needed = "a number of seconds: Simulation(time_step, structure, ground, interface)";
         let time_step = time_step.extract().map_err(|_| no_such(&time_step, needed))?;
         let ground = ground
             .cast::<PyGround>()
