@@ -1666,11 +1666,11 @@ class Simulation:
     """A structure on a ground, ready to march: from the static state under its weight, step by step.
 
     Args:
+        time_step: time step, s.
         structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
         ground: an :class:`ElasticGround` or a :class:`SpringGround`.
         interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
             all contact elements, or a list of one each, from left to right.
-        time_step: time step, s.
         motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
             :func:`free_field` makes of a function. The ground rests unless given.
         loads: forces from outside, a list of :class:`Load`; none unless given.
@@ -1689,10 +1689,10 @@ class Simulation:
 
     def __new__(
         cls,
+        time_step: float,
         structure: _Structure,
         ground: Ground,
         interface: _Interface | Sequence[_Interface],
-        time_step: float,
         *,
         motion: FreeField | None = None,
         loads: Sequence[Load] | None = None,
