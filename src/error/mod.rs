@@ -26,8 +26,8 @@ pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress, unobserved};
 pub(crate) use requirement::{
-    all_finite, at_least, damping_ratio, finite, in_bounds, names, not_finite, not_negative,
-    positive, require, require_part, same_length, short,
+    all_finite, at_least, damping_ratio, finite, in_bounds, in_brackets, names, not_finite,
+    not_negative, positive, require, require_part, same_length, short,
 };
 pub use soil::SoilError;
 pub(crate) use stability::along;
@@ -121,16 +121,14 @@ pub enum Error {
     },
     /// A point without a node.
     #[error(
-        "no node at ({x}, {y}): the nearest, at ({}, {}), is {distance} m away",
-        nearest[0], nearest[1]
+        "no node at {}: the nearest, at {}, is {distance} m away",
+        in_brackets(point, &[*point, *nearest]), in_brackets(nearest, &[*point, *nearest])
     )]
     NoNode {
-        /// Coordinate of the point to the right, m.
-        x: f64,
-        /// Coordinate of the point upwards, m.
-        y: f64,
+        /// Coordinates of the point, m.
+        point: [f64; 3],
         /// Coordinates of the nearest node, m.
-        nearest: [f64; 2],
+        nearest: [f64; 3],
         /// Distance to it, m.
         distance: f64,
     },

@@ -69,6 +69,15 @@ pub(crate) fn require_part(
     if holds { Ok(()) } else { Err(Error::Scene { quantity, needed }) }
 }
 
+/// A point for a message, without z if that is zero for all `points`, as in the plane.
+pub(crate) fn in_brackets([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
+    if points.iter().all(|point| point[2] == 0.0) {
+        format!("({x}, {y})")
+    } else {
+        format!("({x}, {y}, {z})")
+    }
+}
+
 /// A number for a message, without rounding errors of its computation.
 ///
 /// Whole numbers stay as they are. Others have six figures, or twelve if six would make them round.

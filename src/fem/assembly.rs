@@ -1,9 +1,9 @@
 //! Assembly of element matrices into the matrices of the whole mesh.
 
-use super::element::{Element, MassKind};
+use super::element::MassKind;
 use super::mesh::Mesh;
+use super::numbering::Numbering;
 use crate::error::Result;
-use crate::geometry::Direction;
 use crate::linalg::Triplets;
 
 /// Kind of element matrix to assemble.
@@ -25,7 +25,7 @@ pub(crate) fn assemble(
     numbering: &Numbering,
     quantity: MatrixKind,
     factor: f64,
-    keep: impl Fn(&[[f64; 2]]) -> bool,
+    keep: impl Fn(&[[f64; 3]]) -> bool,
     matrix: &mut Triplets,
 ) {
     let mut indices = Vec::new();
@@ -74,54 +74,4 @@ pub(crate) fn set_static_state(
         let own: Vec<f64> = indices.iter().map(value).collect();
         element.in_static_state(points, &own, gravity)
     })
-}
-
-/// Numbers of the degrees of freedom, node by node; only directions that some element uses.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Numbering {
-    numbers: Vec<[Option<usize>; 3]>,
-    dofs: usize,
-}
-
-impl Numbering {
-    /// Numbers the degrees of freedom of `mesh`.
-    pub(crate) fn new(mesh: &Mesh) -> Self {
-        let mut used = vec![[false; 3]; mesh.nodes().len()];
-        for element in mesh.elements() {
-            for &node in element.nodes() {
-                for &direction in element.directions() {
-                    used[node][direction as usize] = true;
-                }
-            }
-        }
-        let mut dofs = 0;
-        let mut next = |is_used: bool| {
-            is_used.then(|| {
-                dofs += 1;
-                dofs - 1
-            })
-        };
-        let numbers = used.into_iter().map(|node| node.map(&mut next)).collect();
-        Self { numbers, dofs }
-    }
-
-    /// Number of degrees of freedom.
-    pub(crate) fn dofs(&self) -> usize {
-        self.dofs
-    }
-
-    /// Index of the degree of freedom of `node` in `direction`, if there is one.
-    pub(crate) fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
-        self.numbers.get(node)?[direction as usize]
-    }
-
-    /// Overwrites `indices` with the indices of the degrees of freedom of `element`, in the order of its matrices.
-    pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
-        indices.clear();
-        for &node in element.nodes() {
-            for &direction in element.directions() {
-                indices.push(self.dof(node, direction).unwrap_or(usize::MAX));
-            }
-        }
-    }
 }

@@ -22,7 +22,7 @@ use crate::linalg::gauss;
 ///
 /// let beam = Beam::new([0, 1], 30.0e9, 0.5, 0.01, 2400.0)?;
 /// let mut stiffness = vec![0.0; 36];
-/// beam.stiffness(&[[0.0, 0.0], [0.0, 10.0]], &mut stiffness);
+/// beam.stiffness(&[[0.0; 3], [0.0, 10.0, 0.0]], &mut stiffness);
 /// assert!((stiffness[0] - 12.0 * 30.0e9 * 0.01 / 1000.0).abs() < 1e-6); // 12 EI/L³ sideways
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -151,7 +151,7 @@ impl Element for Beam {
         FRAME
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let length = line.length;
         let ratio = self.shear_ratio(length);
@@ -172,7 +172,7 @@ impl Element for Beam {
         line.add_rotated(&local, matrix);
     }
 
-    fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         if self.compression != 0.0 || self.taper != 0.0 {
             let ratio = self.shear_ratio(line.length);
@@ -188,7 +188,7 @@ impl Element for Beam {
 
     fn in_static_state(
         &self,
-        coordinates: &[[f64; 2]],
+        coordinates: &[[f64; 3]],
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn Element>> {
@@ -217,7 +217,7 @@ impl Element for Beam {
     /// Lumped: half the mass at each node, with the rotary inertia m L²/78, which keeps the ratio of the
     /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the rotary inertia of the
     /// sections.
-    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let length = line.length;
         let mass = self.mass_per_length * length;
@@ -248,7 +248,7 @@ impl Element for Beam {
     }
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         Line::check("length of the beam", coordinates)
     }
 }

@@ -1,5 +1,6 @@
 //! Finite elements: the trait, and the kinds of mass matrices.
 
+use super::element_face::ElementFace;
 use crate::error::Result;
 use crate::geometry::Direction;
 
@@ -12,7 +13,9 @@ pub enum MassKind {
     /// Mass distributed by the shape functions of the stiffness: a full matrix.
     #[default]
     Consistent,
-    /// Mass at the nodes: a diagonal matrix of the same total mass.
+    /// Mass at the nodes: a matrix of the same total mass, diagonal in the element's own axes.
+    ///
+    /// Inclined beams in space couple the rotations of a node, and offsets couple rotations with displacements.
     Lumped,
 }
 
@@ -25,7 +28,8 @@ words! { pub(crate) MassKind, "kind of mass", {
 ///
 /// Its matrices are dense, row-major and square, of order [`order`](Element::order). The degrees of freedom
 /// run through the nodes in the element's order and, within a node, through
-/// [`directions`](Element::directions). `coordinates` holds one [x, y] (m) for each of the element's nodes.
+/// [`directions`](Element::directions). `coordinates` holds [x, y, z] (m) of each of the element's
+/// nodes; in the plane y points up and z is zero.
 /// Every matrix is **added to** the buffer; for the matrix alone the caller passes a zeroed buffer.
 ///
 /// ```
@@ -37,12 +41,12 @@ words! { pub(crate) MassKind, "kind of mass", {
 /// impl Element for Tie {
 ///     fn nodes(&self) -> &[usize] { &self.0 }
 ///     fn directions(&self) -> &[Direction] { &[Direction::X] }
-///     fn stiffness(&self, _coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+///     fn stiffness(&self, _coordinates: &[[f64; 3]], matrix: &mut [f64]) {
 ///         for (entry, k) in matrix.iter_mut().zip([1.0e6, -1.0e6, -1.0e6, 1.0e6]) {
 ///             *entry += k;
 ///         }
 ///     }
-///     fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+///     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 /// }
 ///
 /// let mut mesh = Mesh::new();
@@ -59,26 +63,27 @@ pub trait Element: Send + Sync {
     /// Directions of the element's degrees of freedom, the same at each of its nodes.
     fn directions(&self) -> &[Direction];
 
-    /// Adds the stiffness matrix (N/m per metre) to `matrix`.
+    /// Adds the stiffness matrix (N/m, in the plane per metre) to `matrix`.
     ///
     /// It is symmetric; a rigid motion of all nodes must give no force.
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]);
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]);
 
-    /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m per metre.
+    /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m, in the plane per metre.
     ///
     /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
     /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
     /// Default: none.
-    fn geometric_stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+    fn geometric_stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     /// This element with the geometric stiffness of the static state under the structure's weight.
     ///
-    /// `displacement` holds the element's degrees of freedom in that state; `gravity` (m/s²) acts downwards.
+    /// `displacement` holds the element's degrees of freedom in that state; `gravity` (m/s²) acts downwards, along −y
+    /// in the plane and along −z in space.
     /// Called by [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta). Default: `None`, the
     /// element does not change.
     fn in_static_state(
         &self,
-        _coordinates: &[[f64; 2]],
+        _coordinates: &[[f64; 3]],
         _displacement: &[f64],
         _gravity: f64,
     ) -> Option<Box<dyn Element>> {
@@ -92,27 +97,38 @@ pub trait Element: Send + Sync {
         None
     }
 
-    /// Adds the mass matrix (kg/m) to `matrix`.
+    /// Adds the mass matrix (kg, in the plane per metre) to `matrix`.
     ///
     /// It is symmetric and positive semi-definite.
-    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]);
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]);
 
     /// Adds the viscous damping matrix to `matrix`, without Rayleigh damping. Default: none.
-    fn damping(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+    fn damping(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
-    /// Corner nodes of the area that the element fills with material, in any order. Default: none, for bars,
-    /// springs and masses, which act in parallel where they share nodes.
+    /// Faces of the element: the sides of a solid, or the shell itself.
     ///
-    /// [`Mesh::add`](super::Mesh::add) returns an error for a second element over the same corners.
-    fn corners(&self) -> &[usize] {
-        &[]
+    /// A solid in the plane has one face, its outline. Default: none, for bars, springs and masses.
+    ///
+    /// [`Mesh::add`](super::Mesh::add) returns an error for a second solid on the same corners. Bars and shells may
+    /// share all their nodes.
+    fn faces(&self) -> Vec<ElementFace> {
+        Vec::new()
+    }
+
+    /// Whether the element fits meshes in the plane only.
+    ///
+    /// Default: yes, if it has the directions X and Y, but not Z. An element in space that moves horizontally only,
+    /// such as a rubber bearing, returns `false`.
+    fn is_plane(&self) -> bool {
+        let has = |direction| self.directions().contains(&direction);
+        has(Direction::X) && has(Direction::Y) && !has(Direction::Z)
     }
 
     /// Checks the shape when the element is added to a mesh. Default: any shape is accepted.
     ///
     /// # Errors
     /// Any error that makes the element unusable at these coordinates.
-    fn check(&self, _coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, _coordinates: &[[f64; 3]]) -> Result<()> {
         Ok(())
     }
 

@@ -60,7 +60,7 @@ impl Mesh {
     ///
     /// let layers = [Layer::new(1.0, 2, Material::new(1.0e9, 0.3, 2000.0)?)];
     /// let mesh = Mesh::graded_block(&[0.0, 0.1, 1.0], &layers)?;
-    /// assert_eq!(mesh.nodes()[4], [0.1, 0.5]);
+    /// assert_eq!(mesh.nodes()[4], [0.1, 0.5, 0.0]);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///

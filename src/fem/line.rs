@@ -12,14 +12,14 @@ pub(super) struct Line {
 
 impl Line {
     /// Line between two points; `None` unless there are exactly two.
-    pub(super) fn between(coordinates: &[[f64; 2]]) -> Option<Self> {
-        let &[[x0, y0], [x1, y1]] = coordinates else { return None };
+    pub(super) fn between(coordinates: &[[f64; 3]]) -> Option<Self> {
+        let &[[x0, y0, _], [x1, y1, _]] = coordinates else { return None };
         let length = (x1 - x0).hypot(y1 - y0);
         Some(Self { length, cosine: (x1 - x0) / length, sine: (y1 - y0) / length })
     }
 
     /// Error unless there are two points at different places.
-    pub(super) fn check(quantity: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
+    pub(super) fn check(quantity: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length(quantity, coordinates.len(), 2)?;
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }

@@ -4,7 +4,11 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::element::{Element, MassKind};
-use crate::error::{Error, Result, at_least, finite, in_bounds, not_negative, require_part};
+use super::element_face::ElementFace;
+use crate::error::{
+    Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
+};
+use crate::geometry::{Direction, FRAME, IN_SPACE};
 
 /// Largest distance of a node from a given point at which it counts as the same point, relative to the mesh's size.
 ///
@@ -14,7 +18,12 @@ const SAME_POINT: f64 = 1e-6;
 /// Relative difference below which matrix entries count as equal: rounding.
 const ALIKE: f64 = 1e-12;
 
-/// Nodes and elements.
+/// Nodes and elements, in the plane or in space.
+///
+/// A mesh in the plane ([`Mesh::new`]) has its nodes at [x, y, 0], with x to the right and y up. Its degrees of
+/// freedom are X, Y and Rotation, and all its quantities are per metre of thickness. A mesh in space
+/// ([`Mesh::in_space`]) has its nodes at [x, y, z], with x to the right, y away from the reader and z up. Its degrees
+/// of freedom are X, Y, Z, RotationX, RotationY and RotationZ.
 ///
 /// Clones share their elements, which never change.
 ///
@@ -31,10 +40,11 @@ const ALIKE: f64 = 1e-12;
 /// ```
 #[derive(Clone, Default)]
 pub struct Mesh {
-    nodes: Vec<[f64; 2]>,
+    nodes: Vec<[f64; 3]>,
     elements: Vec<Arc<dyn Element>>,
-    /// Indices of elements by sorted corner nodes or, for elements without corners, by all their nodes.
+    /// Indices of elements by the sorted nodes of their faces or, for elements without faces, by all their nodes.
     places: HashMap<Vec<usize>, Vec<usize>>,
+    has_depth: bool,
 }
 
 short_debug! {
@@ -43,19 +53,53 @@ short_debug! {
 }
 
 impl Mesh {
-    /// Mesh without nodes.
+    /// Mesh in the plane, without nodes.
     pub fn new() -> Self {
         Self::default()
     }
 
+    /// Mesh in space, without nodes.
+    ///
+    /// ```
+    /// use basemat::fem::{Direction, Mesh, Spring};
+    ///
+    /// let mut mesh = Mesh::in_space();
+    /// let foot = mesh.add_node_at([0.0, 0.0, 0.0])?;
+    /// let top = mesh.add_node_at([0.0, 0.0, 3.0])?;
+    /// mesh.add(Spring::new([foot, top], Direction::Z, 1.0e9)?)?;
+    /// assert_eq!(mesh.nodes_at_height(3.0, 1e-9)?, [top]);
+    /// // The rotation of the plane does not exist in space.
+    /// assert!(mesh.add(Spring::new([foot, top], Direction::Rotation, 1.0e9)?).is_err());
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn in_space() -> Self {
+        Self { has_depth: true, ..Self::default() }
+    }
+
+    /// Directions of the mesh's degrees of freedom: X, Y and Rotation, or the six of space.
+    pub fn directions(&self) -> &'static [Direction] {
+        if self.has_depth { IN_SPACE } else { FRAME }
+    }
+
     /// Adds a node at (`x`, `y`), m, and returns its index.
+    ///
+    /// In space it lies at z = 0, where y points away.
     ///
     /// # Errors
     /// [`Error::Input`] unless both are finite.
     pub fn add_node(&mut self, x: f64, y: f64) -> Result<usize> {
-        finite("x of the node", x)?;
-        finite("y of the node", y)?;
-        self.nodes.push([x, y]);
+        self.add_node_at([x, y, 0.0])
+    }
+
+    /// Adds a node at `[x, y, z]`, m, and returns its index.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless all are finite, and for z other than zero in the plane.
+    pub fn add_node_at(&mut self, point: [f64; 3]) -> Result<usize> {
+        finite_point(point)?;
+        let [_, _, z] = point;
+        require("z of the node", z, self.has_depth || z == 0.0, "zero in the plane")?;
+        self.nodes.push(point);
         Ok(self.nodes.len() - 1)
     }
 
@@ -66,9 +110,10 @@ impl Mesh {
     ///
     /// # Errors
     /// [`Error::Index`] when one of its nodes does not exist; [`Error::Size`] when it has no nodes or no
-    /// directions; [`Error::Scene`] when a node or direction occurs twice. [`Error::Part`] when
-    /// another element has the same [`corners`](Element::corners). [`Error::Part`] also when the
-    /// element has mass and at least two nodes, and another element on these nodes has the same stiffness,
+    /// directions; [`Error::Scene`] when a node or direction occurs twice, for a direction outside of
+    /// [`Mesh::directions`], or for an element of the plane in space ([`Element::is_plane`]). [`Error::Part`] when
+    /// the element and another one are solids with the same corners ([`Element::faces`]). [`Error::Part`] also when
+    /// the element has mass and at least two nodes, and another element on these nodes has the same stiffness,
     /// mass and damping: enter two equal bars as one bar of twice the section. Any error of
     /// [`Element::check`].
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
@@ -76,6 +121,16 @@ impl Mesh {
         at_least("degrees of freedom of the element", element.order(), 1)?;
         let differ = !(repeats(nodes) || repeats(element.directions()));
         require_part("nodes and directions of the element", differ, "each only once")?;
+        let own = self.directions();
+        let fit = element.directions().iter().all(|direction| own.contains(direction));
+        let needed = if self.has_depth {
+            "x, y, z, rotation_x, rotation_y or rotation_z in space"
+        } else {
+            "x, y or rotation in the plane"
+        };
+        require_part("direction of the element", fit, needed)?;
+        let fits = !(self.has_depth && element.is_plane());
+        require_part("element of the plane", fits, "a mesh in the plane")?;
         for &index in nodes {
             in_bounds("node of the element", index, self.nodes.len())?;
         }
@@ -95,12 +150,13 @@ impl Mesh {
     /// Whether `element` is a duplicate of the element `other` at the same nodes.
     fn counts_twice(&self, other: usize, element: &dyn Element) -> bool {
         let other = self.elements[other].as_ref();
-        if !element.corners().is_empty() {
-            return !other.corners().is_empty();
+        let is_solid = |element: &dyn Element| element.faces().iter().any(ElementFace::is_side);
+        if is_solid(element) || is_solid(other) {
+            return is_solid(element) && is_solid(other);
         }
         let (nodes, directions) = (element.nodes(), element.directions());
         let order = nodes.len() * directions.len();
-        let alike = other.directions() == directions && other.corners().is_empty();
+        let alike = other.directions() == directions;
         if nodes.len() < 2 || !alike || [element.order(), other.order()] != [order; 2] {
             return false;
         }
@@ -136,8 +192,8 @@ impl Mesh {
         (all, has_mass)
     }
 
-    /// Coordinates [x, y] of all nodes, m.
-    pub fn nodes(&self) -> &[[f64; 2]] {
+    /// Coordinates [x, y, z] of all nodes, m; z is zero in the plane.
+    pub fn nodes(&self) -> &[[f64; 3]] {
         &self.nodes
     }
 
@@ -148,61 +204,93 @@ impl Mesh {
 
     /// Index of the node at (`x`, `y`), m, within a millionth of the mesh's size.
     ///
+    /// In space the point lies at z = 0.
+    ///
     /// # Errors
-    /// [`Error::Input`] unless both are finite, [`Error::Size`] for an empty mesh, [`Error::NoNode`]
-    /// with the nearest node if there is none at this point.
+    /// As for [`Mesh::node_at_point`].
     pub fn node_at(&self, x: f64, y: f64) -> Result<usize> {
-        finite("x of the node", x)?;
-        finite("y of the node", y)?;
+        self.node_at_point([x, y, 0.0])
+    }
+
+    /// Index of the node at `[x, y, z]`, m, within a millionth of the mesh's size.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless all are finite, [`Error::Size`] for an empty mesh, [`Error::NoNode`]
+    /// with the nearest node if there is none at this point.
+    pub fn node_at_point(&self, point: [f64; 3]) -> Result<usize> {
+        finite_point(point)?;
         let needed = 1;
-        let found =
-            self.nearest_node(x, y).ok_or(Error::Size { quantity: "nodes", found: 0, needed })?;
+        let found = self.nearest_node_to(point);
+        let found = found.ok_or(Error::Size { quantity: "nodes", found: 0, needed })?;
         let nearest = self.nodes[found];
-        let distance = (nearest[0] - x).hypot(nearest[1] - y);
+        let distance = distance(nearest, point);
         if distance <= SAME_POINT * self.extent() {
             Ok(found)
         } else {
-            Err(Error::NoNode { x, y, nearest, distance })
+            Err(Error::NoNode { point, nearest, distance })
         }
     }
 
     /// Index of the node nearest to (`x`, `y`), at any distance; `None` for an empty mesh.
     ///
-    /// If several nodes are equally near, the first. [`Mesh::node_at`] returns an error for a point without a
-    /// node.
+    /// In space the point lies at z = 0. If several nodes are equally near, the first. [`Mesh::node_at`] returns an
+    /// error for a point without a node.
     pub fn nearest_node(&self, x: f64, y: f64) -> Option<usize> {
-        let distance = |node: &[f64; 2]| (node[0] - x).hypot(node[1] - y);
-        let pairs = self.nodes.iter().map(distance).enumerate();
+        self.nearest_node_to([x, y, 0.0])
+    }
+
+    /// Index of the node nearest to `[x, y, z]`, as [`Mesh::nearest_node`].
+    pub fn nearest_node_to(&self, point: [f64; 3]) -> Option<usize> {
+        let pairs = self.nodes.iter().map(|node| distance(*node, point)).enumerate();
         pairs.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
     }
 
     /// Other nodes at the same point as `node`, which must exist.
     pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
-        let [x, y] = self.nodes[node];
         let near = SAME_POINT * self.extent();
         let beside = move |&other: &usize| {
-            let [a, b] = self.nodes[other];
-            other != node && (a - x).hypot(b - y) <= near
+            other != node && distance(self.nodes[other], self.nodes[node]) <= near
         };
         (0..self.nodes.len()).filter(beside)
     }
 
-    /// Indices of the nodes at height `y` within `tolerance` (m), from left to right.
+    /// Indices of the nodes at height `height` (y in the plane, z in space) within `tolerance` (m).
+    ///
+    /// They are listed from left to right, in space at each x from front to back.
     ///
     /// # Errors
-    /// [`Error::Input`] unless `y` is finite and `tolerance` finite and not negative.
-    pub fn nodes_at_height(&self, y: f64, tolerance: f64) -> Result<Vec<usize>> {
-        finite("height of the nodes", y)?;
+    /// [`Error::Input`] unless `height` is finite and `tolerance` finite and not negative.
+    pub fn nodes_at_height(&self, height: f64, tolerance: f64) -> Result<Vec<usize>> {
+        finite("height of the nodes", height)?;
         not_negative("tolerance of the height", tolerance)?;
-        let near = |&index: &usize| (self.nodes[index][1] - y).abs() <= tolerance;
+        let near = |&index: &usize| (self.nodes[index][self.up()] - height).abs() <= tolerance;
         let mut found: Vec<usize> = (0..self.nodes.len()).filter(near).collect();
-        found.sort_by(|&a, &b| self.nodes[a][0].total_cmp(&self.nodes[b][0]));
+        // The axis away is zero in the plane.
+        let away = 3 - self.up();
+        let axis =
+            |a: usize, b: usize, axis: usize| self.nodes[a][axis].total_cmp(&self.nodes[b][axis]);
+        found.sort_by(|&a, &b| axis(a, b, 0).then(axis(a, b, away)));
         Ok(found)
+    }
+
+    /// Whether the mesh lies in space.
+    pub(crate) fn has_depth(&self) -> bool {
+        self.has_depth
+    }
+
+    /// Direction of displacements upwards: Y in the plane, Z in space.
+    pub(crate) fn upwards(&self) -> Direction {
+        self.directions()[self.up()]
+    }
+
+    /// Axis that points up: y in the plane, z in space.
+    pub(crate) fn up(&self) -> usize {
+        if self.has_depth { 2 } else { 1 }
     }
 
     /// Height of the lowest node, m; 0 for an empty mesh.
     pub(crate) fn lowest(&self) -> f64 {
-        self.nodes.iter().map(|node| node[1]).reduce(f64::min).unwrap_or(0.0)
+        self.nodes.iter().map(|node| node[self.up()]).reduce(f64::min).unwrap_or(0.0)
     }
 
     /// Default tolerance for equal heights, m; far below the size of any element.
@@ -210,7 +298,7 @@ impl Mesh {
         1e-9 * self.extent()
     }
 
-    /// Width or height of the mesh, whichever is larger, m.
+    /// Width, depth or height of the mesh, whichever is largest, m.
     fn extent(&self) -> f64 {
         let extent = |axis: usize| {
             let values = self.nodes.iter().map(|node| node[axis]);
@@ -219,7 +307,7 @@ impl Mesh {
             });
             (high - low).max(0.0)
         };
-        extent(0).max(extent(1))
+        extent(0).max(extent(1)).max(extent(2))
     }
 
     /// Replaces every element for which `other` returns a new element.
@@ -230,10 +318,10 @@ impl Mesh {
     /// [`Error::Scene`] for a replacement with other nodes or directions.
     pub(crate) fn replace_elements(
         &mut self,
-        mut other: impl FnMut(&dyn Element, &[[f64; 2]]) -> Option<Box<dyn Element>>,
+        mut other: impl FnMut(&dyn Element, &[[f64; 3]]) -> Option<Box<dyn Element>>,
     ) -> Result<()> {
         for element in &mut self.elements {
-            let points: Vec<[f64; 2]> =
+            let points: Vec<[f64; 3]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
             let Some(changed) = other(element.as_ref(), &points) else { continue };
             let is_like =
@@ -246,17 +334,33 @@ impl Mesh {
     }
 
     /// Coordinates of `nodes`, which must exist.
-    pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 2]> {
+    pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&index| self.nodes[index]).collect()
     }
 }
 
-/// Corner nodes of an element that fills an area, and all nodes of other elements, sorted.
+/// Nodes of the faces of an element, or all its nodes if it has no faces, sorted.
 fn place(element: &dyn Element) -> Vec<usize> {
-    let corners = element.corners();
-    let mut key = if corners.is_empty() { element.nodes() } else { corners }.to_vec();
+    let mut key: Vec<usize> =
+        element.faces().iter().flat_map(ElementFace::corners).copied().collect();
+    if key.is_empty() {
+        key = element.nodes().to_vec();
+    }
     key.sort_unstable();
+    key.dedup();
     key
+}
+
+/// Error unless all coordinates of a node are finite.
+fn finite_point([x, y, z]: [f64; 3]) -> Result<()> {
+    finite("x of the node", x)?;
+    finite("y of the node", y)?;
+    finite("z of the node", z).map(drop)
+}
+
+/// Distance between two points, m.
+fn distance([a, b, c]: [f64; 3], [x, y, z]: [f64; 3]) -> f64 {
+    (a - x).hypot(b - y).hypot(c - z)
 }
 
 fn repeats<T: PartialEq>(items: &[T]) -> bool {

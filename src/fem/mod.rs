@@ -1,7 +1,9 @@
-//! Finite elements in the plane: solids, beams, trusses, masses, springs, and your own.
+//! Finite elements: solids, beams, trusses, masses, springs, and your own.
 //!
 //! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a structure of it.
-//! All quantities are per metre of thickness. x points to the right, y up; rotations are counter-clockwise.
+//! In the plane all quantities are per metre of thickness, x points to the right, y up, and rotations are
+//! counter-clockwise. In space ([`Mesh::in_space`]) x points to the right, y away and z up, and rotations follow the
+//! right-hand rule.
 //!
 //! ```
 //! use basemat::fem::{Layer, Material, Mesh};
@@ -9,29 +11,33 @@
 //! let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
 //! let mesh = Mesh::layered_block(-5.0..5.0, 4, &[Layer::new(2.0, 1, concrete)])?;
 //! assert_eq!(mesh.nodes().len(), 10);
-//! assert_eq!(mesh.nodes()[0], [-5.0, 0.0]);
+//! assert_eq!(mesh.nodes()[0], [-5.0, 0.0, 0.0]);
 //! # Ok::<(), basemat::Error>(())
 //! ```
 
 mod assembly;
 mod beam;
 mod element;
+mod element_face;
 mod layer;
 mod line;
 mod material;
 mod mesh;
+mod numbering;
 mod quad4;
 mod quad8;
 mod spring;
 mod truss;
 
 pub use crate::geometry::Direction;
-pub(crate) use assembly::{MatrixKind, Numbering, assemble, set_static_state};
+pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
 pub use beam::Beam;
 pub use element::{Element, MassKind};
+pub use element_face::ElementFace;
 pub use layer::Layer;
 pub use material::Material;
 pub use mesh::Mesh;
+pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
 pub use spring::{Dashpot, LumpedMass, Spring};

@@ -1,6 +1,7 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
 use super::element::{Element, MassKind, add_square};
+use super::element_face::ElementFace;
 use super::material::Material;
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
@@ -44,7 +45,7 @@ pub enum QuadFormulation {
 ///
 /// let material = Material::new(1.0e9, 0.3, 2000.0)?;
 /// let quad = Quad4::new([0, 1, 2, 3], material, QuadFormulation::Full);
-/// let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+/// let corners = [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 /// let mut mass = vec![0.0; 64];
 /// quad.mass(&corners, MassKind::Lumped, &mut mass);
 /// assert!((mass[0] - 1000.0).abs() < 1e-9);
@@ -74,7 +75,7 @@ impl Quad4 {
         &self,
         points: [[f64; 2]; N],
         weight: f64,
-        coordinates: &[[f64; 2]],
+        coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
         let points = points.into_iter().map(|point| (point, weight));
         integrate(&self.material, points, |point| {
@@ -83,7 +84,7 @@ impl Quad4 {
         })
     }
 
-    fn with_bending_modes(&self, coordinates: &[[f64; 2]]) -> [[f64; 8]; 8] {
+    fn with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
         let mut full = integrate(&self.material, points, |point| {
@@ -152,11 +153,11 @@ impl Element for Quad4 {
         TRANSLATIONS
     }
 
-    fn corners(&self) -> &[usize] {
-        &self.nodes
+    fn faces(&self) -> Vec<ElementFace> {
+        vec![ElementFace::side(&self.nodes)]
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let block = match self.formulation {
             QuadFormulation::Full => self.integrated(gauss_points(), 1.0, coordinates),
             QuadFormulation::OnePoint => self.integrated([[0.0; 2]], 4.0, coordinates),
@@ -174,7 +175,7 @@ impl Element for Quad4 {
         add_square(matrix, &block);
     }
 
-    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut block = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of third degree in ξ and in η.
         for point in gauss_points() {
@@ -194,7 +195,7 @@ impl Element for Quad4 {
     }
 
     /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
         for corner in CORNERS {
             let value = Jacobian::at(corner, coordinates).determinant;
@@ -228,7 +229,7 @@ pub(super) struct Jacobian {
 }
 
 impl Jacobian {
-    pub(super) fn at(point: [f64; 2], coordinates: &[[f64; 2]]) -> Self {
+    pub(super) fn at(point: [f64; 2], coordinates: &[[f64; 3]]) -> Self {
         let (j, determinant) = derivatives(&natural_slopes(point), coordinates);
         let inverse = [
             [j[1][1] / determinant, -j[1][0] / determinant],
@@ -249,7 +250,7 @@ impl Jacobian {
 }
 
 /// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions, and its determinant.
-pub(super) fn derivatives(natural: &[[f64; 2]], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 2], f64) {
+pub(super) fn derivatives(natural: &[[f64; 2]], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 2], f64) {
     let mut j = [[0.0; 2]; 2];
     for (slope, node) in natural.iter().zip(coordinates) {
         for axis in 0..2 {

@@ -1,6 +1,7 @@
 //! Eight-node quadrilateral of a solid in plane strain.
 
 use super::element::{Element, MassKind, add_square};
+use super::element_face::ElementFace;
 use super::material::Material;
 use super::quad4::{derivatives, integrate, strains};
 use crate::error::{Result, require, same_length};
@@ -35,7 +36,7 @@ pub enum Quad8Integration {
 /// let nodes = [
 ///     [0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0],
 ///     [1.0, 0.0], [2.0, 0.5], [1.0, 1.0], [0.0, 0.5],
-/// ];
+/// ].map(|[x, y]| [x, y, 0.0]);
 /// let mut mass = vec![0.0; 256];
 /// quad.mass(&nodes, MassKind::Consistent, &mut mass);
 /// // All entries of one direction sum up to the mass.
@@ -105,7 +106,7 @@ fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
 }
 
 /// Slopes (∂/∂x, ∂/∂y) at a point, and the determinant of ∂(x, y)/∂(ξ, η).
-fn slopes(point: [f64; 2], coordinates: &[[f64; 2]]) -> ([[f64; 2]; 8], f64) {
+fn slopes(point: [f64; 2], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 8], f64) {
     let natural = natural_slopes(point);
     let (j, determinant) = derivatives(&natural, coordinates);
     let global = natural.map(|[xi, eta]| {
@@ -133,11 +134,11 @@ impl Element for Quad8 {
         TRANSLATIONS
     }
 
-    fn corners(&self) -> &[usize] {
-        &self.nodes[..4]
+    fn faces(&self) -> Vec<ElementFace> {
+        vec![ElementFace::side(&self.nodes[..4])]
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let points = gauss::square(self.integration.order());
         let block = integrate(&self.material, points, |point| {
             let (slopes, determinant) = slopes(point, coordinates);
@@ -149,7 +150,7 @@ impl Element for Quad8 {
 
     /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
     /// Zienkiewicz 1976). Row sums would be negative at the corners.
-    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut one = [[0.0; 8]; 8];
         let mut total = 0.0;
         for (point, weight) in gauss::square(Quad8Integration::Full.order()) {
@@ -182,7 +183,7 @@ impl Element for Quad8 {
     }
 
     /// [`Error::Input`](crate::Error::Input) unless the element's map is regular at its nodes and Gauss points.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
         let points = gauss::square(Quad8Integration::Full.order()).map(|(point, _)| point);
         for point in points.chain(PLACES) {

@@ -16,7 +16,7 @@ use crate::geometry::{Direction, FRAME, TRANSLATIONS};
 ///
 /// let spring = Spring::new([0, 1], Direction::X, 5.0)?;
 /// let mut matrix = vec![0.0; 4];
-/// spring.stiffness(&[[0.0, 0.0], [0.0, 0.0]], &mut matrix);
+/// spring.stiffness(&[[0.0; 3]; 2], &mut matrix);
 /// assert_eq!(matrix, [5.0, -5.0, -5.0, 5.0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -56,15 +56,15 @@ impl Element for Spring {
         self.0.directions()
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         self.0.add(coordinates, matrix);
     }
 
     /// Adds nothing.
-    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial spring coincide.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         self.0.check("length of the axial spring", coordinates)
     }
 }
@@ -84,7 +84,7 @@ impl Pair {
     }
 
     /// Adds the 2 × 2 or 4 × 4 matrix of the pair to `matrix`.
-    fn add(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn add(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let c = self.coefficient;
         if self.direction.is_some() {
             add_square(matrix, &[[c, -c], [-c, c]]);
@@ -94,7 +94,7 @@ impl Pair {
     }
 
     /// Error if an axial pair has both nodes at one place.
-    fn check(&self, length: &'static str, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, length: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
         self.direction.map_or_else(|| Line::check(length, coordinates), |_| Ok(()))
     }
 }
@@ -110,7 +110,7 @@ impl Pair {
 ///
 /// let dashpot = Dashpot::new([0, 1], Direction::X, 5.0)?;
 /// let mut matrix = vec![0.0; 4];
-/// dashpot.damping(&[[0.0, 0.0], [0.0, 0.0]], &mut matrix);
+/// dashpot.damping(&[[0.0; 3]; 2], &mut matrix);
 /// assert_eq!(matrix, [5.0, -5.0, -5.0, 5.0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -151,17 +151,17 @@ impl Element for Dashpot {
     }
 
     /// Adds nothing.
-    fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+    fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     /// Adds nothing.
-    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 
-    fn damping(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn damping(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         self.0.add(coordinates, matrix);
     }
 
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial dashpot coincide.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         self.0.check("length of the axial dashpot", coordinates)
     }
 }
@@ -173,7 +173,7 @@ impl Element for Dashpot {
 ///
 /// let floor = LumpedMass::new(0, 100.0)?.with_rotary_inertia(40.0)?;
 /// let mut mass = vec![0.0; 9];
-/// floor.mass(&[[0.0, 3.0]], MassKind::Consistent, &mut mass);
+/// floor.mass(&[[0.0, 3.0, 0.0]], MassKind::Consistent, &mut mass);
 /// assert_eq!(mass, [100.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 40.0]);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -216,9 +216,9 @@ impl Element for LumpedMass {
     }
 
     /// Adds nothing.
-    fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+    fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
-    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         let diagonal = [self.mass, self.mass, self.rotary_inertia];
         let next = self.order() + 1;
         for (entry, value) in matrix.iter_mut().step_by(next).zip(diagonal) {

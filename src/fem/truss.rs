@@ -15,7 +15,7 @@ use crate::geometry::{Direction, TRANSLATIONS};
 ///
 /// let bar = Truss::new([0, 1], 200.0e9, 1.0e-3, 7800.0)?;
 /// let mut stiffness = vec![0.0; 16];
-/// bar.stiffness(&[[0.0, 0.0], [0.0, 2.0]], &mut stiffness);
+/// bar.stiffness(&[[0.0; 3], [0.0, 2.0, 0.0]], &mut stiffness);
 /// assert_eq!(stiffness[5], 1.0e8); // EA/L on the first node's y
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -54,13 +54,13 @@ impl Element for Truss {
         TRANSLATIONS
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         if let Some(line) = Line::between(coordinates) {
             line.add_axial(self.young_modulus * self.area / line.length, matrix);
         }
     }
 
-    fn geometric_stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         if let Some(line) = Line::between(coordinates).filter(|_| self.compression != 0.0) {
             line.add_sway(self.compression, matrix);
         }
@@ -68,7 +68,7 @@ impl Element for Truss {
 
     fn in_static_state(
         &self,
-        coordinates: &[[f64; 2]],
+        coordinates: &[[f64; 3]],
         displacement: &[f64],
         _gravity: f64,
     ) -> Option<Box<dyn Element>> {
@@ -84,7 +84,7 @@ impl Element for Truss {
         Some(self.compression)
     }
 
-    fn mass(&self, coordinates: &[[f64; 2]], kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let Some(line) = Line::between(coordinates) else { return };
         let mass = self.density * self.area * line.length;
         // Points of the bar move linearly between the ends, in both directions.
@@ -102,7 +102,7 @@ impl Element for Truss {
     }
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
-    fn check(&self, coordinates: &[[f64; 2]]) -> Result<()> {
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         Line::check("length of the truss", coordinates)
     }
 }

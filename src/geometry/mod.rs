@@ -1,11 +1,14 @@
 //! Geometry: contact elements and the order of their numbers, cells of a lattice, directions, and shapes of
 //! foundations.
 
+mod direction;
 mod element;
 mod footing;
 mod lattice;
 mod patch;
 
+pub use direction::Direction;
+pub(crate) use direction::{FRAME, IN_SPACE, TRANSLATIONS};
 pub use element::ContactElement;
 pub(crate) use footing::{Edge, Footing};
 pub(crate) use lattice::{Lattice, SERIES, offset};
@@ -119,31 +122,6 @@ pub(crate) fn middle([low, high]: [f64; 2]) -> f64 {
 pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }
-
-/// Direction of a degree of freedom at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum Direction {
-    /// Displacement to the right, m.
-    X,
-    /// Displacement upwards, m.
-    Y,
-    /// Rotation, counter-clockwise, rad.
-    Rotation,
-}
-
-words! { pub(crate) Direction, "direction", {
-    X = "x",
-    Y = "y",
-    Rotation = "rotation",
-} }
-
-/// Directions of elements without rotations.
-pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
-
-/// Directions of beams and of masses with rotary inertia.
-pub(crate) const FRAME: &[Direction] = &Direction::ALL;
 
 /// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
 pub(crate) fn resultant(along: f64, across: f64) -> f64 {

@@ -74,11 +74,19 @@ impl DeformedShape {
     pub fn of_model(model: &FemModel) -> Self {
         // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
-        let point = |(node, position): (usize, &[f64; 2])| ShapePoint {
-            position: *position,
-            horizontal: row(node, Direction::X),
-            vertical: row(node, Direction::Y),
-            ..ShapePoint::default()
+        let up = model.mesh().upwards();
+        let in_space = |node, [x, y, z]: [f64; 3]| {
+            ShapePoint::in_space(
+                [x, y, z],
+                [Direction::X, Direction::Y, up].map(|own| row(node, own)),
+            )
+        };
+        let in_plane = |node, [x, y, _]: [f64; 3]| {
+            let (horizontal, vertical) = (row(node, Direction::X), row(node, up));
+            ShapePoint { position: [x, y], horizontal, vertical, ..ShapePoint::default() }
+        };
+        let point = |(node, place): (usize, &[f64; 3])| {
+            if model.mesh().has_depth() { in_space(node, *place) } else { in_plane(node, *place) }
         };
         let elements = model.mesh().elements();
         Self {

@@ -73,7 +73,7 @@ fn the_manuals_example_is_read() {
     let gmsh = read(MANUAL).unwrap();
     assert_eq!((gmsh.surfaces(), gmsh.lines().len()), (vec![""], 0));
     let mesh = gmsh.mesh(&[("", concrete())]).unwrap();
-    assert_eq!(mesh.nodes()[4], [2.0, 0.0]);
+    assert_eq!(mesh.nodes()[4], [2.0, 0.0, 0.0]);
     let nodes: Vec<_> = mesh.elements().map(|quad| quad.nodes().to_vec()).collect();
     assert_eq!(nodes, [[0, 1, 2, 3], [1, 4, 5, 2]]);
 }
@@ -93,7 +93,7 @@ fn written(mesh: &Mesh, lower: usize, contact: &[usize]) -> String {
         let _ = writeln!(text, "{}", tag(node));
     }
     for &node in contact {
-        let [x, y] = mesh.nodes()[node];
+        let [x, y, _] = mesh.nodes()[node];
         let _ = writeln!(text, "{x:e} {y:e} 0 {x}");
     }
     let _ = writeln!(text, "2 1 0 {}", count - on_line);
@@ -102,7 +102,7 @@ fn written(mesh: &Mesh, lower: usize, contact: &[usize]) -> String {
         let _ = writeln!(text, "{}", tag(node));
     }
     for node in rest() {
-        let [x, y] = mesh.nodes()[node];
+        let [x, y, _] = mesh.nodes()[node];
         let _ = writeln!(text, "{x} {y} 0");
     }
     let quads = mesh.elements().len();
@@ -314,12 +314,12 @@ fn clockwise_elements_of_the_second_order_are_turned() {
         $Elements\n1 1 1 1\n2 1 16 1\n1 1 2 3 4 5 6 7 8\n$EndElements\n";
     let mesh = read(text).unwrap().mesh(&[("", concrete())]).unwrap();
     let nodes = mesh.elements().next().unwrap().nodes();
-    let places: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.nodes()[node]).collect();
-    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let places: Vec<[f64; 3]> = nodes.iter().map(|&node| mesh.nodes()[node]).collect();
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]].map(|[x, y]| [x, y, 0.0]);
     assert_eq!(places[..4], corners);
     for k in 0..4 {
         let (a, b) = (corners[k], corners[(k + 1) % 4]);
-        assert_eq!(places[4 + k], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
+        assert_eq!(places[4 + k], [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.0]);
     }
 }
 

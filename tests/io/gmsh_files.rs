@@ -69,7 +69,7 @@ fn elements_groups_and_lines_are_those_of_the_file() {
 fn areas_materials_and_the_order_of_nodes_are_right() {
     for (name, _) in FILES {
         let model = model(&file(name));
-        let ride = model.rigid_motion(Direction::X, [0.0; 2]);
+        let ride = model.rigid_motion(Direction::X, [0.0; 3]);
         let mut mass = Triplets::new(model.dofs());
         model.mass(&mut mass).unwrap();
         let expected = 2500.0 * 12.0 + 1800.0 * 18.0;
@@ -77,7 +77,7 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
         assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
         // u_x = x: σ_xx ε_xx = λ + 2μ.
         let mut strain = vec![0.0; model.dofs()];
-        for (node, [x, _]) in model.mesh().nodes().iter().enumerate() {
+        for (node, [x, ..]) in model.mesh().nodes().iter().enumerate() {
             strain[model.dof(node, Direction::X).unwrap()] = *x;
         }
         let modulus = |young: f64, nu: f64| young * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
@@ -85,7 +85,7 @@ fn areas_materials_and_the_order_of_nodes_are_right() {
         let force = product(&stiffness(&model), &strain);
         let found = dot(&strain, &force);
         assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found}");
-        for (node, &[x, y]) in model.mesh().nodes().iter().enumerate() {
+        for (node, &[x, y, _]) in model.mesh().nodes().iter().enumerate() {
             let inside = x.abs() < 2.99 && y > 0.01 && y < 4.99 && (y - 2.0).abs() > 0.01;
             if inside {
                 for direction in [Direction::X, Direction::Y] {
@@ -114,7 +114,7 @@ fn compliance(model: &FemModel) -> f64 {
         vector.iter_mut().zip(&held).filter(|(_, held)| **held).for_each(|(x, _)| *x = 0.0);
         vector
     };
-    let load = free(product(&mass, &model.rigid_motion(Direction::X, [0.0; 2])));
+    let load = free(product(&mass, &model.rigid_motion(Direction::X, [0.0; 3])));
     let precondition =
         |r: &[f64]| -> Vec<f64> { r.iter().zip(&scale).map(|(r, k)| r / k).collect() };
     let (mut u, mut r) = (vec![0.0; n], load.clone());

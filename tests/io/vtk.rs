@@ -144,7 +144,7 @@ fn deformed_shapes_move_as_their_structures() {
     }
     let model = FemModel::new(mesh, &[left, right]).unwrap();
     let model = model.with_rigid_link(foot, &[left, right]).unwrap();
-    let shift = model.rigid_motion(Direction::X, [0.0; 2]);
+    let shift = model.rigid_motion(Direction::X, [0.0; 3]);
     let moved = DeformedShape::of_model(&model).displacements(&shift).unwrap();
     assert_eq!(moved, [[1.0, 0.0, 0.0]; 4]);
 

@@ -21,7 +21,7 @@ impl Element for Column {
         &[Direction::X, Direction::Y]
     }
 
-    fn stiffness(&self, coordinates: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         // A strut along its axis, exact under rigid motions.
         let [dx, dy] = [0, 1].map(|k| coordinates[1][k] - coordinates[0][k]);
         let length = dx.hypot(dy);
@@ -33,7 +33,7 @@ impl Element for Column {
         }
     }
 
-    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         for i in 0..4 {
             matrix[5 * i] += 500.0;
         }

@@ -202,7 +202,7 @@ impl PyMesh {
     /// Coordinates of the nodes: array of shape (nodes, 2), m.
     #[getter]
     fn nodes(&self) -> Rows {
-        Rows(self.0.nodes().iter().map(|node| node.to_vec()).collect())
+        Rows(self.0.nodes().iter().map(|node| node[..2].to_vec()).collect())
     }
 
     /// Adds a node at (``x``, ``y``), m; returns its number.

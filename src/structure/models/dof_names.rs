@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::error::in_brackets;
 use crate::fem::{Direction, Mesh};
 use crate::structure::detached::{NAMED, listed};
 
@@ -15,22 +16,23 @@ pub(super) fn describe(
     dofs: &[usize],
 ) -> Option<String> {
     let limit = dofs.iter().copied().max()?;
-    let mut is_meant = vec![false; limit.saturating_add(1).min(3 * mesh.nodes().len())];
+    let mut is_meant =
+        vec![false; limit.saturating_add(1).min(mesh.directions().len() * mesh.nodes().len())];
     for &dof in dofs {
         *is_meant.get_mut(dof)? = true;
     }
     let meant = |dof: usize| is_meant.get(dof).copied().unwrap_or(false);
     let mut nodes = Vec::new();
     let mut texts = Vec::new();
-    for (node, [x, y]) in mesh.nodes().iter().enumerate() {
-        let own = || Direction::ALL.into_iter().filter(|d| number(node, *d).is_some());
+    for (node, place) in mesh.nodes().iter().enumerate() {
+        let own = || mesh.directions().iter().copied().filter(|d| number(node, *d).is_some());
         let these: Vec<_> = own().filter(|d| number(node, *d).is_some_and(meant)).collect();
         if these.is_empty() {
             continue;
         }
         nodes.push(node);
         if texts.len() < NAMED {
-            let mut text = format!("node {node} at ({x}, {y})");
+            let mut text = format!("node {node} at {}", in_brackets(place, mesh.nodes()));
             if these.len() < own().count() {
                 for direction in these {
                     let _ = write!(text, " in {direction:?}");

@@ -2,7 +2,7 @@
 
 use super::dof_names::describe;
 use super::rigid_links::RigidLinks;
-use crate::error::{Error, Result, at_least, in_bounds, positive, require};
+use crate::error::{Error, Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
 
@@ -55,14 +55,15 @@ impl FemModel {
     /// # Errors
     /// [`Error::Size`] for fewer than two contact nodes, [`Error::Index`] for a node that does not exist,
     /// [`Error::Input`] when the nodes do not run to the right at one height, [`Error::Scene`] when no element
-    /// displaces one of them.
+    /// displaces one of them, or for a mesh in space.
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
+        require_part("line of contact nodes", !mesh.has_depth(), "a mesh in the plane")?;
         at_least("contact nodes", contact.len(), 2)?;
         let numbering = Numbering::new(&mesh);
         let mut nodes: Vec<BaseNode> = Vec::with_capacity(contact.len());
         let mut height = None;
         for &index in contact {
-            let [x, y] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
+            let [x, y, _] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
             let quantity = "y of a contact node";
             let needed = "the height of the others";
             require(quantity, y, (y - *height.get_or_insert(y)).abs() <= mesh.tolerance(), needed)?;
@@ -260,8 +261,9 @@ impl FemModel {
 
     /// Values of all degrees of freedom in a unit rigid motion.
     ///
-    /// A displacement of 1 m in x or y, or a small rotation of 1 rad about `point`.
-    pub fn rigid_motion(&self, direction: Direction, point: [f64; 2]) -> Vec<f64> {
+    /// A displacement of 1 m, or a small rotation of 1 rad about `point` (z is zero in the plane). No motion for a
+    /// direction that the mesh does not have.
+    pub fn rigid_motion(&self, direction: Direction, point: [f64; 3]) -> Vec<f64> {
         let mut motion = vec![0.0; self.dofs()];
         self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.dof(node, own));
         motion
@@ -271,19 +273,18 @@ impl FemModel {
     pub(super) fn fill_rigid_motion(
         &self,
         direction: Direction,
-        point: [f64; 2],
+        point: [f64; 3],
         motion: &mut [f64],
         number: impl Fn(usize, Direction) -> Option<usize>,
     ) {
-        for (node, [x, y]) in self.mesh.nodes().iter().enumerate() {
-            let values = match direction {
-                Direction::X => [1.0, 0.0, 0.0],
-                Direction::Y => [0.0, 1.0, 0.0],
-                Direction::Rotation => [point[1] - y, x - point[0], 1.0],
-            };
-            for (own, value) in Direction::ALL.into_iter().zip(values) {
+        if !self.mesh.directions().contains(&direction) {
+            return;
+        }
+        for (node, place) in self.mesh.nodes().iter().enumerate() {
+            let arm = [0, 1, 2].map(|axis| place[axis] - point[axis]);
+            for &own in self.mesh.directions() {
                 if let Some(dof) = number(node, own) {
-                    motion[dof] = value;
+                    motion[dof] = own.in_rigid_motion(direction, arm);
                 }
             }
         }

@@ -27,7 +27,7 @@ impl FemModel {
     ///     .map(|y| tower.mesh().node_at(-2.0, y))
     ///     .collect::<Result<_, _>>()?;
     /// let row = tower.pressure_row(&side)?;
-    /// let force = row.value(&tower.rigid_motion(Direction::X, [0.0, 0.0]));
+    /// let force = row.value(&tower.rigid_motion(Direction::X, [0.0; 3]));
     /// assert!((force - 10.0).abs() < 1e-12);
     /// let wind = Load::new(row, |t: f64| 1.0e3 * (0.5 * t).sin().powi(2));
     /// # let _ = wind;
@@ -37,10 +37,12 @@ impl FemModel {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
     /// that does not exist, [`Error::Input`](crate::Error::Input) for two successive nodes at one place,
-    /// [`Error::Part`](crate::Error::Part) for a node that no element moves in a direction of the pressure.
+    /// [`Error::Part`](crate::Error::Part) for a node that no element moves in a direction of the pressure,
+    /// [`Error::Scene`](crate::Error::Scene) for a mesh in space.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
+        require_part("pressure along a line", !self.mesh().has_depth(), "a mesh in the plane")?;
         let mut row = DofCombination::default();
-        for (node, [x, y]) in self.line_weights(nodes)? {
+        for (node, [x, y, _]) in self.line_weights(nodes)? {
             // The normal to the left, times the length.
             for (direction, force) in [(Direction::X, -y), (Direction::Y, x)] {
                 if force != 0.0 {
@@ -56,12 +58,12 @@ impl FemModel {
     /// It is spread evenly along the line through `nodes`, for a [`Load`](crate::coupled::Load) in N/m.
     ///
     /// # Errors
-    /// As for [`FemModel::pressure_row`]; [`Error::Scene`](crate::Error::Scene) for [`Direction::Rotation`].
+    /// As for [`FemModel::pressure_row`]; [`Error::Scene`](crate::Error::Scene) for a rotation.
     pub fn resultant_row(&self, nodes: &[usize], direction: Direction) -> Result<DofCombination> {
-        let needed = "a direction along x or y";
-        require_part("resultant along a line", direction != Direction::Rotation, needed)?;
+        let needed = "a displacement, not a rotation";
+        require_part("resultant along a line", !direction.is_rotation(), needed)?;
         let weights = self.line_weights(nodes)?;
-        let lengths = || weights.iter().map(|(_, [x, y])| x.hypot(*y));
+        let lengths = || weights.iter().map(|(_, [x, y, z])| x.hypot(*y).hypot(*z));
         let whole: f64 = lengths().sum();
         let mut row = DofCombination::default();
         for ((node, _), length) in weights.iter().zip(lengths()) {
@@ -70,8 +72,8 @@ impl FemModel {
         Ok(row)
     }
 
-    /// The nodes of a line with their parts of its length, `[x, y]` in m; a node may occur more than once.
-    fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 2])>> {
+    /// The nodes of a line with their parts of its length, `[x, y, z]` in m; a node may occur more than once.
+    fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 3])>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
         let all = self.mesh().nodes();
         let at = |index: usize| in_bounds("node", index, all.len()).map(|index| all[index]);
@@ -84,8 +86,11 @@ impl FemModel {
                 None => (1, &[0.5, 0.5]),
             };
             let [from, to] = [at(nodes[k])?, at(nodes[k + count])?];
-            let way = [to[0] - from[0], to[1] - from[1]];
-            positive("distance between nodes of a loaded line", way[0].hypot(way[1]))?;
+            let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+            positive(
+                "distance between nodes of a loaded line",
+                way[0].hypot(way[1]).hypot(way[2]),
+            )?;
             let own = nodes[k..=k + count].iter().zip(shares);
             weights.extend(own.map(|(&node, share)| (node, way.map(|w| share * w))));
             k += count;

@@ -1,7 +1,7 @@
 //! P–Δ of finite-element models: axial forces from the weight, and the buckling factor.
 
 use crate::error::{Error, Result, StructureError, not_negative};
-use crate::fem::{Direction, MatrixKind, set_static_state};
+use crate::fem::{MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
 use crate::structure::{FemModel, Structure, Triplets};
@@ -103,7 +103,7 @@ impl FemModel {
         self.mass(&mut mass)?;
         let mass = SparseMatrix::new("mass matrix", &mass)?;
         let mut weight = vec![0.0; n];
-        mass.multiply_add(-gravity, &self.rigid_motion(Direction::Y, [0.0; 2]), &mut weight);
+        mass.multiply_add(-gravity, &self.rigid_motion(self.mesh.upwards(), [0.0; 3]), &mut weight);
         let held = HeldStructure::new(self)?;
         let load: Vec<f64> = held.free.iter().map(|&dof| weight[dof]).collect();
         let mut displacement = vec![0.0; n];

@@ -1,7 +1,7 @@
 //! Rigid links, by which nodes follow another node like a rigid body.
 
 use crate::error::{Error, Result, in_bounds};
-use crate::fem::{Direction, Mesh, Numbering};
+use crate::fem::{Mesh, Numbering};
 use crate::structure::Triplets;
 
 /// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
@@ -36,9 +36,9 @@ impl RigidLinks {
         for &index in std::iter::once(&leader).chain(followers) {
             in_bounds("node of a rigid link", index, bound)?;
         }
-        if Direction::ALL.into_iter().any(|direction| numbering.dof(leader, direction).is_none()) {
+        if mesh.directions().iter().any(|&own| numbering.dof(leader, own).is_none()) {
             return Err(fault(
-                "its leader must have all three degrees of freedom, from a beam for example",
+                "its leader must have all degrees of freedom of a node, from a beam for example",
             ));
         }
         if self.leader[leader].is_some() {
@@ -64,7 +64,7 @@ impl RigidLinks {
         let mut next = 0;
         let mut remaining = vec![None; numbering.dofs()];
         for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
-            for dof in Direction::ALL.into_iter().filter_map(|d| numbering.dof(node, d)) {
+            for dof in mesh.directions().iter().filter_map(|&d| numbering.dof(node, d)) {
                 remaining[dof] = Some(next);
                 next += 1;
             }
@@ -72,18 +72,16 @@ impl RigidLinks {
         self.dofs = next;
         let number = |node, direction| remaining[numbering.dof(node, direction)?];
         for node in 0..nodes.len() {
-            for direction in Direction::ALL {
+            for &direction in mesh.directions() {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
                 let leader = self.leader[node].unwrap_or(node);
-                let arm = [nodes[node][0] - nodes[leader][0], nodes[node][1] - nodes[leader][1]];
-                let turn = match direction {
-                    Direction::X => -arm[1],
-                    Direction::Y => arm[0],
-                    Direction::Rotation => 0.0,
-                };
-                let own = number(leader, direction).map(|index| (index, 1.0));
-                let turned = number(leader, Direction::Rotation).map(|index| (index, turn));
-                let row = own.into_iter().chain(turned.filter(|_| turn != 0.0));
+                let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
+                // A follower moves like its leader, and its displacement also with the leader's rotations.
+                let motions = mesh.directions().iter().map(|&motion| {
+                    (number(leader, motion), direction.in_rigid_motion(motion, arm))
+                });
+                let own = motions.filter(|(_, weight)| *weight != 0.0);
+                let row = own.filter_map(|(index, weight)| Some((index?, weight)));
                 self.rows[dof] = row.collect();
             }
         }

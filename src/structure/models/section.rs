@@ -1,6 +1,6 @@
 //! Forces across a horizontal cut of a finite-element model.
 
-use crate::error::{Error, Result, finite};
+use crate::error::{Error, Result, finite, require_part};
 use crate::fem::{Direction, MatrixKind, assemble};
 use crate::structure::{FemModel, SectionRows, Triplets};
 
@@ -31,18 +31,19 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Input`] when a number is not finite, when no node lies at `height`, when no element lies above it,
-    /// or when an element crosses it.
+    /// or when an element crosses it; [`Error::Scene`] for a mesh in space.
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
+        require_part("section at a height", !self.mesh.has_depth(), "a mesh in the plane")?;
         finite("height of the section", height)?;
         finite("reference point of the section", reference)?;
         let tolerance = self.mesh.tolerance();
         let cut = self.mesh.nodes_at_height(height, tolerance)?;
-        let sides = |points: &[[f64; 2]]| {
+        let sides = |points: &[[f64; 3]]| {
             let above = points.iter().any(|point| point[1] > height + tolerance);
             let below = points.iter().any(|point| point[1] < height - tolerance);
             (above, below)
         };
-        let is_above = |points: &[[f64; 2]]| sides(points) == (true, false);
+        let is_above = |points: &[[f64; 3]]| sides(points) == (true, false);
         let fault =
             |needed| Error::Input { quantity: "height of the section", value: height, needed };
         let elements = self.mesh.elements();
@@ -70,10 +71,10 @@ impl FemModel {
         let rows = |direction: Direction, sign: f64| {
             let number = |node, own| self.numbering.dof(node, own);
             let mut motion = vec![0.0; self.numbering.dofs()];
-            self.fill_rigid_motion(direction, [reference, height], &mut motion, number);
+            self.fill_rigid_motion(direction, [reference, height, 0.0], &mut motion, number);
             let mut weights = vec![0.0; motion.len()];
             for &node in &cut {
-                for dof in Direction::ALL.iter().filter_map(|&d| number(node, d)) {
+                for dof in self.mesh.directions().iter().filter_map(|&d| number(node, d)) {
                     weights[dof] = sign * motion[dof];
                 }
             }

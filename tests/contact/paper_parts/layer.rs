@@ -26,7 +26,7 @@ fn element_forces(ratio: f64, formulation: QuadFormulation, u: &[f64; 8]) -> [f6
     let young = 2.0 * soil.shear_modulus() * (1.0 + soil.poisson());
     let material = Material::new(young, soil.poisson(), 0.0).unwrap();
     let t = ratio * HEIGHT;
-    let corners = [[0.0, 0.0], [LENGTH, 0.0], [LENGTH, t], [0.0, t]];
+    let corners = [[0.0; 3], [LENGTH, 0.0, 0.0], [LENGTH, t, 0.0], [0.0, t, 0.0]];
     let mut stiffness = vec![0.0; 64];
     Quad4::new([0, 1, 2, 3], material, formulation).stiffness(&corners, &mut stiffness);
     std::array::from_fn(|i| (0..8).map(|j| stiffness[8 * i + j] * u[j]).sum())

@@ -3,7 +3,7 @@
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
 use basemat::bem::{ContactElement, Ground, GroundDescription};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
-use basemat::fem::{Direction, Element, MassKind};
+use basemat::fem::{Direction, Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
 use basemat::interface::{
     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
@@ -323,17 +323,17 @@ impl Element for Double {
         &[Direction::X, Direction::Y]
     }
 
-    fn stiffness(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
         self.0.asked("stiffness");
         matrix[0] += CORRECT;
     }
 
-    fn geometric_stiffness(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+    fn geometric_stiffness(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
         self.0.asked("geometric_stiffness");
         matrix[0] += 4.0 * CORRECT;
     }
 
-    fn in_static_state(&self, _: &[[f64; 2]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
+    fn in_static_state(&self, _: &[[f64; 3]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
         self.0.asked("in_static_state");
         Some(Box::new(Double(self.0.clone())))
     }
@@ -343,22 +343,27 @@ impl Element for Double {
         Some(CORRECT)
     }
 
-    fn mass(&self, _: &[[f64; 2]], _: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, _: &[[f64; 3]], _: MassKind, matrix: &mut [f64]) {
         self.0.asked("mass");
         matrix[0] += 2.0 * CORRECT;
     }
 
-    fn damping(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+    fn damping(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
         self.0.asked("damping");
         matrix[0] += 3.0 * CORRECT;
     }
 
-    fn corners(&self) -> &[usize] {
-        self.0.asked("corners");
-        &[7]
+    fn faces(&self) -> Vec<ElementFace> {
+        self.0.asked("faces");
+        vec![ElementFace::side(&[7])]
     }
 
-    fn check(&self, _: &[[f64; 2]]) -> Result<()> {
+    fn is_plane(&self) -> bool {
+        self.0.asked("is_plane");
+        false
+    }
+
+    fn check(&self, _: &[[f64; 3]]) -> Result<()> {
         self.0.asked("check");
         Err(refusal())
     }

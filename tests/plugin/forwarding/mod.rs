@@ -13,7 +13,7 @@ mod structure;
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField};
 use basemat::bem::{Ground, SpringGround};
 use basemat::coupled::TimeScheme;
-use basemat::fem::{Element, MassKind};
+use basemat::fem::{Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
 use basemat::interface::{ContactState, InterfaceLaw, Mode};
 use basemat::motion::{AtRest, FreeField, RecordFormat};
@@ -170,7 +170,8 @@ fn boxed_elements() {
         assert_eq!(matrix, [10.0 * CORRECT]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
         assert_eq!(part.compression(), Some(CORRECT));
-        assert_eq!(part.corners(), [7]);
+        assert_eq!(part.faces(), [ElementFace::side(&[7])]);
+        assert!(!part.is_plane());
         assert_eq!(part.check(&[]), Err(doubles::refusal()));
         assert_eq!(part.order(), 11);
     }

@@ -18,14 +18,14 @@ pub fn three_storeys() -> basemat::Result<ShearBuilding> {
 /// The cantilever of `td_EBcantilever_*`. Beam on a rigid base with mass and rotary inertia: node 0 is the middle of the base.
 pub struct Cantilever {
     beams: Vec<Beam>,
-    heights: Vec<[f64; 2]>,
+    heights: Vec<[f64; 3]>,
 }
 
 impl Cantilever {
     pub fn new(elements: usize) -> Self {
         // EI = 20, mass per length 1, and an area that keeps the axial mode out of the way.
         let beam = |k| Beam::new([k, k + 1], 20.0, 1.0, 1.0, 1.0).unwrap();
-        let height = |k| [0.0, 4.0 * k as f64 / elements as f64];
+        let height = |k| [0.0, 4.0 * k as f64 / elements as f64, 0.0];
         Self {
             beams: (0..elements).map(beam).collect(),
             heights: (0..=elements).map(height).collect(),
@@ -41,7 +41,7 @@ impl Cantilever {
         &self,
         factor: f64,
         matrix: &mut Triplets,
-        fill: impl Fn(&Beam, &[[f64; 2]], &mut [f64]),
+        fill: impl Fn(&Beam, &[[f64; 3]], &mut [f64]),
     ) {
         for (k, beam) in self.beams.iter().enumerate() {
             let mut block = [0.0; 36];

@@ -91,7 +91,7 @@ fn pure_bending_of_rectangles_is_exact() {
 fn element_matrix(kind: QuadFormulation, [a, b]: [f64; 2], nu: f64) -> Vec<Vec<f64>> {
     let quad = Quad4::new([0, 1, 2, 3], Material::new(E, nu, 1.0).unwrap(), kind);
     let mut matrix = vec![0.0; 64];
-    quad.stiffness(&[[0.0, 0.0], [a, 0.0], [a, b], [0.0, b]], &mut matrix);
+    quad.stiffness(&[[0.0; 3], [a, 0.0, 0.0], [a, b, 0.0], [0.0, b, 0.0]], &mut matrix);
     matrix.chunks(8).map(<[f64]>::to_vec).collect()
 }
 

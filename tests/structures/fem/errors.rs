@@ -150,9 +150,9 @@ impl Element for Nothing {
         &[Direction::X]
     }
 
-    fn stiffness(&self, _coordinates: &[[f64; 2]], _matrix: &mut [f64]) {}
+    fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
-    fn mass(&self, _coordinates: &[[f64; 2]], _kind: MassKind, _matrix: &mut [f64]) {}
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 }
 
 #[test]

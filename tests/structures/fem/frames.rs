@@ -85,10 +85,10 @@ fn leaning_columns_overturn() {
     let model = column(3, |beam| bent(beam).with_compression(compression).unwrap());
     let matrix = stiffness(&model);
     for direction in [Direction::X, Direction::Y] {
-        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let shift = model.rigid_motion(direction, [0.0; 3]);
         assert!(largest(&multiply(&matrix, &shift)) < 1e-12 * E);
     }
-    let turn = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    let turn = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     let moment = form(&turn, &matrix, &turn);
     assert!((moment + compression * LENGTH).abs() < 1e-9 * E * AREA, "{moment}");
 }
@@ -208,7 +208,7 @@ fn arms_lengthen_a_cantilever() {
     let tip = found[model.dof(3, Direction::X).unwrap()];
     assert!((tip - (at(&row) - arm * turn)).abs() < 1e-10 * exact);
     // A rigid motion is still one.
-    let shift = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    let shift = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-12 * E);
     assert!(dot(&shift, &shift) > 0.0);
 }

@@ -38,7 +38,7 @@ fn pressure_does_the_work_of_quadratic_displacements() {
     let side = [3, 7, 0];
     let row = model.pressure_row(&side).unwrap();
     let mut displacement = vec![0.0; model.dofs()];
-    for (node, [_, y]) in model.mesh().nodes().iter().enumerate() {
+    for (node, [_, y, _]) in model.mesh().nodes().iter().enumerate() {
         displacement[model.dof(node, Direction::X).unwrap()] = y * y;
     }
     assert!((row.value(&displacement) - 9.0).abs() < 1e-12);
@@ -49,8 +49,8 @@ fn pressure_does_the_work_of_quadratic_displacements() {
     assert!((ends.value(&displacement) - 13.5).abs() < 1e-12);
     // A resultant of 1 N upwards along the roof turns nothing about its middle.
     let up = model.resultant_row(&[2, 6, 3], Direction::Y).unwrap();
-    let turn = model.rigid_motion(Direction::Rotation, [1.0, 0.0]);
-    let rise = model.rigid_motion(Direction::Y, [0.0, 0.0]);
+    let turn = model.rigid_motion(Direction::Rotation, [1.0, 0.0, 0.0]);
+    let rise = model.rigid_motion(Direction::Y, [0.0; 3]);
     assert!((up.value(&rise) - 1.0).abs() < 1e-14 && up.value(&turn).abs() < 1e-14);
 }
 

@@ -9,6 +9,7 @@ mod damping;
 mod detached;
 mod errors;
 mod frames;
+mod in_space;
 mod line_loads;
 mod meshes;
 mod modal_damping;

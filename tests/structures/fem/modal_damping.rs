@@ -36,7 +36,7 @@ fn every_mode_has_its_ratio() {
         assert!((frequency / expected - 1.0).abs() < 1e-9);
     }
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let shift = model.rigid_motion(direction, [0.0; 3]);
         let force = largest(&multiply(&damping(&damped), &shift));
         assert!(force < 1e-9 * top * 2000.0, "{direction:?} {force}");
     }
@@ -114,7 +114,7 @@ fn damping_on_a_fixed_base_leaves_rigid_motions_alone() {
     let damped = ModalDamping::new(&[0.05]).unwrap().on_fixed_base(tower()).unwrap();
     let own = damping(&damped);
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let shift = model.rigid_motion(direction, [0.0; 3]);
         let force = largest(&multiply(&own, &shift));
         assert!(force < 1e-9 * largest(&own.concat()), "{direction:?} {force}");
     }

@@ -11,7 +11,7 @@ struct Triangle {
     material: Material,
 }
 
-fn twice_area(p: &[[f64; 2]]) -> f64 {
+fn twice_area(p: &[[f64; 3]]) -> f64 {
     (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1])
 }
 
@@ -24,7 +24,7 @@ impl Element for Triangle {
         &[Direction::X, Direction::Y]
     }
 
-    fn stiffness(&self, p: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, p: &[[f64; 3]], matrix: &mut [f64]) {
         let double = twice_area(p);
         let d = self.material.elasticity();
         let strain: Vec<[f64; 3]> = (0..6)
@@ -47,7 +47,7 @@ impl Element for Triangle {
         }
     }
 
-    fn mass(&self, p: &[[f64; 2]], _kind: MassKind, matrix: &mut [f64]) {
+    fn mass(&self, p: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         for i in 0..6 {
             matrix[7 * i] += self.material.density() * twice_area(p) / 6.0;
         }
@@ -76,7 +76,7 @@ fn own_triangle_passes_the_patch_test_beside_quads() {
     for (a, b) in found.iter().zip(&exact) {
         assert!((a - b).abs() < 1e-15);
     }
-    let shift = model.rigid_motion(Direction::X, [0.0, 0.0]);
+    let shift = model.rigid_motion(Direction::X, [0.0; 3]);
     assert!((form(&shift, &mass(&model), &shift) - 2.0 * 1800.0).abs() < 1e-9);
     assert!(largest(&multiply(&stiffness(&model), &shift)) < 1e-7);
 }

@@ -225,10 +225,10 @@ fn p_delta_overturns_but_does_not_hold() {
     let matrix = stiffness(&model);
     let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
     for direction in [Direction::X, Direction::Y] {
-        let shift = model.rigid_motion(direction, [0.0; 2]);
+        let shift = model.rigid_motion(direction, [0.0; 3]);
         assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
     }
-    let turn = model.rigid_motion(Direction::Rotation, [0.0; 2]);
+    let turn = model.rigid_motion(Direction::Rotation, [0.0; 3]);
     let moment = form(&turn, &matrix, &turn);
     // A bar at rest keeps its length: its P L counts whatever its direction.
     let arms = |k: usize| if (4..8).contains(&k) { SPAN / 4.0 } else { HEIGHT / 4.0 };
@@ -325,9 +325,9 @@ impl Element for Deserter {
     fn directions(&self) -> &[Direction] {
         self.directions
     }
-    fn stiffness(&self, _: &[[f64; 2]], _: &mut [f64]) {}
-    fn mass(&self, _: &[[f64; 2]], _: MassKind, _: &mut [f64]) {}
-    fn in_static_state(&self, _: &[[f64; 2]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
+    fn stiffness(&self, _: &[[f64; 3]], _: &mut [f64]) {}
+    fn mass(&self, _: &[[f64; 3]], _: MassKind, _: &mut [f64]) {}
+    fn in_static_state(&self, _: &[[f64; 3]], _: &[f64], _: f64) -> Option<Box<dyn Element>> {
         let elsewhere = if self.nodes[1] == 1 { [0, 999] } else { self.nodes };
         Some(Box::new(Self { nodes: elsewhere, directions: &[Direction::Y] }))
     }

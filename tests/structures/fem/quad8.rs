@@ -55,12 +55,13 @@ fn constant_strain_is_reproduced_on_distorted_and_curved_quads() {
         let nodes = mesh.nodes().to_vec();
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         let mut field = vec![0.0; model.dofs()];
-        for (node, [x, y]) in nodes.iter().enumerate() {
+        for (node, [x, y, _]) in nodes.iter().enumerate() {
             field[model.dof(node, Direction::X).unwrap()] = 1e-3 * (x + 0.5 * y);
             field[model.dof(node, Direction::Y).unwrap()] = 1e-3 * (y + 0.5 * x);
         }
         // Corners and the middles of the outer edges, bulged or not.
-        let on_edge = |[x, y]: [f64; 2]| [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01);
+        let on_edge =
+            |[x, y, _]: [f64; 3]| [x, y, x - 0.24, y - 0.12].iter().any(|d| d.abs() < 0.01);
         let held: Vec<(usize, f64)> = nodes
             .iter()
             .enumerate()
@@ -82,7 +83,7 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
         let mesh = refined(&POINTS, &QUADS, material, integration, 0.04);
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-            let shift = model.rigid_motion(direction, [0.0; 2]);
+            let shift = model.rigid_motion(direction, [0.0; 3]);
             let matrix = stiffness(&model);
             let stiffest = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
             assert!(largest(&multiply(&matrix, &shift)) < 1e-14 * stiffest);
@@ -95,7 +96,7 @@ fn rigid_motions_meet_no_force_and_their_inertia_is_exact() {
         let mesh = refined(&corners, &[[0, 1, 2, 3]], material, BOTH[0], 0.0);
         let model = FemModel::new(mesh, &[0, 1]).unwrap().with_mass(kind);
         let inertia = |direction| {
-            let shift = model.rigid_motion(direction, [0.0; 2]);
+            let shift = model.rigid_motion(direction, [0.0; 3]);
             form(&shift, &mass(&model), &shift)
         };
         assert!((inertia(Direction::X) - 30.0).abs() < 1e-12);
@@ -164,7 +165,7 @@ fn pure_bending_is_exact() {
         let nodes = mesh.nodes().to_vec();
         let model = FemModel::new(mesh, &[0, 1]).unwrap();
         let mut field = Vec::new();
-        for [x, y] in nodes {
+        for [x, y, _] in nodes {
             field.extend([-0.5 * (y * y + nu / (1.0 - nu) * x * x), x * y]);
         }
         let twice = form(&field, &stiffness(&model), &field);
@@ -185,7 +186,8 @@ fn bad_shapes_are_refused() {
         [2.0, 0.5],
         [1.0, 1.0],
         [0.0, 0.5],
-    ];
+    ]
+    .map(|[x, y]| [x, y, 0.0]);
     assert!(quad().check(&good).is_ok());
     assert!(matches!(quad().check(&good[..7]), Err(Error::Size { .. })));
     let mut clockwise = good;
@@ -195,9 +197,9 @@ fn bad_shapes_are_refused() {
     assert!(matches!(quad().check(&clockwise), Err(Error::Input { .. })));
     // The node of an edge beyond its quarter: the map folds at the corner.
     let mut folded = good;
-    folded[4] = [0.4, 0.0];
+    folded[4][0] = 0.4;
     assert!(matches!(quad().check(&folded), Err(Error::Input { .. })));
     let mut missing = good;
-    missing[2] = [f64::NAN, 1.0];
+    missing[2][0] = f64::NAN;
     assert!(matches!(quad().check(&missing), Err(Error::Input { .. })));
 }

@@ -49,7 +49,7 @@ fn rigid_motions_meet_no_force() {
                 assert_symmetric(&matrix);
                 let scale = matrix.iter().map(|row| largest(row)).fold(0.0, f64::max);
                 for direction in DIRECTIONS {
-                    let motion = model.rigid_motion(direction, [0.7, -0.2]);
+                    let motion = model.rigid_motion(direction, [0.7, -0.2, 0.0]);
                     let force = multiply(&matrix, &motion);
                     assert!(largest(&force) < 1e-13 * scale * largest(&motion), "{direction:?}");
                 }
@@ -73,7 +73,7 @@ fn mass_of_the_whole_is_the_sum_of_its_parts() {
         let matrix = mass(&model);
         assert_symmetric(&matrix);
         for direction in [Direction::X, Direction::Y] {
-            let motion = model.rigid_motion(direction, [0.0, 0.0]);
+            let motion = model.rigid_motion(direction, [0.0; 3]);
             assert!((form(&motion, &matrix, &motion) / total - 1.0).abs() < 1e-13);
         }
         if kind == MassKind::Lumped {
@@ -92,7 +92,7 @@ fn consistent_mass_has_the_exact_rotary_inertia() {
     let material = Material::new(1.0, 0.0, 3.0).unwrap();
     let block = Mesh::layered_block(-1.0..1.0, 3, &[Layer::new(5.0, 4, material)]).unwrap();
     let block = FemModel::on_base(block).unwrap();
-    let turn = block.rigid_motion(Direction::Rotation, [0.0, 2.5]);
+    let turn = block.rigid_motion(Direction::Rotation, [0.0, 2.5, 0.0]);
     let exact = 30.0 * (4.0 + 25.0) / 12.0;
     assert!((form(&turn, &mass(&block), &turn) / exact - 1.0).abs() < 1e-13);
 
@@ -102,7 +102,7 @@ fn consistent_mass_has_the_exact_rotary_inertia() {
     mesh.add(Truss::new(ends, 1.0, 1.0, 1.0).unwrap()).unwrap();
     mesh.add(LumpedMass::new(ends[1], 5.0).unwrap().with_rotary_inertia(2.0).unwrap()).unwrap();
     let bar = FemModel::on_base(mesh).unwrap();
-    let turn = bar.rigid_motion(Direction::Rotation, [0.0, 0.0]);
+    let turn = bar.rigid_motion(Direction::Rotation, [0.0; 3]);
     let exact = 7.0 * 4.0 * 16.0 / 12.0 + 5.0 * 4.0 + 2.0;
     assert!((form(&turn, &mass(&bar), &turn) / exact - 1.0).abs() < 1e-13);
 }

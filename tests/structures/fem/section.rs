@@ -17,7 +17,7 @@ fn frame_on_block() -> [FemModel; 2] {
     let models = [Mesh::layered_block(-1.0..3.0, 2, &layers), {
         let mut mesh = Mesh::new();
         let block = Mesh::layered_block(-1.0..3.0, 2, &layers[1..]).unwrap();
-        for [x, y] in block.nodes() {
+        for [x, y, _] in block.nodes() {
             mesh.add_node(*x, y + CUT).unwrap();
         }
         for element in block.elements() {
@@ -98,7 +98,7 @@ fn moving_structure_keeps_the_balance_of_its_upper_part() {
         (&section.compression, Direction::Y, -1.0),
         (&section.moment, Direction::Rotation, 1.0),
     ] {
-        let motion = upper.rigid_motion(direction, [0.3, CUT]);
+        let motion = upper.rigid_motion(direction, [0.3, CUT, 0.0]);
         let balance = dot(&motion, &on_upper) - form(&motion, &inertia, &a[skip..]);
         let found = rows.value(&u, &v, &a);
         assert!((found - sign * balance).abs() < 1e-11 * 2.0e8, "{direction:?} {found} {balance}");

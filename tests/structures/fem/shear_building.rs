@@ -177,11 +177,11 @@ fn rigid_motions_are_no_sway() {
     let corner = model.row(model.mesh().node_at(1.0, 6.0).unwrap(), Direction::X).unwrap();
     let sway = corner.total_drift(&model, 6.0).unwrap();
     for direction in [Direction::X, Direction::Y, Direction::Rotation] {
-        let motion = model.rigid_motion(direction, [0.7, -0.3]);
+        let motion = model.rigid_motion(direction, [0.7, -0.3, 0.0]);
         assert!(sway.value(&motion).abs() < 1e-14, "{direction:?}");
     }
     // Relative to the base alone, a turn is left: −6 m times it.
-    let turn = model.rigid_motion(Direction::Rotation, [3.0, 0.0]);
+    let turn = model.rigid_motion(Direction::Rotation, [3.0, 0.0, 0.0]);
     let apart = corner.relative_to_base(&model).unwrap().value(&turn);
     assert!((apart + 6.0).abs() < 1e-14);
     for bad in [f64::NAN, f64::INFINITY] {

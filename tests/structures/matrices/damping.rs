@@ -173,9 +173,9 @@ impl Element for Pusher {
     fn directions(&self) -> &[Direction] {
         &[Direction::X]
     }
-    fn stiffness(&self, _: &[[f64; 2]], _: &mut [f64]) {}
-    fn mass(&self, _: &[[f64; 2]], _: MassKind, _: &mut [f64]) {}
-    fn damping(&self, _: &[[f64; 2]], matrix: &mut [f64]) {
+    fn stiffness(&self, _: &[[f64; 3]], _: &mut [f64]) {}
+    fn mass(&self, _: &[[f64; 3]], _: MassKind, _: &mut [f64]) {}
+    fn damping(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
         for (entry, c) in matrix.iter_mut().zip([-1e4, 1e4, 1e4, -1e4]) {
             *entry += c;
         }

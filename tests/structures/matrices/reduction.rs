@@ -45,7 +45,7 @@ fn static_motion(recovery: &Recovery, order: usize, full: &[f64]) -> Vec<f64> {
 fn rigid_motions_weight_and_inertia_pass_exactly() {
     let model = damped();
     let rigid = [Direction::X, Direction::Y, Direction::Rotation]
-        .map(|direction| model.rigid_motion(direction, [0.0, 0.0]));
+        .map(|direction| model.rigid_motion(direction, [0.0; 3]));
     let inertia: Vec<Vec<f64>> =
         rigid.iter().map(|motion| product(&model, Structure::mass, motion)).collect();
     let reduced = CraigBampton::new(5).reduce(model).unwrap();
