@@ -119,10 +119,8 @@ pub fn deformed_shapes(
     at_least("times of deformed shapes", times.len(), 1)?;
     check_dimension(shape, time_series)?;
     let drawn = shapes_at(shape, time_series, times, magnification)?;
-    let stroke = |k: usize| match k.checked_sub(1) {
-        None => Stroke::plain(RGBColor(170, 170, 170)),
-        Some(k) => Stroke::nth(k),
-    };
+    let at_rest = Stroke::plain(RGBColor(170, 170, 170));
+    let stroke = |k: usize| k.checked_sub(1).map_or(at_rest, Stroke::nth);
     let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
     let scale = format!("displacements × {}", short(magnification));
     let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];

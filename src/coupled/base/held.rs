@@ -66,8 +66,48 @@ pub(crate) fn holds(ground: &dyn Ground) -> bool {
 /// Adds γ Nᵀ (1 − Q Qᵀ) N of one foundation, which resists all but rigid motions of its nodes.
 fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
     let Some(directions) = nodes.first().map(BaseNode::directions) else { return };
-    // Components of a node: along x, up, along y.
-    let components = nodes.len() * directions;
+    let rigid = rigid_motions(nodes, directions);
+    // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
+    let rows: Vec<_> =
+        nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
+    let mut dofs: Vec<usize> = nodes.iter().flat_map(BaseNode::dofs).collect();
+    dofs.sort_unstable();
+    dofs.dedup();
+    let dense = |row: usize| {
+        let mut values = vec![0.0; dofs.len()];
+        for &(dof, weight) in rows[row] {
+            if let Ok(place) = dofs.binary_search(&dof) {
+                values[place] += weight;
+            }
+        }
+        values
+    };
+    let carried: Vec<Vec<f64>> = rigid
+        .iter()
+        .map(|own| {
+            let mut sum = vec![0.0; dofs.len()];
+            for (row, factor) in own.iter().enumerate() {
+                sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
+            }
+            sum
+        })
+        .collect();
+    for row in 0..rows.len() {
+        let mut values = dense(row);
+        let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        for (own, sum) in rigid.iter().zip(&carried) {
+            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= own[row] * sum);
+        }
+        let terms = dofs.iter().copied().zip(values);
+        let terms: Vec<_> = terms.filter(|(_, x)| x.abs() > ROUNDING * largest).collect();
+        if !terms.is_empty() {
+            matrix.add_outer(&terms, spring);
+        }
+    }
+}
+
+/// Columns of Q: components of each node along x, up, along y.
+fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
     let mean =
         |place: fn(&BaseNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
     let [x, y] = [mean(|node| node.x), mean(|node| node.y)];
@@ -99,43 +139,7 @@ fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
             rigid.push(own);
         }
     }
-    // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
-    let rows: Vec<_> =
-        nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
-    let mut dofs: Vec<usize> = nodes.iter().flat_map(BaseNode::dofs).collect();
-    dofs.sort_unstable();
-    dofs.dedup();
-    let dense = |row: usize| {
-        let mut values = vec![0.0; dofs.len()];
-        for &(dof, weight) in rows[row] {
-            if let Ok(place) = dofs.binary_search(&dof) {
-                values[place] += weight;
-            }
-        }
-        values
-    };
-    let carried: Vec<Vec<f64>> = rigid
-        .iter()
-        .map(|own| {
-            let mut sum = vec![0.0; dofs.len()];
-            for (row, factor) in own.iter().enumerate() {
-                sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
-            }
-            sum
-        })
-        .collect();
-    for row in 0..components {
-        let mut values = dense(row);
-        let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        for (own, sum) in rigid.iter().zip(&carried) {
-            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= own[row] * sum);
-        }
-        let terms = dofs.iter().copied().zip(values);
-        let terms: Vec<_> = terms.filter(|(_, x)| x.abs() > ROUNDING * largest).collect();
-        if !terms.is_empty() {
-            matrix.add_outer(&terms, spring);
-        }
-    }
+    rigid
 }
 
 /// A structure whose foundations move as rigid bodies.

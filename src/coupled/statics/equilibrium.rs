@@ -66,9 +66,8 @@ impl Standing<'_> {
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
-        let Self { assembled, structure, soil, frictionless } = *self;
+        let Self { assembled, structure, soil, .. } = *self;
         let base = &assembled.base;
-        let size = base.layout().len();
         let mut springs = Springs::new(assembled, soil)?;
         let stiffest = springs.stiffness;
         let mut solver = ContactSolver::new(base.layout());
@@ -76,7 +75,6 @@ impl Standing<'_> {
         let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
         let measure = Measure::new(assembled, load);
         let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
-        let (static_traction, mut free_jump) = (vec![0.0; size], vec![0.0; size]);
         let (mut change, mut iterations) = (f64::INFINITY, 0);
         while iterations < ITERATIONS {
             iterations += 1;
@@ -89,30 +87,11 @@ impl Standing<'_> {
                 }
             };
             let current = compliance.insert(current);
-            let mut displacement = self.without_traction(current, load, &state)?;
-            base.means(&displacement, &mut free_jump);
-            for jump in &mut free_jump {
-                *jump = -*jump;
-            }
-            let input = ContactInput {
-                delassus: &current.delassus,
-                free_jump: &free_jump,
-                static_traction: &static_traction,
-                start,
-                laws,
-                length_scale: largest(&free_jump),
-                bonds: &[],
-                frictionless,
-            };
-            match search.solve(&mut solver, &input, &mut state.modes) {
-                Ok(_) => {}
-                Err(StepError::Law(error)) => return Err(Error::Law(error)),
-                Err(_) => break,
-            }
-            transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
+            let found =
+                self.next(current, &mut search, &mut solver, (laws, start), load, &mut state)?;
+            let Some(displacement) = found else { break };
             let pull = springs.force(assembled, &displacement, &state.displacement);
-            let previous = change;
-            change = measure.norm(&pull);
+            let previous = std::mem::replace(&mut change, measure.norm(&pull));
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
             if has_converged([previous, change], iterations, current) {
@@ -129,10 +108,7 @@ impl Standing<'_> {
             if !change.is_finite() {
                 break;
             }
-            let rounding = match iterations {
-                0..LONG => ROUNDING,
-                _ => ROUNDING.min(current.condition() * f64::EPSILON),
-            };
+            let rounding = rounding(iterations, current);
             if change > rounding.max(SLOW * previous) && springs.soften() {
                 compliance = None;
                 solver.invalidate();
@@ -142,6 +118,43 @@ impl Standing<'_> {
         let first = Compliance::new(assembled, &tangent.matrix, soil, stiffest);
         let condition = first.map_or(1.0, |mut first| first.condition());
         Err(failure(condition, iterations, change))
+    }
+
+    /// Displacements of the next iterate; `None` if its contact problem has no solution.
+    ///
+    /// The tractions are in `solver`.
+    fn next(
+        &self,
+        current: &mut Compliance,
+        search: &mut ModeSearch,
+        solver: &mut ContactSolver,
+        (laws, start): (&[Box<dyn InterfaceLaw>], &PreviousContacts),
+        load: &[f64],
+        state: &mut StaticState,
+    ) -> Result<Option<Vec<f64>>> {
+        let mut displacement = self.without_traction(current, load, state)?;
+        let mut free_jump = vec![0.0; solver.traction.len()];
+        self.assembled.base.means(&displacement, &mut free_jump);
+        for jump in &mut free_jump {
+            *jump = -*jump;
+        }
+        let input = ContactInput {
+            delassus: &current.delassus,
+            free_jump: &free_jump,
+            static_traction: &vec![0.0; free_jump.len()],
+            start,
+            laws,
+            length_scale: largest(&free_jump),
+            bonds: &[],
+            frictionless: self.frictionless,
+        };
+        match search.solve(solver, &input, &mut state.modes) {
+            Ok(_) => {}
+            Err(StepError::Law(error)) => return Err(Error::Law(error)),
+            Err(_) => return Ok(None),
+        }
+        transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
+        Ok(Some(displacement))
     }
 
     /// Displacements of the next iterate before its tractions act.
@@ -239,6 +252,14 @@ fn has_converged(
         iterations > LATE && change <= LATE_CHANGE && change <= current.condition() * f64::EPSILON
     };
     change <= 1e-13 || stalled || drifts || late()
+}
+
+/// Force of the springs, relative to the load, that counts as rounding after so many iterations.
+fn rounding(iterations: usize, current: &mut Compliance) -> f64 {
+    match iterations {
+        0..LONG => ROUNDING,
+        _ => ROUNDING.min(current.condition() * f64::EPSILON),
+    }
 }
 
 /// Error for a search that did not converge.

@@ -1,6 +1,7 @@
 //! The static state: equilibrium on the ground, and reasons for its absence.
 
 pub(crate) mod equilibrium;
+mod loaded_part;
 pub(crate) mod stability;
 pub(crate) mod static_state;
 pub(crate) mod strength;

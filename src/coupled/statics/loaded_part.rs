@@ -1,0 +1,219 @@
+//! Failure of a part of a structure whose load its base cannot bear.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | M, N | moment of the load about the middle of the base, and its force into the ground |
+//! | e | distance of the resultant from the middle of the base: M + N e = 0 |
+
+use crate::coupled::statics::strength::Strength;
+use crate::error::StabilityError;
+use crate::geometry::{ContactLayout, Edge, axis_name, middle, span};
+
+/// A connected part of the structure, with the resultants of its load.
+pub(super) struct LoadedPart {
+    pub(super) layout: ContactLayout,
+    /// Corners of the base; convex.
+    pub(super) outline: Vec<[f64; 2]>,
+    /// Ends of the base along x and along y, m.
+    pub(super) bounds: [[f64; 2]; 2],
+    /// Centre and area of each contact element.
+    pub(super) elements: Vec<([f64; 3], f64)>,
+    /// Strength of each contact element.
+    pub(super) strengths: Vec<Strength>,
+    pub(super) horizontal: f64,
+    /// N.
+    pub(super) normal: f64,
+    /// M for both axes, and the torque.
+    pub(super) moments: [f64; 3],
+    /// N over the area of all elements, Pa.
+    pub(super) pressure: f64,
+}
+
+impl LoadedPart {
+    /// Way in which the base fails under the load; `None` if it bears the load.
+    pub(super) fn failure(&self) -> Option<StabilityError> {
+        if self.normal <= 0.0 {
+            let (ends, across) = self.ends();
+            let lifted = StabilityError::Uplift { ends, across, upward: -self.normal };
+            return self.opens().then(|| self.once_parted(lifted));
+        }
+        let slides = self.slides();
+        if slides.is_some() && !self.coheres() {
+            return slides;
+        }
+        self.overturns()
+            .or_else(|| self.bears_beyond())
+            .or(slides)
+            .or_else(|| self.twists())
+            .or_else(|| self.is_pressed_in())
+    }
+
+    /// The resultant passes the edge of the base.
+    fn overturns(&self) -> Option<StabilityError> {
+        let is_plan = self.layout.is_plan();
+        // In plan the ratio to the nearest edge, and the axis that this edge faces more.
+        let (ratio, axis) = if is_plan {
+            nearest_edge(&self.outline, self.middles(), self.eccentricities())
+        } else {
+            (self.eccentricity_ratio(0), 0)
+        };
+        if ratio < 1.0 || ratio.is_nan() || !self.opens() {
+            return None;
+        }
+        // By the right-hand rule about y, a moment that lifts the right side is negative.
+        let [about_y, about_x, _] = self.moments;
+        let moment = [if is_plan { -about_y } else { about_y }, about_x][axis];
+        let (ends, across) = self.ends();
+        Some(self.once_parted(StabilityError::Overturning {
+            ends,
+            across,
+            axis: axis_name(is_plan, axis),
+            moment,
+            normal: self.normal,
+            eccentricity: self.eccentricities()[axis],
+            ratio,
+        }))
+    }
+
+    /// The resultant passes beyond the middles of the elements, where pressures act.
+    fn bears_beyond(&self) -> Option<StabilityError> {
+        let (middles, eccentricities) = (self.middles(), self.eccentricities());
+        let beyond = |axis: usize| {
+            let resultant = middles[axis] + eccentricities[axis];
+            let reach = span(self.elements.iter().map(|(center, _)| center[axis]));
+            let slack = 1e-9 * self.half_width(axis);
+            let is_beyond = resultant < reach[0] - slack || resultant > reach[1] + slack;
+            is_beyond.then_some((axis, resultant, reach))
+        };
+        let (axis, resultant, reach) = self.layout.axes().find_map(beyond)?;
+        let axis = axis_name(self.layout.is_plan(), axis);
+        let (elements, (ends, across)) = (self.elements.len(), self.ends());
+        let error = StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
+        self.opens().then(|| self.once_parted(error))
+    }
+
+    /// The horizontal force is larger than friction.
+    fn slides(&self) -> Option<StabilityError> {
+        let (horizontal, normal) = (self.horizontal, self.normal);
+        let resistance = self.friction() * normal;
+        let ratio = horizontal.abs() / resistance;
+        let (ends, across) = self.ends();
+        let error = StabilityError::Sliding { ends, across, horizontal, normal, resistance, ratio };
+        (ratio > 1.0).then(|| self.once_sheared(error))
+    }
+
+    /// In plan: the torque is larger than the torque of friction.
+    fn twists(&self) -> Option<StabilityError> {
+        let (ends, Some(across)) = self.ends() else { return None };
+        let (normal, [_, _, torque]) = (self.normal, self.moments);
+        let moment = area_moment(&self.elements, self.middles());
+        let resistance = self.friction() * self.pressure * moment;
+        let ratio = torque.abs() / resistance;
+        let error = StabilityError::Twisting { ends, across, torque, normal, resistance, ratio };
+        (ratio > 1.0).then(|| self.once_sheared(error))
+    }
+
+    /// The normal force is larger than the bearing pressures.
+    fn is_pressed_in(&self) -> Option<StabilityError> {
+        let width = if self.layout.is_plan() {
+            // The area that both eccentricities leave (Meyerhof 1963).
+            let area = self.elements.iter().map(|(_, area)| area).sum::<f64>();
+            area * (1.0 - self.eccentricity_ratio(0)) * (1.0 - self.eccentricity_ratio(1))
+        } else {
+            2.0 * self.half_width(0) * (1.0 - self.eccentricity_ratio(0))
+        };
+        let pressures = self.strengths.iter().map(|own| own.bearing_pressure);
+        let areas = self.elements.iter().map(|(_, area)| *area);
+        let normal = self.normal;
+        let [capacity, ratio] = bearing(pressures.zip(areas), normal, width);
+        let (ends, across) = self.ends();
+        let failure =
+            StabilityError::BearingFailure { ends, across, normal, width, capacity, ratio };
+        (ratio > 1.0).then_some(failure)
+    }
+
+    /// A failure by separation: bonds that pull must have broken before.
+    fn once_parted(&self, failure: StabilityError) -> StabilityError {
+        let pulls = self.strengths.iter().any(|own| own.pulls);
+        if pulls { after_bond(failure) } else { failure }
+    }
+
+    /// A failure by sliding: bonds that bear shear must have broken before.
+    fn once_sheared(&self, failure: StabilityError) -> StabilityError {
+        if self.coheres() { after_bond(failure) } else { failure }
+    }
+
+    fn opens(&self) -> bool {
+        self.strengths.iter().any(|own| own.opens)
+    }
+
+    fn coheres(&self) -> bool {
+        self.strengths.iter().any(|own| own.coheres)
+    }
+
+    /// Largest friction coefficient.
+    fn friction(&self) -> f64 {
+        self.strengths.iter().map(|own| own.friction).fold(0.0, f64::max)
+    }
+
+    /// Ends of the base along x, and in plan along y.
+    fn ends(&self) -> ([f64; 2], Option<[f64; 2]>) {
+        let [ends, across] = self.bounds;
+        (ends, self.layout.is_plan().then_some(across))
+    }
+
+    fn middles(&self) -> [f64; 2] {
+        self.bounds.map(middle)
+    }
+
+    fn half_width(&self, axis: usize) -> f64 {
+        let [least, most] = self.bounds[axis];
+        0.5 * (most - least)
+    }
+
+    /// e along both axes, m.
+    fn eccentricities(&self) -> [f64; 2] {
+        [-self.moments[0] / self.normal, -self.moments[1] / self.normal]
+    }
+
+    /// Magnitude of e over half the width.
+    fn eccentricity_ratio(&self, axis: usize) -> f64 {
+        self.eccentricities()[axis].abs() / self.half_width(axis)
+    }
+}
+
+/// A failure that only a broken bond explains: otherwise the static state would have been found.
+fn after_bond(then: StabilityError) -> StabilityError {
+    StabilityError::BondBreaks { then: Box::new(then) }
+}
+
+/// Sum of the areas of elements, each times its distance from `middle`.
+///
+/// `elements`: centre and area of each.
+fn area_moment(elements: &[([f64; 3], f64)], middle: [f64; 2]) -> f64 {
+    let arm = |[x, y, _]: [f64; 3]| (x - middle[0]).hypot(y - middle[1]);
+    elements.iter().map(|(center, area)| arm(*center) * area).sum()
+}
+
+/// Capacity of bearing pressures on elements of these lengths or areas, and the normal force over it.
+///
+/// At most the largest pressure on `width`, the width centred under the resultant.
+fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) -> [f64; 2] {
+    let (all, largest) = elements.fold((0.0, 0.0_f64), |(all, largest), (pressure, length)| {
+        (all + pressure * length, largest.max(pressure))
+    });
+    let capacity = (largest * width).min(all);
+    [capacity, normal / capacity]
+}
+
+/// Largest ratio of a resultant's distance to an edge's distance, from `middle`, and the axis that this edge faces
+/// more.
+///
+/// `outline`: convex. `distance`: of the resultant from the middle.
+fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
+    let parts = Edge::all(outline).map(|edge| {
+        let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
+        (edge.outward(distance) / edge.reach(middle), usize::from(faces_y))
+    });
+    parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
+}
