@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Usually another program writes `mass.mtx` and `stiffness.mtx`; here a mesh of quadrilaterals writes them
-//! into `target`. The files are read back and contact nodes are named. A Craig–Bampton reduction keeps these
+//! into `target`. The files are read back, and the nodes of the base are given. A Craig–Bampton reduction keeps these
 //! nodes and the lowest modes of the rest. Two periods of the full model are computed as well, for
 //! comparison.
 
@@ -23,10 +23,10 @@ const MODES: usize = 20;
 /// Number of steps in two of the tower's longest periods, 2.1 s each.
 const TWO_PERIODS: usize = 430;
 
-/// Writes the matrices of a tower; returns its contact nodes and the displacement of its top.
+/// Writes the matrices of a tower; returns its base and the displacement of its top.
 ///
 /// The tower is 10 m wide and 100 m high, of quadrilaterals of 0.2 m.
-fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<BaseNode>, DofCombination)> {
+fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Base, DofCombination)> {
     let layer = Layer::new(100.0, 500, Material::new(5.0e9, 0.2, 600.0)?);
     let mesh = Mesh::layered_block(-5.0..5.0, 50, &[layer])?;
     let model = FemModel::on_base(mesh)?.with_mass(MassKind::Lumped);
@@ -36,7 +36,7 @@ fn write_files(mass_file: &Path, stiffness_file: &Path) -> Result<(Vec<BaseNode>
     mass.write_matrix_market(mass_file)?;
     stiffness.write_matrix_market(stiffness_file)?;
     let top = model.row(model.mesh().node_at(0.0, 100.0)?, Direction::X)?;
-    Ok((model.contact_nodes(), top))
+    Ok((model.base(), top))
 }
 
 /// The simulation of the structure on soil, with the displacement of its top as a probe.
@@ -67,13 +67,13 @@ fn march(simulation: &mut Simulation, steps: usize) -> Result<(Vec<f64>, f64)> {
 
 fn main() -> Result<()> {
     let [mass, stiffness] = ["target/mass.mtx", "target/stiffness.mtx"].map(Path::new);
-    let (contact, top) = write_files(mass, stiffness)?;
+    let (base, top) = write_files(mass, stiffness)?;
 
     let begin = Instant::now();
     let [mass, stiffness] = [mass, stiffness].map(Triplets::read_matrix_market);
     // 3 % of critical damping at 0.5 and 5 Hz.
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
-    let model = MatrixModel::new(mass?, stiffness?, contact)?.with_rayleigh(damping);
+    let model = MatrixModel::new(mass?, stiffness?, base)?.with_rayleigh(damping);
     let read = begin.elapsed().as_secs_f64();
     println!("{} degrees of freedom read in {read:.2} s", model.dofs());
 

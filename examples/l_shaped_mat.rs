@@ -45,7 +45,7 @@ fn main() -> basemat::Result<()> {
         faces.push(BaseNode::rigid_face(&from_center, CENTER, [0, 1, 2, 3, 4, 5]));
     }
     // A rigid body has no stiffness.
-    let body = MatrixModel::in_plan(mass, Triplets::new(6), faces)?;
+    let body = MatrixModel::new(mass, Triplets::new(6), Base::Faces(faces))?;
 
     let soil = Soil::from_shear_wave_speed(250.0, 1.0 / 3.0, 1900.0)?;
     let ground = ElasticGround::under(soil, &body, 10)?;

@@ -75,7 +75,7 @@ fn turbine() -> basemat::Result<MatrixModel> {
         stiffness.add_outer(bending, TOP * omega * omega);
         damping.add_outer(bending, 2.0 * DAMPING * TOP * omega);
     }
-    MatrixModel::in_plan(mass, stiffness, body.contact_faces())?.with_damping(damping)
+    MatrixModel::new(mass, stiffness, body.base())?.with_damping(damping)
 }
 
 /// Prints moment, tilt and uplift of the mat in steady wind and at the largest tilt in the gust.

@@ -41,8 +41,8 @@ impl Structure for Building {
     }
 
     // A rigid base needs only its two ends.
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-0.5 * self.width, 0.5 * self.width, BASE)
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-0.5 * self.width, 0.5 * self.width, BASE).into()
     }
 
     // Entries at the same place are summed.

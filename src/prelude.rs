@@ -7,7 +7,7 @@ pub use crate::motion::{FreeField, Record, STANDARD_GRAVITY, el_centro_1940};
 pub use crate::results::{Comparison, Quantity, Recorder, Run, TimeSeries};
 pub use crate::soil::Soil;
 pub use crate::structure::{
-    BaseNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
+    Base, BaseNode, FemModel, RayleighDamping, RigidBlock, ShearBuilding, Storey, Structure,
     StructureGroup, Triplets,
 };
 pub use crate::sweep::{Parameter, Sweep};

@@ -133,7 +133,7 @@ impl ElasticGround {
     /// Ground with `count` elements under each foundation of `structure`.
     ///
     /// A strip is as wide as its foundation, and its elements are graded towards the edges, where tractions are
-    /// singular: [`Strip::under`] with [`Grading::Cosine`]. Under a structure with [faces](Structure::contact_faces) it
+    /// singular: [`Strip::under`] with [`Grading::Cosine`]. Under a structure with [faces](crate::structure::Base::Faces) it
     /// is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces together:
     /// [`Plan::on_faces`].
     ///

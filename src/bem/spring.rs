@@ -50,7 +50,7 @@ impl SpringGround {
 
     /// Bed of `count` equal elements under each foundation of `structure`, as wide as the foundation.
     ///
-    /// Under a structure with [faces](Structure::contact_faces) it is a bed [in plan](SpringGround::in_plan). It has
+    /// Under a structure with [faces](crate::structure::Base::Faces) it is a bed [in plan](SpringGround::in_plan). It has
     /// `count` cells along the shorter side of all faces together, and the tangential stiffness in both directions.
     ///
     /// # Errors

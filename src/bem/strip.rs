@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use crate::error::{Error, Result, finite, positive, require};
+use crate::error::{Error, Result, at_least, finite, positive, require};
 use crate::fundamental::branch::Weight;
 use crate::geometry::{ContactElement, PLANE, check_count};
-use crate::structure::{BaseNode, Structure, foundation_nodes, from_the_left};
+use crate::structure::{Base, BaseNode, Structure, check_line, from_the_left};
 
 /// Variation of element lengths along a strip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -109,18 +109,23 @@ impl Strip {
     /// ```
     ///
     /// # Errors
-    /// As for [`Strip::new`]; [`Error::Size`] or [`Error::Index`] if the structure has no foundations.
+    /// As for [`Strip::new`]; [`Error::Size`] for a structure without foundations or a foundation of fewer than two
+    /// nodes, [`Error::Scene`] for a structure in plan.
     pub fn under(structure: &dyn Structure, count: usize, grading: Grading) -> Result<Vec<Self>> {
-        let nodes = structure.contact_nodes();
-        let foundations = foundation_nodes(nodes.len(), &structure.foundation_ends())?;
-        let nodes: Vec<_> = nodes.into_iter().collect();
-        let strip = |own: Range<usize>| {
-            let (first, last) = (nodes[own.start].x, nodes[own.end - 1].x);
+        let Base::Lines(lines) = structure.base() else {
+            let needed =
+                "must have a base of lines in the plane for strips: its base has faces, in plan";
+            return Err(Error::Scene { quantity: "structure", needed });
+        };
+        at_least("list of foundations", lines.len(), 1)?;
+        let strip = |nodes: &Vec<BaseNode>| {
+            check_line(nodes)?;
+            let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
             from_the_left(first, last)?;
-            let segments = BaseNode::segments(&nodes[own]);
+            let segments = BaseNode::segments(nodes);
             Self::new(first..last, if count == 0 { 0 } else { count.max(segments) }, grading)
         };
-        foundations.into_iter().map(strip).collect()
+        lines.iter().map(strip).collect()
     }
 
     /// Strip whose elements lie between neighbouring `nodes` (m).

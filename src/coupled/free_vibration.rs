@@ -19,9 +19,7 @@ use crate::interface::Bonded;
 use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
-use crate::structure::{
-    DofCombination, HeldBase, Structure, base_nodes, check_base_nodes, stiffest,
-};
+use crate::structure::{DofCombination, HeldBase, Structure, stiffest};
 
 /// Stiffness of the springs that hold the base, relative to the largest stiffness.
 const HELD: f64 = 1e6;
@@ -67,8 +65,9 @@ impl FixedBaseMode {
             structure.stiffness(m)?;
             structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
         })?;
-        let nodes = base_nodes(structure);
-        check_base_nodes(&nodes, n)?;
+        let base = structure.base();
+        base.check(n)?;
+        let nodes = base.into_nodes();
         let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
         let mut factor = held.factor()?;
         let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };

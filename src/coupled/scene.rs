@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::{ConnectedPart, UP};
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::coupled::model::Model;
@@ -29,7 +29,7 @@ pub(crate) struct Scene {
     /// Whether the scheme conserves energy.
     pub(crate) conserves_energy: bool,
     pub(crate) model: Model,
-    pub(crate) base: Base,
+    pub(crate) base: PlacedBase,
     pub(crate) laws: Vec<Box<dyn InterfaceLaw>>,
     /// Limits of serviceability, against which runs are checked.
     pub(crate) serviceability: Serviceability,
@@ -75,7 +75,7 @@ impl Scene {
     pub(crate) fn new(
         parts: &mut Parts,
         model: Model,
-        base: Base,
+        base: PlacedBase,
         static_state: StaticState,
         joined: Vec<bool>,
     ) -> Self {

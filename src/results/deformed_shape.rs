@@ -3,7 +3,7 @@
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
-    BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
+    Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
 
 /// A point of a [`DeformedShape`]: its place and its displacement.
@@ -120,7 +120,11 @@ impl DeformedShape {
         // Checks the base.
         DofCombination::of_base(block, [0.0, 0.0, height])?;
         let (mut points, mut cells) = (Vec::new(), Vec::new());
-        for face in block.contact_faces() {
+        let (lines, faces) = match block.base() {
+            Base::Lines(lines) => (lines, Vec::new()),
+            Base::Faces(faces) => (Vec::new(), faces),
+        };
+        for face in faces {
             let (first, count) = (points.len(), face.len());
             let top = |node: &BaseNode| {
                 let rows = BaseNode::carried(&face, node.place(), height);
@@ -132,8 +136,7 @@ impl DeformedShape {
             add_outline(&mut cells, first + count, count);
             add_columns(&mut cells, first, count);
         }
-        let base = block.contact_nodes();
-        if let ([first, .., last], true) = (&base[..], points.is_empty()) {
+        if let [first, .., last] = &lines.concat()[..] {
             let middle = 0.5 * (first.x + last.x);
             let corner = |x: f64, height: f64| -> Result<ShapePoint> {
                 let [horizontal, _, vertical] =
@@ -158,7 +161,7 @@ impl DeformedShape {
     /// None for a valid building.
     pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
         let ([x, y], mut height) = (building.center(), 0.0);
-        let base = building.contact_faces().concat();
+        let base = building.base().into_nodes();
         let (mut points, mut cells) = (Vec::new(), Vec::new());
         points.extend(base.iter().map(BaseNode::shape));
         add_outline(&mut cells, 0, base.len());
@@ -182,7 +185,7 @@ impl DeformedShape {
     /// # Errors
     /// None for a valid building.
     pub fn of_building(building: &ShearBuilding) -> Result<Self> {
-        let base = building.contact_nodes();
+        let base = building.base().into_nodes();
         let (mut points, mut cells) = (Vec::new(), Vec::new());
         let mut height = 0.0;
         for level in 0..=building.storeys().len() {

@@ -1,6 +1,6 @@
 //! Motions of a structure's base, and displacements relative to them.
 
-use super::{BaseNode, DofCombination, Structure, check_base_nodes};
+use super::{Base, BaseNode, DofCombination, Structure};
 use crate::error::{Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 
@@ -82,13 +82,14 @@ impl DofCombination {
         finite("height above the base", height)?;
         finite("place from the middle of the base", x)?;
         finite("place from the middle of the base", y)?;
-        let nodes = structure.contact_faces().concat();
-        if nodes.is_empty() {
-            let [translation, rotation, rise] = base_motion(structure)?;
+        let base = structure.base();
+        if matches!(base, Base::Lines(_)) {
+            let [translation, rotation, rise] = base_motion(&base.into_nodes())?;
             let up = if x == 0.0 { rise } else { rise + x * rotation.clone() };
             return Ok([translation - height * rotation, Self::default(), up]);
         }
-        check_base_nodes(&nodes, structure.dofs())?;
+        base.check(structure.dofs())?;
+        let nodes = base.into_nodes();
         let center = [0, 1].map(|axis| middle(span(nodes.iter().map(|node| node.place()[axis]))));
         let carried = BaseNode::carried(&nodes, [center[0] + x, center[1] + y], height);
         for &(_, weight) in carried.iter().flatten() {
@@ -104,7 +105,7 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
     let needed = "in plan a row does not tell x from y: subtract a displacement of `DofCombination::of_base`";
     require_part(
         "displacement relative to the base",
-        structure.contact_faces().is_empty(),
+        matches!(structure.base(), Base::Lines(_)),
         needed,
     )?;
     DofCombination::of_base(structure, [0.0, 0.0, height])
@@ -112,8 +113,7 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
 
 /// Displacement of the base's middle to the right, rotation of its chord, and displacement of the middle
 /// upwards.
-fn base_motion(structure: &dyn Structure) -> Result<[DofCombination; 3]> {
-    let nodes = structure.contact_nodes();
+fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
     let (left, right) = (&nodes[0], &nodes[nodes.len() - 1]);
     let per_width = 1.0 / positive("width of the base", right.x - left.x)?;

@@ -1,9 +1,7 @@
 //! Points of a structure's base: nodes of a line in the plane, corners of faces in plan.
 
-use std::ops::Range;
-
-use super::{DofCombination, Structure};
-use crate::error::{Error, Result, at_least, finite, in_bounds, require};
+use super::DofCombination;
+use crate::error::{Result, at_least, finite, in_bounds, require};
 use crate::geometry::{PLANE, SPACE};
 
 /// Relative difference of displacements, and of a distance from a line, that counts as rounding.
@@ -212,7 +210,7 @@ impl BaseNode {
     }
 
     /// Error for a place or weight that is not finite, or a degree of freedom at `bound` or beyond.
-    fn check(&self, bound: usize) -> Result<()> {
+    pub(super) fn check(&self, bound: usize) -> Result<()> {
         for coordinate in [self.x, self.y, self.z] {
             finite("coordinate of a contact node", coordinate)?;
         }
@@ -224,46 +222,15 @@ impl BaseNode {
     }
 }
 
-/// The points by which a structure touches the ground: the nodes of its line, or the corners of all faces.
-pub(crate) fn base_nodes(structure: &dyn Structure) -> Vec<BaseNode> {
-    let faces = structure.contact_faces();
-    if faces.is_empty() { structure.contact_nodes() } else { faces.concat() }
-}
-
-/// Error for too few nodes, for places or weights that are not finite, and for degrees of freedom that do not
-/// exist.
-pub(crate) fn check_base_nodes(nodes: &[BaseNode], dofs: usize) -> Result<()> {
-    at_least("list of contact nodes", nodes.len(), 2)?;
-    nodes.iter().try_for_each(|node| node.check(dofs))
-}
-
 /// Error unless a contact node at `x` lies to the right of the node before it, at `before`.
 pub(crate) fn from_the_left(before: f64, x: f64) -> Result<()> {
     let needed = "to the right of the node before it: contact nodes are listed from left to right";
     require("coordinate of a contact node", x, x > before, needed).map(drop)
 }
 
-/// Contact nodes of each foundation, two or more each.
-///
-/// `count`: contact nodes in all. `ends`: the last contact node of each foundation except the last
-/// foundation.
-pub(crate) fn foundation_nodes(count: usize, ends: &[usize]) -> Result<Vec<Range<usize>>> {
-    let mut first = 0;
-    let mut all = Vec::with_capacity(ends.len() + 1);
-    for last in ends.iter().copied().chain([count.saturating_sub(1)]) {
-        if last >= count.max(1) {
-            let quantity = "last contact node of a foundation";
-            return Err(Error::Index { quantity, index: last, bound: count });
-        }
-        if last <= first {
-            let quantity = "list of contact nodes of a foundation";
-            let found = (last + 1).saturating_sub(first).min(count);
-            return Err(Error::Size { quantity, found, needed: 2 });
-        }
-        all.push(first..last + 1);
-        first = last + 1;
-    }
-    Ok(all)
+/// Error for a foundation in the plane of fewer than two contact nodes.
+pub(crate) fn check_line(nodes: &[BaseNode]) -> Result<()> {
+    at_least("list of contact nodes of a foundation", nodes.len(), 2)
 }
 
 #[cfg(test)]

@@ -6,9 +6,7 @@ macro_rules! forward_structure {
         forward! {
             $own.$inner;
             fn dofs(&$own) -> usize;
-            fn contact_nodes(&$own) -> Vec<$crate::structure::BaseNode>;
-            fn foundation_ends(&$own) -> Vec<usize>;
-            fn contact_faces(&$own) -> Vec<Vec<$crate::structure::BaseNode>>;
+            fn base(&$own) -> $crate::structure::Base;
             fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
             fn has_active_damping(&$own) -> bool;
             fn has_active_stiffness(&$own) -> bool;
@@ -20,6 +18,7 @@ macro_rules! forward_structure {
 }
 pub(crate) use forward_structure;
 
+mod base;
 mod base_motion;
 mod base_node;
 mod detached;
@@ -38,8 +37,9 @@ mod section_rows;
 
 pub use crate::error::StructureError;
 pub use crate::linalg::Triplets;
+pub use base::Base;
 pub use base_node::BaseNode;
-pub(crate) use base_node::{base_nodes, check_base_nodes, foundation_nodes, from_the_left};
+pub(crate) use base_node::{check_line, from_the_left};
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
 pub(crate) use held_base::{HeldBase, stiffest};
@@ -66,6 +66,45 @@ use crate::error::Result;
 
 /// A structure for the integrator: implement this for your own model.
 ///
+/// Four methods are needed: [`dofs`](Structure::dofs), [`base`](Structure::base), [`mass`](Structure::mass) and
+/// [`stiffness`](Structure::stiffness). This is a rigid base that carries a mass 6 m up on a column:
+/// ```
+/// use basemat::prelude::*;
+///
+/// /// Degrees of freedom: base to the right, base up, rotation of the base, mass to the right.
+/// struct Tower;
+///
+/// impl Structure for Tower {
+///     fn dofs(&self) -> usize {
+///         4
+///     }
+///     fn base(&self) -> Base {
+///         BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
+///     }
+///     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+///         for (dof, mass) in [10.0e3, 30.0e3, 40.0e3, 20.0e3].into_iter().enumerate() {
+///             matrix.add(dof, dof, mass);
+///         }
+///         Ok(())
+///     }
+///     // The column's deformation is u₃ − u₀ + 6 u₂.
+///     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+///         matrix.add_outer([(3, 1.0), (0, -1.0), (2, 6.0)], 4.0e6);
+///         Ok(())
+///     }
+/// }
+///
+/// let simulation = Simulation::builder(0.005)
+///     .ground(ElasticGround::under(Soil::new(120.0e6, 0.33, 1900.0)?, &Tower, 8)?)
+///     .structure(Tower)
+///     .interface(Coulomb::new(0.4)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// // The ground carries the vertical mass.
+/// assert!((simulation.state().normal_force - 30.0e3 * STANDARD_GRAVITY).abs() < 1.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
 /// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up,
 /// rotations counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute**
 /// displacements. A translation strains nothing. The force f is therefore evaluated, and a step committed, at
@@ -77,9 +116,7 @@ use crate::error::Result;
 /// ```
 ///
 /// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act
-/// on the translation with the ground) and f the optional [`NonlinearForce`]. Four methods are needed:
-/// [`dofs`](Structure::dofs), [`contact_nodes`](Structure::contact_nodes), [`mass`](Structure::mass) and
-/// [`stiffness`](Structure::stiffness).
+/// on the translation with the ground) and f the optional [`NonlinearForce`].
 ///
 /// No support is fixed; the ground holds the structure up. Neither K nor the tangent of f at rest may resist
 /// a rigid translation to the right or upwards. Building a simulation returns
@@ -88,10 +125,10 @@ use crate::error::Result;
 /// stiffness to the degrees of freedom of a contact node. Modal and other base-relative coordinates are
 /// allowed: their own stiffness holds them, and mass couples them to the base.
 ///
-/// All forces are per metre of thickness, except for a structure in plan
-/// ([`contact_faces`](Structure::contact_faces)), which moves in three directions: x to the right, y away
-/// from the reader, z up. Matrices and loads may return an error, for a reason of your own by
-/// [`Error::part`](crate::Error::part). The error ends the build, or the step with nothing of it committed.
+/// All forces are per metre of thickness, except for a structure in plan ([`Base::Faces`]), which moves in
+/// three directions: x to the right, y away from the reader, z up. Matrices and loads may return an error, for
+/// a reason of your own by [`Error::part`](crate::Error::part). The error ends the build, or the step with
+/// nothing of it committed.
 ///
 /// Every structure is [`Any`], so that [`Simulation::structure`](crate::Simulation::structure) leads back to
 /// your own type and its current internal variables.
@@ -100,30 +137,12 @@ pub trait Structure: Any + Send {
     /// Number of degrees of freedom n.
     fn dofs(&self) -> usize;
 
-    /// Points of the base that touch the ground, from left to right.
+    /// Base of the structure: the nodes that touch the ground.
     ///
-    /// Between neighbours the base is straight. A rigid base needs two.
-    fn contact_nodes(&self) -> Vec<BaseNode>;
-
-    /// The last contact node of each foundation, except of the last foundation.
-    ///
-    /// Between such a node and the next there is no base. Default: none, one foundation. In plan the faces
-    /// decide.
-    fn foundation_ends(&self) -> Vec<usize> {
-        Vec::new()
-    }
-
-    /// Faces of a base in plan, for a ground of three directions.
-    ///
-    /// Faces are triangles or other convex polygons, each given by its corners in either order, flat and at
-    /// one height, not overlapping. The base is flat over a triangle and bilinear over a quadrilateral; a
-    /// polygon of more corners is divided into triangles from its first corner. A rigid base needs one face,
-    /// its outline. Faces that share a corner, or have a corner on the other's edge, belong to one
-    /// foundation; other faces are foundations of their own. Default: none, a line of
-    /// [`contact_nodes`](Structure::contact_nodes) in the plane. A structure with faces has no contact nodes.
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        Vec::new()
-    }
+    /// In the plane: nodes from left to right, `nodes.into()`, straight between neighbours. A rigid base needs
+    /// its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] put the
+    /// structure in plan. Every call returns the same base.
+    fn base(&self) -> Base;
 
     /// Adds the mass matrix (n × n, kg/m) to `matrix`.
     ///

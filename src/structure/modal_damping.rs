@@ -6,7 +6,7 @@ use super::rigid_motions::{check_rows, rigid_momenta};
 use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRIC;
-use crate::structure::{HeldBase, NonlinearForce, Structure, Triplets, base_nodes, stiffest};
+use crate::structure::{HeldBase, NonlinearForce, Structure, Triplets, stiffest};
 
 /// Damping ratios of a structure's own modes; its rigid motions are not damped.
 ///
@@ -109,7 +109,7 @@ impl ModalDamping {
     /// As for [`ModalDamping::on`], except for massless degrees of freedom.
     pub fn on_fixed_base(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
-        let nodes = base_nodes(&structure);
+        let nodes = structure.base().into_nodes();
         check_rows(&nodes, mass.order())?;
         let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
         let held = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
@@ -148,7 +148,7 @@ impl ModalDamping {
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
         let [mass, stiffness] = matrices(&structure)?;
         let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(SYMMETRIC_AND_HEAVY)?;
-        let momenta = rigid_momenta(&base_nodes(&structure), &stiffness, &mass)?;
+        let momenta = rigid_momenta(&structure.base().into_nodes(), &stiffness, &mass)?;
         let mut found = WithModalDamping::new(structure);
         let (mut mode, mut momentum) = (vec![0.0; values.len()], vec![0.0; values.len()]);
         for (j, value) in values.iter().enumerate() {

@@ -31,7 +31,7 @@ impl std::ops::Add for InternalEnergy {
 /// Newton's method.
 ///
 /// ```
-/// use basemat::structure::{BaseNode, NonlinearForce, RigidBlock, Structure, Triplets};
+/// use basemat::structure::{Base, NonlinearForce, RigidBlock, Structure, Triplets};
 /// use basemat::Result;
 ///
 /// /// A block with a mass on top, on a spring that hardens: 1 MN/m and 10 GN/m³.
@@ -41,8 +41,8 @@ impl std::ops::Add for InternalEnergy {
 ///     fn dofs(&self) -> usize {
 ///         self.0.dofs() + 1
 ///     }
-///     fn contact_nodes(&self) -> Vec<BaseNode> {
-///         self.0.contact_nodes()
+///     fn base(&self) -> Base {
+///         self.0.base()
 ///     }
 ///     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
 ///         matrix.add(3, 3, 2.0e3);

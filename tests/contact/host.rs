@@ -7,7 +7,7 @@ use basemat::bem::{Ground, SpringGround};
 use basemat::contact::ContactProblem;
 use basemat::interface::{ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
-use basemat::structure::{BaseNode, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, Structure, Triplets};
 use basemat::{Error, Simulation, unobserved};
 
 use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening};
@@ -27,8 +27,8 @@ impl Structure for Tower {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -6,7 +6,7 @@ use basemat::bem::{ElasticGround, Grading, Ground};
 use basemat::coupled::{Coordinates, GravityStage, SimulationBuilder, State};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
-use basemat::structure::{BaseNode, CraigBampton, FemModel, RigidBlock, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, CraigBampton, FemModel, RigidBlock, Structure, Triplets};
 use basemat::{Error, Simulation, unobserved};
 
 use basemat_problems::dense::condition_by_inverse;
@@ -173,8 +173,8 @@ impl Structure for Wheels {
         5
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

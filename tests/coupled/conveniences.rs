@@ -32,17 +32,15 @@ fn simulation() -> Simulation {
 }
 
 /// A base with foundations that end where they are told to.
-struct Ends(Vec<f64>, Vec<usize>);
+struct Lines(Vec<Vec<f64>>);
 
-impl Structure for Ends {
+impl Structure for Lines {
     fn dofs(&self) -> usize {
         2
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.0.iter().map(|&x| BaseNode::free(x, 0, 1)).collect()
-    }
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.1.clone()
+    fn base(&self) -> Base {
+        let line = |line: &Vec<f64>| line.iter().map(|&x| BaseNode::free(x, 0, 1)).collect();
+        Base::Lines(self.0.iter().map(line).collect())
     }
     fn mass(&self, _: &mut Triplets) -> Result<()> {
         Ok(())
@@ -85,24 +83,23 @@ fn strips_lie_under_foundations() {
     is_cut_at(on(&[Strip::uniform(-3.0..3.0, 8).unwrap()]), &equal);
     assert_eq!(Grading::default(), Grading::Cosine);
 
-    let nodes = vec![0.0, 1.0, 2.0, 5.0, 7.0, 10.0, 11.0];
-    let several = Ends(nodes.clone(), vec![2, 4]);
+    let several = Lines(vec![vec![0.0, 1.0, 2.0], vec![5.0, 7.0], vec![10.0, 11.0]]);
     let ground = on(&Strip::under(&several, 3, Grading::Uniform).unwrap());
     let strips = [0.0..2.0, 5.0..7.0, 10.0..11.0].map(|range| Strip::uniform(range, 3).unwrap());
     assert_eq!(ends(&ground), ends(&on(&strips)));
 
-    let under = |nodes: &[f64], ends: &[usize], count| {
-        let structure = Ends(nodes.to_vec(), ends.to_vec());
+    let under = |lines: &[&[f64]], count| {
+        let structure = Lines(lines.iter().map(|line| line.to_vec()).collect());
         ElasticGround::under(soil(), &structure, count).err().unwrap()
     };
-    assert!(matches!(under(&[], &[], 3), Error::Size { found: 0, .. }));
-    assert!(matches!(under(&[1.0], &[], 3), Error::Size { found: 1, .. }));
-    assert!(matches!(under(&nodes, &[0], 3), Error::Size { found: 1, .. }));
-    assert!(matches!(under(&nodes, &[3, 2], 3), Error::Size { found: 0, .. }));
-    assert!(matches!(under(&nodes, &[usize::MAX], 3), Error::Index { bound: 7, .. }));
-    assert!(matches!(under(&nodes, &[2], 0), Error::Input { .. }));
-    assert!(matches!(under(&[0.0, f64::NAN], &[], 3), Error::Input { .. }));
-    assert!(matches!(under(&[1.0, 0.0], &[], 3), Error::Input { .. }));
+    let two = [0.0, 1.0];
+    assert!(matches!(under(&[], 3), Error::Size { found: 0, .. }));
+    assert!(matches!(under(&[&[1.0]], 3), Error::Size { found: 1, .. }));
+    assert!(matches!(under(&[&[-1.0], &two], 3), Error::Size { found: 1, .. }));
+    assert!(matches!(under(&[&two, &[]], 3), Error::Size { found: 0, .. }));
+    assert!(matches!(under(&[&two, &[2.0, 3.0]], 0), Error::Input { .. }));
+    assert!(matches!(under(&[&[0.0, f64::NAN]], 3), Error::Input { .. }));
+    assert!(matches!(under(&[&[1.0, 0.0]], 3), Error::Input { .. }));
 }
 
 #[test]

@@ -7,7 +7,8 @@ use basemat::coupled::{Coordinates, Midpoint, Newmark, Probe, SimulationBuilder,
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::structure::{
-    BaseNode, DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure, Triplets,
+    Base, BaseNode, DofCombination, FemModel, RayleighDamping, ShearBuilding, Storey, Structure,
+    Triplets,
 };
 
 use basemat_problems::needed_from;
@@ -155,9 +156,9 @@ fn modes_know_a_base_that_cannot_lift() {
         fn dofs(&self) -> usize {
             2
         }
-        fn contact_nodes(&self) -> Vec<BaseNode> {
+        fn base(&self) -> Base {
             let node = |x| BaseNode { x, horizontal: 0.into(), ..BaseNode::default() };
-            vec![node(-2.0), node(2.0)]
+            [node(-2.0), node(2.0)].into()
         }
         fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
             (0..2).for_each(|i| matrix.add(i, i, 5e3));

@@ -11,7 +11,7 @@ use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{Record, el_centro_1940};
 use basemat::results::{Quantity, Recorder};
 use basemat::structure::{
-    BaseNode, DofCombination, RigidBlock, ShearBuilding, Storey, Structure, Triplets,
+    Base, BaseNode, DofCombination, RigidBlock, ShearBuilding, Storey, Structure, Triplets,
 };
 use basemat::{Complex, Error, Result, Simulation, Soil};
 
@@ -249,8 +249,8 @@ impl Structure for SoftBase {
         8
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        (0..3).map(|k| BaseNode::free(2.0 * k as f64, 2 * k, 2 * k + 1)).collect()
+    fn base(&self) -> Base {
+        [0, 1, 2].map(|k| BaseNode::free(2.0 * k as f64, 2 * k, 2 * k + 1)).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -13,8 +13,8 @@ use basemat::interface::Bonded;
 use basemat::motion::{FreeField, FreeFieldFn};
 use basemat::results::Run;
 use basemat::structure::{
-    BaseNode, Bilinear, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding,
-    Storey, Structure, StructureGroup, Triplets, WithSprings,
+    Base, Bilinear, FemModel, NonlinearForce, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+    Structure, StructureGroup, Triplets, WithSprings,
 };
 
 use basemat_problems::own_force;
@@ -192,12 +192,8 @@ impl Structure for Pounding {
         self.blocks.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.blocks.contact_nodes()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.blocks.foundation_ends()
+    fn base(&self) -> Base {
+        self.blocks.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -8,7 +8,7 @@ use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
 use basemat::interface::{Bonded, Cohesive, Coulomb, Mode, PreviousContact, VariableFriction};
 use basemat::structure::{
-    BaseNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
+    Base, BaseNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
 };
 use basemat::{Error, Observer, Result, Simulation};
 
@@ -147,8 +147,8 @@ impl Structure for Frame {
         self.masses.len()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|unknown| self.number[unknown]))
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2].map(|unknown| self.number[unknown])).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
@@ -242,9 +242,10 @@ fn a_base_of_many_nodes_is_accepted() {
         fn dofs(&self) -> usize {
             3
         }
-        fn contact_nodes(&self) -> Vec<BaseNode> {
-            let node = |k: usize| 4.0 * k as f64 / (self.0 - 1) as f64 - 2.0;
-            (0..self.0).map(|k| BaseNode::rigid(node(k), 0.0, [0, 1, 2])).collect()
+        fn base(&self) -> Base {
+            let place = |k: usize| 4.0 * k as f64 / (self.0 - 1) as f64 - 2.0;
+            let nodes = (0..self.0).map(|k| BaseNode::rigid(place(k), 0.0, [0, 1, 2]));
+            nodes.collect::<Vec<_>>().into()
         }
         fn mass(&self, matrix: &mut Triplets) -> Result<()> {
             (0..3).for_each(|i| matrix.add(i, i, 1e4));
@@ -287,8 +288,8 @@ impl Structure for Told {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         (0..4).for_each(|i| matrix.add(i, i, 1e4));

@@ -10,8 +10,8 @@ use basemat::coupled::StepError;
 use basemat::interface::Bonded;
 use basemat::motion::FreeFieldFn;
 use basemat::structure::{
-    BaseNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup, Triplets,
-    WithSprings,
+    Base, BaseNode, CraigBampton, ModalDamping, NonlinearForce, Structure, StructureGroup,
+    Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
 
@@ -56,8 +56,8 @@ impl Structure for Refusing {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -3,7 +3,7 @@
 use basemat::Simulation;
 use basemat::coupled::SimulationBuilder;
 use basemat::interface::Bonded;
-use basemat::structure::{BaseNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 
 use basemat_problems::block_on_springs::bed;
 
@@ -49,8 +49,8 @@ impl Structure for Spoilt {
         self.dofs
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.nodes.clone()
+    fn base(&self) -> Base {
+        self.nodes.clone().into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

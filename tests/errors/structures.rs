@@ -7,7 +7,7 @@ use basemat::coupled::GravityStage;
 use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::structure::{
-    BaseNode, CraigBampton, ModalDamping, Structure, StructureGroup, Triplets,
+    Base, BaseNode, CraigBampton, ModalDamping, Structure, StructureGroup, Triplets,
 };
 use basemat::{Error, MemoryError, Simulation, Soil};
 
@@ -140,8 +140,8 @@ impl Structure for Grown {
     fn dofs(&self) -> usize {
         3
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         (0..3).for_each(|i| matrix.add(i, i, 1e4));

@@ -9,7 +9,7 @@ use basemat::bem::{ElasticGround, Strip};
 use basemat::fem::{Layer, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::io::GmshMesh;
-use basemat::structure::{FemModel, Structure};
+use basemat::structure::{Base, FemModel, Structure};
 use basemat::{Error, FileError, FileFault, Simulation, Soil};
 use basemat_problems::faults::{count, not_a_number, value};
 use proptest::prelude::*;
@@ -143,7 +143,7 @@ fn a_block_comes_back_as_it_was() {
     let back = gmsh.mesh(&[("upper", concrete()), ("lower part", soft)]).unwrap();
     assert_eq!(back.nodes(), model.mesh().nodes());
     let back = FemModel::new(back, &gmsh.line("base").unwrap()).unwrap();
-    assert_eq!(back.contact_nodes(), model.contact_nodes());
+    assert_eq!(back.base(), model.base());
     for (own, wanted) in matrices(&back).iter().zip(matrices(&model)) {
         let scale = wanted.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         // Turned quadrilaterals sum in another order.
@@ -341,7 +341,8 @@ fn a_base_with_a_gap_is_two_foundations() {
     assert_eq!(lines, [[0, 1], [2, 3]]);
     let mesh = || gmsh.mesh(&[("", concrete())]).unwrap();
     let model = FemModel::on_foundations(mesh(), &lines).unwrap();
-    assert_eq!((model.contact_nodes().len(), model.foundation_ends()), (4, vec![1]));
+    let Base::Lines(found) = model.base() else { panic!("a base in the plane") };
+    assert_eq!(found.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     let build = |model: FemModel, strips: &[std::ops::Range<f64>]| {
         let strips: Vec<Strip> =
             strips.iter().map(|range| Strip::uniform(range.clone(), 4).unwrap()).collect();
@@ -352,7 +353,7 @@ fn a_base_with_a_gap_is_two_foundations() {
     let built = build(model, &[0.0..1.0, 2.0..3.0]).unwrap();
     assert_eq!(built.state().foundations.len(), 2);
     let whole = || FemModel::on_foundations(mesh(), &[vec![0, 1, 2, 3]]).unwrap();
-    assert!(whole().foundation_ends().is_empty());
+    assert!(matches!(whole().base(), Base::Lines(lines) if lines.len() == 1));
     let built = build(whole(), std::slice::from_ref(&(0.0..3.0))).unwrap();
     assert_eq!(built.state().foundations.len(), 1);
     // Between the strips there is no base.

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use basemat::Simulation;
 use basemat::interface::Coulomb;
-use basemat::structure::{BaseNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 
 use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
@@ -36,8 +36,8 @@ impl Structure for Hardening {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -9,7 +9,7 @@ use basemat::coupled::Probe;
 use basemat::coupled::{CheckpointError, StepError};
 use basemat::interface::Bonded;
 use basemat::motion::{Record, el_centro_1940};
-use basemat::structure::{BaseNode, NonlinearForce, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, NonlinearForce, Structure, Triplets};
 use basemat::{Error, Result, Simulation};
 
 use basemat_problems::own_force;
@@ -58,8 +58,8 @@ impl Structure for Isolator {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

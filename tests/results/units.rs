@@ -165,7 +165,7 @@ fn damping_that_brakes_a_sliding_block_is_told() {
         block.mass(&mut drag).unwrap();
         let scaled = drag.entries().iter().map(|&(i, j, value)| (i, j, damping * value));
         let drag = Triplets::from_entries(3, scaled);
-        let model = MatrixModel::new(mass, Triplets::new(3), block.contact_nodes()).unwrap();
+        let model = MatrixModel::new(mass, Triplets::new(3), block.base()).unwrap();
         let mut simulation = Simulation::builder(0.005)
             .ground(ElasticGround::under(soil(), &model, 8).unwrap())
             .structure(model.with_damping(drag).unwrap())

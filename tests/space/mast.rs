@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use basemat::coupled::Coordinates;
 use basemat::interface::Bonded;
 use basemat::structure::{
-    BaseNode, CraigBampton, DofCombination, MatrixModel, ModalDamping, PlanStorey, RigidBody,
+    Base, CraigBampton, DofCombination, MatrixModel, ModalDamping, PlanStorey, RigidBody,
     StoreyBuilding, Structure, Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation};
@@ -31,11 +31,8 @@ impl Structure for Mast {
     fn dofs(&self) -> usize {
         8
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        Vec::new()
-    }
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.0.contact_faces()
+    fn base(&self) -> Base {
+        self.0.base()
     }
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.0.mass(matrix)?;
@@ -136,10 +133,10 @@ fn given_matrices_are_the_structure_that_has_them() {
             fill(&mut matrix);
             matrix
         };
-        MatrixModel::in_plan(
+        MatrixModel::new(
             matrix(&|m| own.mass(m).unwrap()),
             matrix(&|m| own.stiffness(m).unwrap()),
-            own.contact_faces(),
+            own.base(),
         )
         .and_then(|model| model.with_damping(matrix(&|m| own.damping(m).unwrap())))
         .unwrap()
@@ -169,11 +166,10 @@ fn given_matrices_are_the_structure_that_has_them() {
 #[test]
 fn matrices_that_are_none() {
     let unit = |n: usize| Triplets::from_entries(n, (0..n).map(|k| (k, k, 1.0)));
-    let faces = mast().contact_faces();
-    let made = MatrixModel::in_plan(unit(6), Triplets::new(6), Vec::new());
+    let made = MatrixModel::new(unit(6), Triplets::new(6), Base::Faces(Vec::new()));
     assert!(matches!(made, Err(Error::Size { .. })));
-    let made = MatrixModel::in_plan(unit(5), Triplets::new(5), faces.clone());
+    let made = MatrixModel::new(unit(5), Triplets::new(5), mast().base());
     assert!(matches!(made, Err(Error::Index { index: 5, bound: 5, .. })));
-    let made = MatrixModel::in_plan(unit(6), Triplets::new(5), faces);
+    let made = MatrixModel::new(unit(6), Triplets::new(5), mast().base());
     assert!(matches!(made, Err(Error::Size { .. })));
 }

@@ -7,9 +7,9 @@ use basemat::coupled::StabilityError;
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
-    BaseNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
+    Base, BaseNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
 };
-use basemat::{Error, Result, Simulation};
+use basemat::{Error, Simulation};
 
 use super::cells::{BED, Cells};
 
@@ -46,34 +46,6 @@ fn bases_of_another_dimension() {
     let group = StructureGroup::new().with(cube(), 0.0).unwrap();
     let error = group.with(RigidBlock::new(4.0, 4.0, 2000.0).unwrap(), 9.0).err().unwrap();
     assert!(matches!(error, Error::Scene { quantity: "structure of a group", .. }), "{error}");
-}
-
-/// A body with nodes of the plane, too.
-struct Both(RigidBody);
-
-impl Structure for Both {
-    fn dofs(&self) -> usize {
-        6
-    }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-2.0, 2.0, [0, 2, 4])
-    }
-    fn contact_faces(&self) -> Vec<Vec<basemat::structure::BaseNode>> {
-        self.0.contact_faces()
-    }
-    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.mass(matrix)
-    }
-    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.stiffness(matrix)
-    }
-}
-
-#[test]
-fn a_base_of_both_kinds() {
-    for error in [build(Both(cube()), cells(), Bonded), build(Both(cube()), bed(), Bonded)] {
-        assert!(error.to_string().contains("not both"), "{error}");
-    }
 }
 
 #[test]
@@ -240,7 +212,7 @@ fn on_face(corners: &[[f64; 2]], center: [f64; 2]) -> MatrixModel {
     let masses = [2e5, 2e5, 2e5, 1e6, 1e6, 1e6];
     let mass = Triplets::from_entries(6, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
     let face = BaseNode::rigid_face(corners, center, [0, 1, 2, 3, 4, 5]);
-    MatrixModel::in_plan(mass, Triplets::new(6), vec![face]).unwrap()
+    MatrixModel::new(mass, Triplets::new(6), Base::Faces(vec![face])).unwrap()
 }
 
 /// Site coordinates are as good as others: the static state and its moments are those at the origin.

@@ -6,7 +6,7 @@ use basemat::bem::{ElasticGround, Ground};
 use basemat::coupled::CoarseBaseError;
 use basemat::coupled::Warning;
 use basemat::interface::Coulomb;
-use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, MatrixModel, Structure, Triplets};
 use basemat::{Error, Result, Simulation, Soil};
 
 /// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
@@ -164,7 +164,7 @@ impl Slab {
             }
         }
         self.columns.iter().for_each(|(node, m)| add(*node, *m));
-        MatrixModel::in_plan(mass, stiffness, faces)
+        MatrixModel::new(mass, stiffness, Base::Faces(faces))
     }
 
     fn node(&self, node: [usize; 2]) -> BaseNode {
@@ -286,7 +286,7 @@ fn a_slab_gets_as_many_cells_as_faces() {
     assert!(Plan::under(&model, 1).is_err());
     let rigid = basemat::structure::RigidBody::cuboid([12.0, 12.0, 1.0], 2400.0).unwrap();
     assert_eq!(Plan::under(&rigid, 4).unwrap().count(), 16);
-    assert_eq!(model.contact_faces().len(), 100);
+    assert_eq!(model.base().nodes().count(), 400);
     // A mesh that is much finer than cells can be: `build` judges whether these do.
     let fine = Slab { count: 50, ..slab }.model().unwrap();
     assert_eq!(Plan::under(&fine, 12).unwrap().count(), 31 * 31);

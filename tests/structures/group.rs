@@ -9,8 +9,8 @@ use basemat::history::HistoryMethod;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{RickerDisplacement, STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::{
-    CraigBampton, DofCombination, ModalDamping, NonlinearForce, RigidBlock, ShearBuilding, Storey,
-    Structure, StructureGroup, Triplets, WithSprings,
+    Base, CraigBampton, DofCombination, ModalDamping, NonlinearForce, RigidBlock, ShearBuilding,
+    Storey, Structure, StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result, Simulation, Soil};
 
@@ -319,38 +319,45 @@ fn foundations_stay_apart_in_every_wrapper() {
         Box::new(ModalDamping::new(&[0.05]).unwrap().on(pair()).unwrap()),
         Box::new(CraigBampton::new(2).reduce(pair()).unwrap()),
     ];
-    assert_eq!(pair().foundation_ends(), [1]);
-    for structure in wrapped {
-        assert_eq!(structure.foundation_ends(), [1]);
+    for structure in wrapped.into_iter().chain([Box::new(pair()) as Box<dyn Structure>]) {
+        let Base::Lines(lines) = structure.base() else { panic!("a base in the plane") };
+        assert_eq!(lines.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
     }
     let strips = [strip(0.0, 4.0), strip(5.0, 3.0)];
     let simulation = base().structure(WithSprings::new(pair())).ground(half_plane(&strips));
     assert_eq!(simulation.build().unwrap().state().foundations.len(), 2);
 }
 
-/// A block that names a last contact node of its own choice.
-struct Ends(RigidBlock, usize);
+/// A block on two foundations: its ends, one node each.
+struct Stilts(RigidBlock);
 
-impl Structure for Ends {
-    needed_from!(0);
+impl Structure for Stilts {
+    fn dofs(&self) -> usize {
+        self.0.dofs()
+    }
 
-    fn foundation_ends(&self) -> Vec<usize> {
-        vec![self.1]
+    fn base(&self) -> Base {
+        Base::Lines(self.0.base().nodes().map(|node| vec![node.clone()]).collect())
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
     }
 }
 
 #[test]
-fn foundations_that_end_nowhere_are_refused() {
+fn foundations_of_one_node_are_refused() {
     let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
-    for end in [2, usize::MAX] {
-        let pair = StructureGroup::new()
-            .with(block(), 0.0)
-            .unwrap()
-            .with(Ends(block(), end), 5.0)
-            .unwrap();
-        let built = base().structure(pair).ground(half_plane(&strips)).build();
-        assert!(matches!(built, Err(Error::Index { bound: 4, .. })), "{:?}", built.err());
-    }
+    let pair = StructureGroup::new().with(block(), 0.0).unwrap().with(Stilts(block()), 5.0);
+    let built = base().structure(pair.unwrap()).ground(half_plane(&strips)).build();
+    let Err(Error::Size { quantity, found: 1, needed: 2 }) = built else {
+        panic!("{:?}", built.err())
+    };
+    assert_eq!(quantity, "list of contact nodes of a foundation");
 }
 
 /// GOAL: a probe of one member never reads another one.

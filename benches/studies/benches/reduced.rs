@@ -19,8 +19,8 @@ const STEPS: usize = 50;
 
 /// The full model, and the sway of its top.
 fn full() -> Result<(MatrixModel, DofCombination)> {
-    let Tower { mass, stiffness, contact, top } = Tower::new()?;
-    Ok((damped(mass, stiffness, contact)?, top))
+    let Tower { mass, stiffness, base, top } = Tower::new()?;
+    Ok((damped(mass, stiffness, base)?, top))
 }
 
 /// A simulation that marches the same steps again and again.

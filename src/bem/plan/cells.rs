@@ -8,7 +8,7 @@ use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice};
 use crate::history::PairClasses;
-use crate::structure::{BaseNode, Structure};
+use crate::structure::{Base, BaseNode, Structure};
 
 /// Overhang of outer cells beyond the outline, as a fraction of their side: see [`Plan`].
 const OVERHANG: f64 = 0.105;
@@ -193,11 +193,12 @@ impl Plan {
     /// # Errors
     /// As for [`Plan::on_faces`].
     pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
-        let bodies = structure.contact_faces();
+        let Base::Faces(bodies) = structure.base() else {
+            return Self::on_faces(&[], cells);
+        };
         let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
         let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
-        let numbered = corners.iter().enumerate();
-        let faces = numbered.map(|(number, corners)| Face::new(number, corners));
+        let faces = corners.iter().enumerate().map(|(number, own)| Face::new(number, own));
         let faces = faces.collect::<Result<Vec<_>>>()?;
         check_faces(faces.len())?;
         let mats = Face::mats(&faces);
@@ -221,9 +222,9 @@ impl Plan {
         Self::covering(faces, most, OVERHANG)
     }
 
-    /// Cells under the faces of a structure; `None` without faces.
+    /// Cells under the faces of a structure; `None` for a structure in the plane.
     pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
-        let is_in_plan = !structure.contact_faces().is_empty();
+        let is_in_plan = matches!(structure.base(), Base::Faces(_));
         is_in_plan.then(|| Self::under(structure, cells)).transpose()
     }
 

@@ -14,7 +14,7 @@
 //! 0.9, 2.4 and 11.
 
 use super::static_stages;
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
@@ -116,7 +116,7 @@ pub(crate) fn check(
 /// Base on twice the elements, four times in plan, and their static compliance.
 ///
 /// `None` if the compliance is unknown, or too large for a check.
-fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
+fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     let patch = base.elements();
     if patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
@@ -127,13 +127,13 @@ fn finer(parts: &Parts, base: &Base) -> Option<(Base, Vec<f64>)> {
         return None;
     }
     finer.refer_inside(&mut soil);
-    Some((Base::of(parts.structure.as_ref(), &finer).ok()?, soil))
+    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, soil))
 }
 
 /// The foundation with the largest difference of vertical shape between two static states, and the difference.
 ///
 /// Root mean squares over the nodes, relative to the shape of the second state, without the best rigid motions.
-fn largest_difference(base: &Base, one: &StaticState, other: &StaticState) -> (usize, f64) {
+fn largest_difference(base: &PlacedBase, one: &StaticState, other: &StaticState) -> (usize, f64) {
     let differences = base.foundations().map(|(nodes, _)| {
         let shape = |state: &StaticState| -> Vec<f64> {
             nodes.iter().map(|node| node.vertical.value(&state.displacement)).collect()
@@ -175,7 +175,7 @@ fn bent(nodes: &[BaseNode], values: Vec<f64>) -> f64 {
 }
 
 /// Number of elements of a foundation; in plan along its shorter side, with the name of that axis.
-fn count(base: &Base, foundation: usize) -> (Option<char>, usize) {
+fn count(base: &PlacedBase, foundation: usize) -> (Option<char>, usize) {
     let patch = base.elements();
     let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
     let along = |axis: usize| {
@@ -195,7 +195,7 @@ impl UnseenShape {
     /// The shape with the smallest ρ on elements of this static compliance.
     ///
     /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
-    fn softest(assembled: &Assembled, base: &Base, soil: &[f64]) -> Option<Self> {
+    fn softest(assembled: &Assembled, base: &PlacedBase, soil: &[f64]) -> Option<Self> {
         let stiffness = assembled.stiffness_at_rest();
         let n = assembled.dofs();
         let moduli = moduli(base, soil);
@@ -257,7 +257,7 @@ impl UnseenShape {
 /// Stiffness of the soil under each element in each component, Pa/m.
 ///
 /// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements.
-fn moduli(base: &Base, soil: &[f64]) -> Vec<f64> {
+fn moduli(base: &PlacedBase, soil: &[f64]) -> Vec<f64> {
     let (layout, size) = (base.layout(), base.layout().len());
     let entry = |i: usize, j: usize| soil[i * size + j];
     let foundations: Vec<_> = base.foundations().map(|(_, own)| own).collect();

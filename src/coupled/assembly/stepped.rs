@@ -2,7 +2,7 @@
 
 use super::vibration_modes::vibration_modes;
 use crate::coupled::assembly::krylov::Reduction;
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::Model;
@@ -37,7 +37,7 @@ mod cost {
 /// Matrices, base and operators of a structure, in the stepping coordinates.
 pub(crate) struct Stepped {
     pub(crate) model: Model,
-    pub(crate) base: Base,
+    pub(crate) base: PlacedBase,
     pub(crate) operators: Operators,
 }
 

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::shares::{Point, bilinear, distance, outside, shares};
 use super::transformation::Weights;
-use super::{Base, BasePoint, Outline, check_covered, mean_settlement};
+use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
 use crate::geometry::Patch;
@@ -15,7 +15,7 @@ pub(crate) const GAUSS: f64 = 0.288_675_134_594_812_9;
 /// Area below which a triangle counts as degenerate, relative to the square of its longest side.
 const NO_AREA: f64 = 1e-12;
 
-impl Base {
+impl PlacedBase {
     /// The base of these faces: faces that touch form one mat, and each mat is a foundation.
     pub(crate) fn on_faces(faces: &[Vec<BaseNode>], patch: &Patch) -> Result<Self> {
         let mats = mats(faces)?;

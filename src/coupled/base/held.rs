@@ -7,7 +7,7 @@
 //! | γ | stiffness of the springs |
 
 use crate::bem::Ground;
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{SparseMatrix, dot};
@@ -28,7 +28,7 @@ pub(crate) fn held(
     elements: &Patch,
     time_step: f64,
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
-    let base = Base::of(structure.as_ref(), elements)?;
+    let base = PlacedBase::of(structure.as_ref(), elements)?;
     let n = structure.dofs();
     let assemble =
         |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| SparseMatrix::assembled(name, n, fill);

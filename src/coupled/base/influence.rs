@@ -5,7 +5,7 @@
 //! | R | influence vectors, one to the right, one upwards and in plan one away for each connected part |
 //! | y | translation of each part's ground: the mean free field under it |
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::Terms;
 use crate::geometry::ContactLayout;
 use crate::linalg::matrix::spread;
@@ -34,7 +34,7 @@ impl Influence {
     /// Splits the rigid translations of the whole structure into translations of its parts.
     ///
     /// `roots`: the same number for all degrees of freedom of one part.
-    pub(crate) fn split(base: &Base, translations: &[Vec<f64>], roots: &[usize]) -> Self {
+    pub(crate) fn split(base: &PlacedBase, translations: &[Vec<f64>], roots: &[usize]) -> Self {
         let mut parts: Vec<(usize, ConnectedPart)> = Vec::new();
         for (nodes, elements) in base.foundations() {
             let Some(dof) = nodes.iter().find_map(|node| node.dofs().next()) else {
@@ -116,7 +116,7 @@ impl ConnectedPart {
     }
 
     /// The contact nodes of its foundations.
-    pub(crate) fn nodes<'a>(&self, base: &'a Base) -> Vec<&'a BaseNode> {
+    pub(crate) fn nodes<'a>(&self, base: &'a PlacedBase) -> Vec<&'a BaseNode> {
         base.foundations()
             .filter(|(_, elements)| self.elements.contains(&elements.start))
             .flat_map(|(nodes, _)| nodes)
@@ -132,7 +132,7 @@ impl ConnectedPart {
     ///
     /// Normal components count down. Zero in directions in which the part cannot move. Exact if all displacements
     /// are equal.
-    pub(crate) fn mean(&self, base: &Base, displacement: &[f64]) -> [f64; 3] {
+    pub(crate) fn mean(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
         let Some(&first) = self.elements.first() else { return [0.0; 3] };
         let [down, along, across] = base.layout().split(displacement);
         let areas = base.areas();

@@ -1,25 +1,28 @@
-//! A base in the plane: a line of nodes, its mean displacement over a contact element, and its chord.
+//! A base in the plane: lines of nodes, its mean displacement over a contact element, and its chord.
 
 use super::faces::GAUSS;
 use super::transformation::{Terms, Weights, accumulate};
-use super::{Base, BasePoint, Outline, check_covered, mean_settlement};
+use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
 use crate::bem::ContactElement;
 use crate::error::{Error, Result, short};
 use crate::geometry::Patch;
-use crate::structure::{BaseNode, foundation_nodes, from_the_left};
+use crate::structure::{BaseNode, check_line, from_the_left};
 
 /// Distance from an element's line and ends that counts as rounding, relative to its length.
 const ROUNDING: f64 = 1e-9;
 
-impl Base {
+impl PlacedBase {
     /// Averages the piecewise straight base over each element.
     ///
-    /// A foundation ends at each of `ends`, and at the last node.
-    pub(crate) fn on_line(nodes: Vec<BaseNode>, ends: &[usize], elements: &Patch) -> Result<Self> {
+    /// Each line is a foundation.
+    pub(crate) fn on_lines(lines: &[Vec<BaseNode>], elements: &Patch) -> Result<Self> {
+        let nodes = lines.concat();
         check_order(&nodes)?;
-        let mut foundations = Vec::with_capacity(ends.len() + 1);
-        let mut element = 0;
-        for own in foundation_nodes(nodes.len(), ends)? {
+        let mut foundations: Vec<Outline> = Vec::with_capacity(lines.len());
+        let (mut first, mut element) = (0, 0);
+        for line in lines {
+            check_line(line)?;
+            let own = first..first + line.len();
             let last = own.end - 1;
             let end = nodes.get(own.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last].x + next.x);
@@ -32,7 +35,7 @@ impl Base {
                 nodes: own,
                 corners: Vec::new(),
             });
-            element = end;
+            (first, element) = (last + 1, end);
         }
         check_covered(&foundations)?;
         let mut weights = Vec::with_capacity(elements.len());

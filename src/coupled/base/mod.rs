@@ -13,7 +13,7 @@ use crate::coupled::base::transformation::{Rows, Terms, Transformation, Weights,
 use crate::error::{Error, Result, at_least};
 use crate::geometry::{ContactElement, ContactLayout, Patch, axis_name, far_ends, span};
 use crate::linalg::dot;
-use crate::structure::{BaseNode, DofCombination, Structure, base_nodes, check_base_nodes};
+use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
 /// Fraction of a foundation's length that may extend beyond the elements.
 const UNCOVERED: f64 = 0.1;
@@ -21,10 +21,10 @@ const UNCOVERED: f64 = 0.1;
 /// B, from coordinates to element means of the base displacement, and BᵀA, from tractions to forces.
 ///
 /// Normal components count down. The coordinates are the structure's degrees of freedom or its stepping
-/// coordinates ([`stepped`](Base::stepped)). For elements between neighbouring nodes the means are the T matrix of
+/// coordinates ([`stepped`](PlacedBase::stepped)). For elements between neighbouring nodes the means are the T matrix of
 /// halves of Patel & Spyrakos, eq. 14, and the transpose is their eq. 15. `faces.rs` computes the means in plan.
 #[derive(Debug, Clone)]
-pub(crate) struct Base {
+pub(crate) struct PlacedBase {
     /// Rows, component by component.
     rows: Rows,
     foundations: Vec<Outline>,
@@ -57,26 +57,20 @@ pub(crate) struct Outline {
     pub(crate) corners: Vec<[f64; 2]>,
 }
 
-impl Base {
+impl PlacedBase {
     /// The base of `structure` on the elements of a ground.
     pub(crate) fn of(structure: &dyn Structure, patch: &Patch) -> Result<Self> {
-        let nodes = base_nodes(structure);
-        check_base_nodes(&nodes, structure.dofs())?;
-        let faces = structure.contact_faces();
+        let base = structure.base();
+        base.check(structure.dofs())?;
         let refuse = |needed| Err(Error::Scene { quantity: "structure", needed });
-        if !(faces.is_empty() || structure.contact_nodes().is_empty()) {
-            return refuse(
-                "must have a base of contact nodes in the plane or of faces in plan, not both",
-            );
-        }
-        match (faces.is_empty(), patch.is_plan()) {
-            (true, false) => Self::on_line(nodes, &structure.foundation_ends(), patch),
-            (false, true) => Self::on_faces(&faces, patch),
-            (true, true) => refuse(
-                "must touch a ground in plan with faces: contact nodes alone are those of the plane",
+        match (base, patch.is_plan()) {
+            (Base::Lines(lines), false) => Self::on_lines(&lines, patch),
+            (Base::Faces(faces), true) => Self::on_faces(&faces, patch),
+            (Base::Lines(_), true) => refuse(
+                "must touch a ground in plan with faces: its base has lines of contact nodes, in the plane",
             ),
-            (false, false) => refuse(
-                "must touch a ground of the plane with contact nodes: its base has faces, in plan",
+            (Base::Faces(_), false) => refuse(
+                "must touch a ground of the plane with lines of contact nodes: its base has faces, in plan",
             ),
         }
     }

@@ -3,9 +3,10 @@
 use super::*;
 use crate::structure::BaseNode;
 
-fn base(nodes: Vec<BaseNode>, elements: &[ContactElement], dofs: usize) -> Result<Base> {
-    check_base_nodes(&nodes, dofs)?;
-    Base::on_line(nodes, &[], &Patch::new(elements.to_vec())?)
+fn base(nodes: Vec<BaseNode>, elements: &[ContactElement], dofs: usize) -> Result<PlacedBase> {
+    let base = Base::from(nodes);
+    base.check(dofs)?;
+    PlacedBase::on_lines(base.parts(), &Patch::new(elements.to_vec())?)
 }
 
 #[test]

@@ -9,7 +9,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::{Influence, UP};
 use crate::coupled::model::mechanism::AtRest;
 use crate::coupled::model::signs::check_signs;
@@ -36,7 +36,7 @@ pub(crate) struct Assembled {
     pub(crate) stiffness: SparseMatrix,
     /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
     at_rest: Option<SparseMatrix>,
-    pub(crate) base: Base,
+    pub(crate) base: PlacedBase,
     pub(crate) influence: Arc<Influence>,
 }
 
@@ -46,7 +46,7 @@ impl Assembled {
     /// Returns an error for wrong signs, parts that nothing holds, supports other than the ground, and mechanisms
     /// that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
-        let base = Base::of(structure, elements)?;
+        let base = PlacedBase::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
         at_least("list of degrees of freedom", dofs, 1)?;
         let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
@@ -79,7 +79,7 @@ impl Assembled {
     }
 
     /// The same structure on other elements.
-    pub(crate) fn on(&self, base: Base) -> Self {
+    pub(crate) fn on(&self, base: PlacedBase) -> Self {
         let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
         let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
         Self { linear: self.linear, mass, damping, stiffness, at_rest, base, influence }

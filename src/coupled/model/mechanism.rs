@@ -1,6 +1,6 @@
 //! Mechanisms: structures with a motion that nothing resists, at all or while their base is at rest.
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result, StabilityError};
 use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
@@ -28,7 +28,7 @@ pub(crate) struct AtRest<'a> {
     pub(crate) structure: &'a dyn Structure,
     pub(crate) stiffness: &'a SparseMatrix,
     pub(crate) mass: &'a SparseMatrix,
-    pub(crate) base: &'a Base,
+    pub(crate) base: &'a PlacedBase,
 }
 
 impl AtRest<'_> {

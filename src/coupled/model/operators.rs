@@ -4,7 +4,7 @@ use super::Model;
 use std::sync::Arc;
 
 use crate::contact::Delassus;
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::linalg::matrix::Thinned;
@@ -35,7 +35,7 @@ impl Operators {
     /// Condenses the factored K_eff with this tangent.
     pub(crate) fn new(
         model: &Model,
-        base: &Base,
+        base: &PlacedBase,
         soil: &Arc<Thinned>,
         factor: Factor,
         tangent: SparseMatrix,
@@ -139,7 +139,7 @@ impl Factor {
 /// `solve` overwrites many right-hand sides, one after the other.
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
-    base: &Base,
+    base: &PlacedBase,
     soil: &[f64],
     dofs: usize,
 ) -> (Vec<f64>, Vec<f64>) {

@@ -1,6 +1,6 @@
 //! Check that a symmetric stiffness is not negative with the base held.
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseMatrix, indefinite_row};
 use crate::structure::{HeldBase, Triplets, stiffest};
@@ -14,7 +14,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// Error for a symmetric K that is not positive semi-definite with the base held.
 pub(crate) fn check_signs(
-    base: &Base,
+    base: &PlacedBase,
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
     let tie = stiffest(stiffness);

@@ -25,7 +25,7 @@
 //! r·K r over r·M r, which no scaling of coordinates changes, distinguishes it from rounding in the stiffness of a
 //! rigid base alone, which contains no stiffness to compare with.
 
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
 use crate::error::{Error, Result, StructureError, require, require_part};
 use crate::linalg::matrix::spread;
@@ -64,7 +64,7 @@ pub(crate) fn check(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
     firmer: f64,
-    base: &Base,
+    base: &PlacedBase,
     translations: &mut [Vec<f64>],
 ) -> Result<()> {
     let lag = base.translation_error(translations);
@@ -93,7 +93,7 @@ pub(crate) fn check(
 }
 
 /// Error for a part whose base does not translate as a whole: B R must be 1 where it moves.
-pub(crate) fn check_parts(influence: &Influence, base: &Base, dofs: usize) -> Result<()> {
+pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes above an element, and each may be rounded.
     let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;

@@ -14,7 +14,7 @@ use crate::interface::{ContactState, Mode};
 
 /// Forces of one foundation on the soil, and motion of its base.
 ///
-/// Most structures have one. See [`crate::structure::Structure::foundation_ends`].
+/// Most structures have one. See [`crate::structure::Base`].
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

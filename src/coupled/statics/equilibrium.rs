@@ -1,7 +1,7 @@
 //! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
 
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
-use crate::coupled::base::Base;
+use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::UP;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::operators::condense;
@@ -371,7 +371,7 @@ fn total_mass(assembled: &Assembled) -> f64 {
 }
 
 /// Vertical force per settlement of the soil under a uniform pressure.
-fn vertical_stiffness(soil: &[f64], base: &Base) -> f64 {
+fn vertical_stiffness(soil: &[f64], base: &PlacedBase) -> f64 {
     let (areas, size) = (base.areas(), base.layout().len());
     let (count, area) = (areas.len(), areas.iter().sum::<f64>());
     let settled: f64 =

@@ -35,7 +35,7 @@ use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 /// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
 /// let mesh = gmsh.mesh(&[("wall", concrete)])?;
 /// let model = FemModel::new(mesh, &gmsh.line("base")?)?;
-/// assert_eq!((model.dofs(), model.contact_nodes().len()), (12, 3));
+/// assert_eq!((model.dofs(), model.base().nodes().count()), (12, 3));
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

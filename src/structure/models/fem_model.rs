@@ -4,7 +4,7 @@ use super::dof_names::describe;
 use super::rigid_links::RigidLinks;
 use crate::error::{Error, Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
-use crate::structure::{BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
+use crate::structure::{Base, BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base.
 ///
@@ -24,7 +24,7 @@ use crate::structure::{BaseNode, DofCombination, RayleighDamping, Structure, Tri
 /// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, concrete)])?;
 /// let model = FemModel::on_base(mesh)?;
 /// assert_eq!(model.dofs(), 2 * 9 * 17);
-/// assert_eq!(model.contact_nodes().len(), 9);
+/// assert_eq!(model.base().nodes().count(), 9);
 /// let roof = model.mesh().node_at(0.0, 20.0)?;
 /// assert_eq!(model.row(roof, Direction::X)?[..], [(2 * (16 * 9 + 4), 1.0)]);
 /// // There is nothing 200 m up.
@@ -36,11 +36,9 @@ pub struct FemModel {
     pub(super) mesh: Mesh,
     pub(super) numbering: Numbering,
     pub(super) links: Option<RigidLinks>,
-    /// Nodes of the mesh that touch the ground; `contact` has their motion.
+    /// Nodes of the mesh that touch the ground, in the order of the nodes of `base`.
     feet: Vec<usize>,
-    contact: Vec<BaseNode>,
-    /// The last contact node of each foundation except the last foundation.
-    ends: Vec<usize>,
+    base: Base,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
     active_damping: bool,
@@ -83,8 +81,7 @@ impl FemModel {
             numbering,
             links: None,
             feet: contact.to_vec(),
-            contact: nodes,
-            ends: Vec::new(),
+            base: nodes.into(),
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
             active_damping: false,
@@ -100,7 +97,7 @@ impl FemModel {
     ///
     /// ```
     /// use basemat::fem::{Beam, Mesh};
-    /// use basemat::structure::{FemModel, Structure};
+    /// use basemat::structure::{Base, FemModel, Structure};
     ///
     /// // A portal frame on two strips 2 m wide (the example `portal_frame` shakes one).
     /// let mut mesh = Mesh::new();
@@ -118,21 +115,20 @@ impl FemModel {
     /// }
     /// mesh.add(Beam::new([tops[0], tops[1]], 30.0e9, 0.5, 0.01, 2400.0)?)?;
     /// let frame = FemModel::on_foundations(mesh, &lines)?;
-    /// assert_eq!((frame.contact_nodes().len(), frame.foundation_ends()), (6, vec![2]));
+    /// assert!(matches!(frame.base(), Base::Lines(lines) if lines.len() == 2));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
     /// As for [`FemModel::new`], for each line and for all lines in a row; [`Error::Size`] without lines.
     pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
-        let (mut ends, mut nodes) = (Vec::new(), 0);
         for line in lines {
             at_least("contact nodes of a foundation", line.len(), 2)?;
-            nodes += line.len();
-            ends.push(nodes - 1);
         }
-        ends.pop();
-        Ok(Self { ends, ..Self::new(mesh, &lines.concat())? })
+        let whole = Self::new(mesh, &lines.concat())?;
+        let mut nodes = whole.base.into_nodes().into_iter();
+        let own = lines.iter().map(|line| nodes.by_ref().take(line.len()).collect()).collect();
+        Ok(Self { base: Base::Lines(own), ..whole })
     }
 
     /// Structure that touches the ground with all its lowest nodes.
@@ -212,12 +208,12 @@ impl FemModel {
         let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
         links.link(&self.mesh, &self.numbering, leader, followers)?;
         let mut linked = Self { links: Some(links), ..self };
-        for place in 0..linked.feet.len() {
-            let row = |direction| linked.row(linked.feet[place], direction);
-            let (horizontal, vertical) = (row(Direction::X)?, row(Direction::Y)?);
-            let x = linked.contact[place].x;
-            linked.contact[place] = BaseNode { x, horizontal, vertical, ..BaseNode::default() };
+        let mut base = linked.base.clone();
+        for (node, foot) in base.nodes_mut().zip(&linked.feet) {
+            node.horizontal = linked.row(*foot, Direction::X)?;
+            node.vertical = linked.row(*foot, Direction::Y)?;
         }
+        linked.base = base;
         match linked.p_delta {
             Some(gravity) => linked.with_p_delta(gravity),
             None => Ok(linked),
@@ -313,12 +309,8 @@ impl Structure for FemModel {
         self.links.as_ref().map_or(self.numbering.dofs(), RigidLinks::dofs)
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.contact.clone()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.ends.clone()
+    fn base(&self) -> Base {
+        self.base.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

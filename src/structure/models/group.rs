@@ -1,23 +1,24 @@
 //! Group of structures on one ground, coupled through the soil.
 
+use std::mem::discriminant;
+use std::ops::Range;
+
 use crate::error::{CheckpointError, Error, Result, finite, in_bounds, require};
 use crate::geometry::{Edge, span};
 use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
 use crate::structure::{
-    BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
+    Base, BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
 };
 
 /// A structure of the group and where it stands.
 struct Member {
     structure: Box<dyn Structure>,
-    /// Shift of the coordinates x of its contact nodes, m.
-    shift: f64,
+    /// Base in coordinates and degrees of freedom of the group.
+    base: Base,
     first_dof: usize,
     dofs: usize,
-    /// Number of its contact nodes in the plane; zero for a structure in plan.
-    nodes: usize,
 }
 
 /// Several structures on foundations of their own, coupled through the soil.
@@ -56,12 +57,13 @@ struct Member {
 /// In plan bodies stand anywhere, with an empty cell of the ground between them at least:
 /// ```
 /// use basemat::bem::SpringGround;
-/// use basemat::structure::{RigidBody, Structure, StructureGroup};
+/// use basemat::structure::{Base, RigidBody, Structure, StructureGroup};
 ///
 /// let tank = RigidBody::cylinder(4.0, 6.0, 1000.0)?;
 /// let pump = RigidBody::cuboid([3.0, 2.0, 2.0], 2400.0)?.centered_at([2.0, 7.0])?;
 /// let group = StructureGroup::new().with(tank, 0.0)?.with(pump, 0.0)?;
-/// assert_eq!((group.dofs(), group.contact_faces().len()), (12, 2));
+/// assert_eq!(group.dofs(), 12);
+/// assert!(matches!(group.base(), Base::Faces(faces) if faces.len() == 2));
 /// let ground = SpringGround::under(&group, 12, 4e7, 3e7)?;
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -86,46 +88,56 @@ impl StructureGroup {
     ///
     /// # Errors
     /// [`Error::Input`] for a shift that is not finite, or a base that begins to the left of the end of the
-    /// previous base; [`Error::Size`] for a structure without contact nodes and faces; [`Error::Scene`] for a
-    /// mixture of structures in the plane and in plan, and for a base that touches another in plan.
+    /// previous base; [`Error::Size`] for a base without nodes; [`Error::Scene`] for a mixture of structures in
+    /// the plane and in plan, and for a base that touches another in plan.
     pub fn with(mut self, structure: impl Structure + 'static, shift: f64) -> Result<Self> {
         finite("shift of a structure", shift)?;
-        let (nodes, faces) = (structure.contact_nodes(), structure.contact_faces());
-        let refuse = |needed| Err(Error::Scene { quantity: "structure of a group", needed });
-        if self.members.first().is_some_and(|first| (first.nodes == 0) == faces.is_empty()) {
-            return refuse("must be one in the plane as the others are, or in plan as they are");
-        }
-        if faces.is_empty() {
-            self.check_order(&nodes, shift)?;
-        } else if !nodes.is_empty() {
-            return refuse("must have a base of contact nodes or of faces, not both");
-        }
-        let member = Member {
-            shift,
+        let mut member = Member {
+            base: structure.base(),
             first_dof: self.dofs(),
             dofs: structure.dofs(),
-            nodes: nodes.len(),
             structure: Box::new(structure),
         };
-        let others = self.contact_faces();
-        let touches = |face: &Vec<BaseNode>| others.iter().any(|other| !are_apart(face, other));
-        if member.faces().iter().any(touches) {
-            return refuse("must have a base apart from those before it: these touch or overlap");
+        let own = member.range();
+        for node in member.base.nodes_mut() {
+            node.x += shift;
+            node.map_rows(|row| moved(row, &own));
         }
+        self.check_place(&member.base)?;
         self.members.push(member);
         Ok(self)
     }
 
-    /// Error for a base in the plane without nodes, or not to the right of all others.
-    fn check_order(&self, nodes: &[BaseNode], shift: f64) -> Result<()> {
-        let Some(left) = nodes.first() else {
+    /// Error for a base without nodes, a base of another kind than all others, or a place taken by another base.
+    fn check_place(&self, base: &Base) -> Result<()> {
+        let refuse = |needed| Err(Error::Scene { quantity: "structure of a group", needed });
+        let Some(left) = base.nodes().next() else {
             let quantity = "list of contact nodes";
             return Err(Error::Size { quantity, found: 0, needed: 2 });
         };
-        let value = left.x + shift;
-        let end = self.contact_nodes().last().map_or(f64::NEG_INFINITY, |last| last.x);
-        let needed = "to the right of the structure before it";
-        require("left end of the base of a structure", value, value > end, needed).map(drop)
+        let others = self.members.iter().map(|member| &member.base);
+        match base {
+            _ if others.clone().any(|other| discriminant(other) != discriminant(base)) => {
+                refuse("must be one in the plane as the others are, or in plan as they are")
+            }
+            Base::Lines(_) => {
+                let end =
+                    others.flat_map(Base::nodes).last().map_or(f64::NEG_INFINITY, |last| last.x);
+                let needed = "to the right of the structure before it";
+                require("left end of the base of a structure", left.x, left.x > end, needed)
+                    .map(drop)
+            }
+            Base::Faces(faces) => {
+                let touches =
+                    |other: &Vec<BaseNode>| faces.iter().any(|own| !are_apart(own, other));
+                if others.flat_map(Base::parts).any(touches) {
+                    return refuse(
+                        "must have a base apart from those before it: these touch or overlap",
+                    );
+                }
+                Ok(())
+            }
+        }
     }
 
     /// Number of structures.
@@ -176,28 +188,17 @@ impl StructureGroup {
 }
 
 impl Member {
-    fn range(&self) -> std::ops::Range<usize> {
+    fn range(&self) -> Range<usize> {
         self.first_dof..self.first_dof.saturating_add(self.dofs)
     }
+}
 
-    /// A row of the member in degrees of freedom of the group.
-    ///
-    /// An index that is not a degree of freedom of the member becomes an index beyond all degrees of freedom of the
-    /// group.
-    fn moved(&self, row: &DofCombination) -> DofCombination {
-        let own = |index: usize| index < self.dofs;
-        row.map_dofs(|k| if own(k) { k.saturating_add(self.first_dof) } else { usize::MAX })
-    }
-
-    /// Faces of the member in the group.
-    fn faces(&self) -> Vec<Vec<BaseNode>> {
-        let mut faces = self.structure.contact_faces();
-        for node in faces.iter_mut().flatten() {
-            node.x += self.shift;
-            node.map_rows(|row| self.moved(row));
-        }
-        faces
-    }
+/// A row of a member, whose degrees of freedom are `own`, in degrees of freedom of the group.
+///
+/// An index that is not a degree of freedom of the member becomes an index beyond all degrees of freedom of the
+/// group.
+fn moved(row: &DofCombination, own: &Range<usize>) -> DofCombination {
+    row.map_dofs(|k| if k < own.len() { own.start.saturating_add(k) } else { usize::MAX })
 }
 
 /// Whether there is a gap between two convex polygons.
@@ -219,33 +220,12 @@ impl Structure for StructureGroup {
         self.members.last().map_or(0, |last| last.range().end)
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        let mut all = Vec::new();
-        for member in &self.members {
-            for mut node in member.structure.contact_nodes() {
-                node.x += member.shift;
-                node.map_rows(|row| member.moved(row));
-                all.push(node);
-            }
+    fn base(&self) -> Base {
+        let parts = self.members.iter().flat_map(|member| member.base.parts()).cloned().collect();
+        match self.members.first().map(|member| &member.base) {
+            Some(Base::Faces(_)) => Base::Faces(parts),
+            Some(Base::Lines(_)) | None => Base::Lines(parts),
         }
-        all
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.members.iter().flat_map(Member::faces).collect()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        let (mut ends, mut nodes) = (Vec::new(), 0);
-        // In plan the faces define the foundations.
-        for member in self.members.iter().filter(|member| member.nodes > 0) {
-            let own = member.structure.foundation_ends();
-            ends.extend(own.iter().map(|end| end.saturating_add(nodes)));
-            nodes += member.nodes;
-            ends.push(nodes - 1);
-        }
-        ends.pop();
-        ends
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

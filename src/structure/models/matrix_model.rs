@@ -3,9 +3,7 @@
 use crate::error::{Result, at_least, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::matrix_checks::{check_damping, check_mass};
-use crate::structure::{
-    BaseNode, RayleighDamping, Structure, Triplets, base_nodes, check_base_nodes,
-};
+use crate::structure::{Base, RayleighDamping, Structure, Triplets};
 
 const DAMPING: &str = "damping matrix";
 
@@ -14,7 +12,7 @@ const DAMPING: &str = "damping matrix";
 /// The degrees of freedom are absolute displacements in m and rotations in rad, in any order. The structure is
 /// **free**, without supports, since the ground holds it up: a rigid translation must give no elastic force beyond
 /// rounding (entries with ten digits may leave too much, entries with twelve do not). Matrices are per metre of
-/// thickness, except for a structure [`in_plan`](MatrixModel::in_plan). They may come from Matrix Market files
+/// thickness, except for a structure in plan ([`Base::Faces`]). They may come from Matrix Market files
 /// (`Triplets::read_matrix_market`, feature `io`), dense arrays ([`Triplets::from_dense`]) or compressed rows
 /// ([`Triplets::from_csr`]). Large models run faster after a [`CraigBampton`](crate::structure::CraigBampton)
 /// reduction.
@@ -31,8 +29,8 @@ const DAMPING: &str = "damping matrix";
 /// let mass = Triplets::from_entries(4, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
 /// let mut stiffness = Triplets::new(4);
 /// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 5.0)], 4.0e6);
-/// let contact = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
-/// let model = MatrixModel::new(mass, stiffness, contact)?;
+/// let base = BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]);
+/// let model = MatrixModel::new(mass, stiffness, base)?;
 /// assert_eq!(model.dofs(), 4);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -41,8 +39,7 @@ pub struct MatrixModel {
     mass: Triplets,
     damping: Triplets,
     stiffness: Triplets,
-    contact: Vec<BaseNode>,
-    faces: Vec<Vec<BaseNode>>,
+    base: Base,
     /// Whether the damping may feed energy in; it is then not checked.
     active: bool,
     /// Whether the stiffness may be unsymmetric.
@@ -52,27 +49,10 @@ pub struct MatrixModel {
 impl MatrixModel {
     /// Structure with mass (kg/m) and stiffness (N/m per metre), without damping.
     ///
-    /// It touches the ground with the nodes `contact`, from left to right.
-    ///
-    /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for fewer than two
-    /// contact nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
-    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a
-    /// mass matrix that is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for a negative mass
-    /// beyond rounding.
-    pub fn new(mass: Triplets, stiffness: Triplets, contact: Vec<BaseNode>) -> Result<Self> {
-        let damping = Triplets::new(mass.order());
-        let faces = Vec::new();
-        Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
-            .checked()
-    }
-
-    /// Structure in plan with mass (kg) and stiffness (N/m), without damping.
-    ///
-    /// It touches the ground with `faces`, see [`Structure::contact_faces`]. Forces act on the whole body, N.
-    ///
+    /// `base`: nodes from left to right, or any [`Base`]. With [`Base::Faces`] the structure is in plan. Its
+    /// matrices then belong to the whole body (kg, N/m):
     /// ```
-    /// use basemat::structure::{BaseNode, MatrixModel, Structure, Triplets};
+    /// use basemat::structure::{Base, BaseNode, MatrixModel, Structure, Triplets};
     ///
     /// // A slab of one square element: u_x, u_y and u_z of its four nodes.
     /// let corners = [[0.0, 0.0], [6.0, 0.0], [6.0, 6.0], [0.0, 6.0]];
@@ -81,29 +61,27 @@ impl MatrixModel {
     /// let mut stiffness = Triplets::new(12);
     /// // Stiffness against twisting of the corners out of their plane; the slab has no other stiffness.
     /// stiffness.add_outer([(2, 1.0), (5, -1.0), (8, 1.0), (11, -1.0)], 5.0e6);
-    /// let slab = MatrixModel::in_plan(mass, stiffness, vec![(0..4).map(node).collect()])?;
-    /// assert_eq!((slab.dofs(), slab.contact_faces()[0].len()), (12, 4));
+    /// let face = (0..4).map(node).collect();
+    /// let slab = MatrixModel::new(mass, stiffness, Base::Faces(vec![face]))?;
+    /// assert_eq!((slab.dofs(), slab.base().nodes().count()), (12, 4));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
     /// # Errors
-    /// As for [`MatrixModel::new`], for the faces' corners. Whether faces are flat, convex and apart is checked
-    /// when a simulation is built.
-    pub fn in_plan(mass: Triplets, stiffness: Triplets, faces: Vec<Vec<BaseNode>>) -> Result<Self> {
-        let damping = Triplets::new(mass.order());
-        let contact = Vec::new();
-        Self { mass, damping, stiffness, contact, faces, active: false, active_stiffness: false }
-            .checked()
-    }
-
-    /// The model, or an error for invalid matrices or points of its base.
-    fn checked(self) -> Result<Self> {
-        let order = self.mass.order();
+    /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for a base of fewer
+    /// than two nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
+    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a
+    /// mass matrix that is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for a negative mass
+    /// beyond rounding. Whether nodes are in order, and faces flat, convex and apart, is checked when a simulation
+    /// is built.
+    pub fn new(mass: Triplets, stiffness: Triplets, base: impl Into<Base>) -> Result<Self> {
+        let order = mass.order();
         at_least("mass matrix", order, 1)?;
-        check_mass(&SparseMatrix::new("mass matrix", &self.mass)?)?;
-        check("stiffness matrix", &self.stiffness, order)?;
-        check_base_nodes(&base_nodes(&self), order)?;
-        Ok(self)
+        check_mass(&SparseMatrix::new("mass matrix", &mass)?)?;
+        check("stiffness matrix", &stiffness, order)?;
+        let (base, damping) = (base.into(), Triplets::new(order));
+        base.check(order)?;
+        Ok(Self { mass, damping, stiffness, base, active: false, active_stiffness: false })
     }
 
     /// Replaces the damping by a damping matrix (N s/m per metre).
@@ -172,12 +150,8 @@ impl Structure for MatrixModel {
         self.mass.order()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.contact.clone()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.faces.clone()
+    fn base(&self) -> Base {
+        self.base.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -129,7 +129,7 @@ impl HeldStructure {
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
         let mut is_held = vec![false; n];
-        for node in model.contact_nodes() {
+        for node in model.base().into_nodes() {
             for (index, _) in node.horizontal.into_iter().chain(node.vertical) {
                 is_held[index] = true;
             }

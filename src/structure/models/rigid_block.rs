@@ -1,7 +1,7 @@
 //! The rigid block on its flat base.
 
 use crate::error::{Result, finite, not_negative, positive};
-use crate::structure::{BaseNode, DofCombination, Structure, Triplets};
+use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
 /// Rigid body on a flat base, with three degrees of freedom `[u_x, u_y, θ]`.
 ///
@@ -118,9 +118,9 @@ impl Structure for RigidBlock {
         3
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
+    fn base(&self) -> Base {
         let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
-        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
+        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

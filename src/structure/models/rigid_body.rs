@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::error::{Result, at_least, finite, not_negative, positive, require};
-use crate::structure::{BaseNode, DofCombination, Structure, Triplets};
+use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
 /// Number of corners of the polygon that replaces a circular base; it has the same area.
 const CORNERS: usize = 32;
@@ -196,12 +196,9 @@ impl Structure for RigidBody {
         6
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        Vec::new()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        vec![BaseNode::rigid_face(&self.outline, self.center, [0, 1, 2, 3, 4, 5])]
+    fn base(&self) -> Base {
+        let outline = BaseNode::rigid_face(&self.outline, self.center, [0, 1, 2, 3, 4, 5]);
+        Base::Faces(vec![outline])
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -5,7 +5,7 @@ use crate::error::{
 };
 use crate::structure::hysteresis::Springs;
 use crate::structure::{
-    BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
+    Base, BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
 };
 use std::f64::consts::{PI, TAU};
 
@@ -360,9 +360,9 @@ impl Structure for ShearBuilding {
         self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
+    fn base(&self) -> Base {
         let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
-        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION])
+        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -5,9 +5,7 @@ use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
 use crate::structure::hysteresis::{Hysteresis, Springs};
-use crate::structure::{
-    BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
-};
+use crate::structure::{Base, DofCombination, NonlinearForce, SectionRows, Structure, Triplets};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
@@ -298,12 +296,8 @@ impl Structure for StoreyBuilding {
         self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        Vec::new()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.mat.contact_faces()
+    fn base(&self) -> Base {
+        self.mat.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

@@ -18,7 +18,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers, restricted};
 use crate::structure::matrix_checks::{MASSLESS, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{BaseNode, DofCombination, Structure, Triplets, base_nodes};
+use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
@@ -56,9 +56,7 @@ pub struct CraigBampton {
 /// [`recovery`](ReducedModel::recovery) computes the degrees of freedom of the full model.
 pub struct ReducedModel {
     basis: Arc<Basis>,
-    contact: Vec<BaseNode>,
-    faces: Vec<Vec<BaseNode>>,
-    foundation_ends: Vec<usize>,
+    base: Base,
     /// Row-major, of the order of the reduced model.
     mass: Vec<f64>,
     damping: Vec<f64>,
@@ -120,7 +118,8 @@ impl CraigBampton {
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
 
-        let parts = Parts::new(n, &base_nodes(&structure), &self.kept)?;
+        let mut base = structure.base();
+        let parts = Parts::new(n, &base, &self.kept)?;
         check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
         same_length("list of fixed-interface modes", self.modes, self.modes.min(interior))?;
@@ -128,18 +127,15 @@ impl CraigBampton {
         let basis = Basis::new(parts.kept.clone(), rows, n);
         let order = basis.order();
         let kept = parts.kept.len();
-        let (mut contact, mut faces) = (structure.contact_nodes(), structure.contact_faces());
-        for node in contact.iter_mut().chain(faces.iter_mut().flatten()) {
+        for node in base.nodes_mut() {
             node.map_rows(|row| parts.renumbered(row));
         }
         let mut model = ReducedModel {
             mass: basis.congruence(&mass),
             damping: without_rounding(basis.congruence(&damping), &basis, &damping),
             stiffness: basis.congruence(&stiffness),
-            contact,
-            faces,
+            base,
             frequencies: squares.iter().map(|square| square.sqrt()).collect(),
-            foundation_ends: structure.foundation_ends(),
             active: structure.has_active_damping(),
             load: Mutex::new(FullLoad { values: vec![0.0; n], structure: Box::new(structure) }),
             basis: Arc::new(basis),
@@ -166,10 +162,10 @@ struct Parts {
 }
 
 impl Parts {
-    fn new(n: usize, contact: &[BaseNode], more: &[usize]) -> Result<Self> {
-        let of_contact = contact.iter().flat_map(BaseNode::rows).flatten();
+    fn new(n: usize, base: &Base, more: &[usize]) -> Result<Self> {
+        let of_base = base.nodes().flat_map(BaseNode::rows).flatten();
         let mut is_kept = vec![false; n];
-        for index in of_contact.map(|&(index, _)| index).chain(more.iter().copied()) {
+        for index in of_base.map(|&(index, _)| index).chain(more.iter().copied()) {
             is_kept[in_bounds("degree of freedom to be kept", index, n)?] = true;
         }
         let (mut kept, mut interior) = (Vec::new(), Vec::new());
@@ -309,16 +305,8 @@ impl Structure for ReducedModel {
         self.basis.order()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.contact.clone()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.foundation_ends.clone()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.faces.clone()
+    fn base(&self) -> Base {
+        self.base.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {

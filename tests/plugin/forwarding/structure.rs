@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use basemat::structure::{
-    BaseNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
+    Base, BaseNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
     StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result};
@@ -27,25 +27,20 @@ fn add_diagonal(matrix: &mut Triplets, value: f64) {
     (0..4).for_each(|i| matrix.add(i, i, value));
 }
 
+fn two_lines() -> Base {
+    let line = |ends: [f64; 2]| ends.map(|x| BaseNode::free(x, 0, 1)).to_vec();
+    Base::Lines(vec![line([0.0, 1.0]), line([2.0, 3.0])])
+}
+
 impl Structure for Double {
     fn dofs(&self) -> usize {
         self.log.asked("dofs");
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.log.asked("contact_nodes");
-        [0.0, 1.0, 2.0, 3.0].map(|x| BaseNode::free(x, 0, 1)).to_vec()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.log.asked("foundation_ends");
-        vec![1]
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.log.asked("contact_faces");
-        Vec::new()
+    fn base(&self) -> Base {
+        self.log.asked("base");
+        two_lines()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
@@ -142,9 +137,7 @@ impl NonlinearForce for Double {
 
 /// Asks all there is to ask; `damping` as it should come out on the diagonal at the degree of freedom `place`.
 fn ask(mut part: impl Structure, place: usize, damping: f64) {
-    let ends = part.foundation_ends();
-    assert!(part.contact_faces().is_empty());
-    assert_eq!((part.dofs(), part.contact_nodes().len(), ends), (4, 4, vec![1]));
+    assert_eq!((part.dofs(), part.base()), (4, two_lines()));
     let diagonal = |fill: &dyn Fn(&mut Triplets) -> Result<()>| {
         let mut matrix = Triplets::new(4);
         fill(&mut matrix).unwrap();

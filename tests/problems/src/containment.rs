@@ -167,8 +167,7 @@ impl Containment {
         let corner = model.mesh().node_at(left, roof)?;
         let [x, y] = [Direction::X, Direction::Y].map(|direction| model.row(corner, direction));
         let (x, y) = (x?, y?);
-        let feet: Vec<_> =
-            model.contact_nodes().iter().flat_map(|node| node.horizontal.to_vec()).collect();
+        let feet: Vec<_> = model.base().nodes().flat_map(|node| node.horizontal.to_vec()).collect();
         let share = 1.0 / feet.len() as f64;
         let feet = feet.into_iter().map(|(unknown, weight)| (unknown, -share * weight));
         let sway: DofCombination = x.iter().copied().chain(feet).collect();

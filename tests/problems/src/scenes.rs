@@ -155,8 +155,8 @@ impl Structure for Rider {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
-        self.block.contact_nodes()
+    fn base(&self) -> basemat::structure::Base {
+        self.block.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -1,7 +1,7 @@
 //! Flexible structures of the tables `td_*`.
 
 use basemat::fem::{Beam, Element, MassKind};
-use basemat::structure::{BaseNode, ShearBuilding, Storey, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, ShearBuilding, Storey, Structure, Triplets};
 
 /// The three storeys of `td_shearbuilding3_*`.
 pub fn three_storeys() -> basemat::Result<ShearBuilding> {
@@ -57,8 +57,8 @@ impl Structure for Cantilever {
         3 * self.heights.len()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-1.0, 1.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

@@ -7,7 +7,7 @@ use basemat::fem::{Direction, Layer, MassKind, Material, Mesh};
 use basemat::interface::Coulomb;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    BaseNode, DofCombination, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
+    Base, DofCombination, FemModel, MatrixModel, RayleighDamping, Structure, Triplets,
 };
 use basemat::{Result, Simulation, Soil};
 
@@ -17,7 +17,7 @@ pub const TIME_STEP: f64 = 0.01;
 pub struct Tower {
     pub mass: Triplets,
     pub stiffness: Triplets,
-    pub contact: Vec<BaseNode>,
+    pub base: Base,
     /// The sway of its top.
     pub top: DofCombination,
 }
@@ -32,14 +32,14 @@ impl Tower {
         model.mass(&mut mass)?;
         model.stiffness(&mut stiffness)?;
         let top = model.row(model.mesh().node_at(0.0, 100.0)?, Direction::X)?;
-        Ok(Self { mass, stiffness, contact: model.contact_nodes(), top })
+        Ok(Self { mass, stiffness, base: model.base(), top })
     }
 }
 
 /// The structure of these matrices, 3 % of critical damping at 0.5 and 5 Hz.
-pub fn damped(mass: Triplets, stiffness: Triplets, contact: Vec<BaseNode>) -> Result<MatrixModel> {
+pub fn damped(mass: Triplets, stiffness: Triplets, base: Base) -> Result<MatrixModel> {
     let damping = RayleighDamping::from_ratios([0.5, 5.0], [0.03; 2])?;
-    Ok(MatrixModel::new(mass, stiffness, contact)?.with_rayleigh(damping))
+    Ok(MatrixModel::new(mass, stiffness, base)?.with_rayleigh(damping))
 }
 
 /// The structure on soil, with the displacement of its top as a probe, ready to march.

@@ -13,8 +13,8 @@ macro_rules! needed_from {
             self.$field.dofs()
         }
 
-        fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
-            self.$field.contact_nodes()
+        fn base(&self) -> basemat::structure::Base {
+            self.$field.base()
         }
 
         fn mass(&self, matrix: &mut basemat::structure::Triplets) -> basemat::Result<()> {

@@ -16,8 +16,8 @@ fn column(length: f64, [across, along]: [usize; 2], nu: f64, kind: QuadFormulati
 }
 
 fn fixed_base(model: &FemModel) -> Vec<(usize, f64)> {
-    let ends = model.contact_nodes();
-    ends.iter().flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)]).collect()
+    let base = model.base();
+    base.nodes().flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)]).collect()
 }
 
 /// Tip deflection under a unit shear, relative to Timoshenko's beam in plane strain.

@@ -2,7 +2,7 @@
 //! SCENE: five storeys of springs and masses.
 //! REFERENCE: `ShearBuilding`.
 
-use basemat::structure::{BaseNode, ShearBuilding, Storey, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, ShearBuilding, Storey, Structure, Triplets};
 use basemat_problems::dense::{mass, stiffness};
 
 /// Five storeys on a rigid base: `[u_x, u_y, θ]` and the floors.
@@ -17,8 +17,8 @@ impl Structure for FiveStoreys {
         8
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-5.0, 5.0, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-5.0, 5.0, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
@@ -46,5 +46,5 @@ fn five_storeys_by_hand_are_a_shear_building() {
     let building = ShearBuilding::new(10.0, 2.0e4, 2.0e5, &storeys).unwrap();
     assert_eq!(mass(&own), mass(&building));
     assert_eq!(stiffness(&own), stiffness(&building));
-    assert_eq!(own.contact_nodes(), building.contact_nodes());
+    assert_eq!(own.base(), building.base());
 }

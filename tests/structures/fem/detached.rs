@@ -15,7 +15,8 @@ use basemat::structure::{
 use basemat::{Error, Result, Simulation};
 
 fn build(structure: impl Structure + 'static) -> Result<Simulation> {
-    let nodes = structure.contact_nodes();
+    let base = structure.base();
+    let nodes: Vec<_> = base.nodes().collect();
     let (left, right) = (nodes[0].x, nodes[nodes.len() - 1].x);
     let ground = SpringGround::new(left..right, 4, 4.0e7, 2.0e7)?;
     Simulation::builder(0.01).structure(structure).ground(ground).interface(Bonded).build()

@@ -90,7 +90,7 @@ fn graded_grid_becomes_the_contact_line() {
     let grid = [-1.0, -0.8, 0.0, 0.8, 1.0];
     let model =
         FemModel::on_base(Mesh::graded_block(&grid, &[Layer::new(1.0, 1, soft())]).unwrap());
-    let places: Vec<f64> = model.unwrap().contact_nodes().iter().map(|node| node.x).collect();
+    let places: Vec<f64> = model.unwrap().base().nodes().map(|node| node.x).collect();
     assert_eq!(places, grid);
 }
 

@@ -8,7 +8,7 @@ use basemat::fem::{Beam, Direction, Layer, LumpedMass, Material, Mesh};
 use basemat::interface::Bonded;
 use basemat::motion::el_centro_1940;
 use basemat::structure::{
-    BaseNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
+    Base, BaseNode, FemModel, ModalDamping, RayleighDamping, RigidBlock, ShearBuilding, Storey,
     Structure, Triplets,
 };
 use basemat::{Error, Simulation};
@@ -222,8 +222,8 @@ impl Structure for Massless {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<basemat::structure::BaseNode> {
-        self.0.contact_nodes()
+    fn base(&self) -> basemat::structure::Base {
+        self.0.base()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         (0..3).for_each(|i| matrix.add(i, i, 1.0));
@@ -257,8 +257,8 @@ impl Structure for Astray {
     fn dofs(&self) -> usize {
         2
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        vec![BaseNode::free(0.0, 0, 1), BaseNode::free(1.0, usize::MAX, 2)]
+    fn base(&self) -> Base {
+        [BaseNode::free(0.0, 0, 1), BaseNode::free(1.0, usize::MAX, 2)].into()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         matrix.add(0, 0, 1.0);

@@ -120,10 +120,10 @@ fn tip_ratio(elements: usize, nu: f64, integration: Quad8Integration) -> f64 {
         (0..elements).map(|k| [2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]).collect();
     let mesh = refined(&corners, &quads, material, integration, 0.0);
     let model = FemModel::on_base(mesh).unwrap();
-    assert_eq!(model.contact_nodes().len(), 3);
+    assert_eq!(model.base().nodes().count(), 3);
     let held: Vec<(usize, f64)> = model
-        .contact_nodes()
-        .iter()
+        .base()
+        .nodes()
         .flat_map(|node| [(node.horizontal[0].0, 0.0), (node.vertical[0].0, 0.0)])
         .collect();
     let top = model.mesh().nodes_at_height(length, 1e-9).unwrap();

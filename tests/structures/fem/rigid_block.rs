@@ -43,7 +43,8 @@ fn point_rows_follow_a_true_small_rotation() {
     let exact = [x * angle.cos() - z * angle.sin() - x, x * angle.sin() + z * angle.cos() - z];
     assert!((row_value(&block.horizontal_at(z), &dofs) - exact[0]).abs() < 1e-11);
     assert!((row_value(&block.vertical_at(5.0 + x), &dofs) - exact[1]).abs() < 1e-11);
-    let nodes = block.contact_nodes();
+    let base = block.base();
+    let nodes: Vec<_> = base.nodes().collect();
     assert_eq!([nodes[0].x, nodes[1].x], [4.0, 6.0]);
     for node in nodes {
         assert!((row_value(&node.vertical, &dofs) - angle * (node.x - 5.0)).abs() < 1e-20);

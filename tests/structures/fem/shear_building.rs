@@ -141,8 +141,8 @@ fn p_delta_is_the_curvature_of_the_potential_energy() {
 
 #[test]
 fn building_stands_where_it_is_put() {
-    let nodes = uneven().centered_at(20.0).unwrap().contact_nodes();
-    assert_eq!([nodes[0].x, nodes[1].x], [16.0, 24.0]);
+    let base = uneven().centered_at(20.0).unwrap().base();
+    assert_eq!(base.nodes().map(|node| node.x).collect::<Vec<_>>(), [16.0, 24.0]);
     assert_eq!(uneven().total_mass(), 4000.0);
     assert_eq!(uneven().floor(2).unwrap(), 5);
 }

@@ -10,8 +10,8 @@ use basemat::interface::Coulomb;
 use basemat::motion::{STANDARD_GRAVITY, el_centro_1940};
 use basemat::structure::StructureError;
 use basemat::structure::{
-    BaseNode, Bilinear, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure, Triplets,
-    WithSprings,
+    Base, BaseNode, Bilinear, FemModel, MatrixModel, RayleighDamping, RigidBlock, Structure,
+    Triplets, WithSprings,
 };
 use basemat::{Error, Simulation, Soil};
 
@@ -45,7 +45,7 @@ fn matrices_march_as_the_model_they_came_from() {
         filled(&|m| model.damping(m)),
         filled(&|m| model.stiffness(m)),
     ];
-    let given = MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap();
+    let given = MatrixModel::new(mass, stiffness, model.base()).unwrap();
     let rayleigh = given.clone().with_rayleigh(damping);
     let full = given.with_damping(damp).unwrap();
     let run = |builder: SimulationBuilder| {
@@ -113,7 +113,7 @@ fn stiffness_to_a_fixed_point_is_refused() {
         let [mut mass, mut spring] = [(); 2].map(|()| Triplets::new(3));
         block().mass(&mut mass).unwrap();
         spring.add(dof, dof, stiffness);
-        refused(MatrixModel::new(mass, spring, block().contact_nodes()).unwrap());
+        refused(MatrixModel::new(mass, spring, block().base()).unwrap());
         let law = Bilinear::new(stiffness, 1.0, 0.1).unwrap();
         let held = WithSprings::new(block()).spring(vec![(dof, 1.0)], law).unwrap();
         refused(held);
@@ -142,8 +142,8 @@ impl Structure for Light {
     fn dofs(&self) -> usize {
         4
     }
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.0.contact_nodes()
+    fn base(&self) -> Base {
+        self.0.base()
     }
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
         self.0.mass(matrix)?;

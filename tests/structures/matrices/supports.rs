@@ -38,7 +38,7 @@ fn by_matrices(
     if let Some((dof, ratio)) = support {
         stiffness.add(dof, dof, ratio * largest);
     }
-    MatrixModel::new(mass, stiffness, model.contact_nodes()).unwrap()
+    MatrixModel::new(mass, stiffness, model.base()).unwrap()
 }
 
 /// As a file with so many significant digits has it.
@@ -208,7 +208,7 @@ fn unsymmetric_stiffness_is_refused_unless_active() {
         let mut mass = Triplets::new(4);
         let symmetric = craig_bampton(unit, [[0.0; 2]; 2]);
         symmetric.mass(&mut mass).unwrap();
-        let model = MatrixModel::new(mass, stiffness, symmetric.contact_nodes()).unwrap();
+        let model = MatrixModel::new(mass, stiffness, symmetric.base()).unwrap();
         match on_stiff_soil(model.clone()).err() {
             Some(Error::Unsymmetric { matrix: "stiffness matrix", row: 2, column: 3, entries }) => {
                 assert_eq!(entries, [1e2 * unit, 0.0]);

@@ -1,7 +1,7 @@
 //! The forcing of eq. 21 as printed: [K]{δᶠ} of the contact nodes beside the soil's part.
 
 use basemat::motion::Record;
-use basemat::structure::{BaseNode, FemModel, Structure, Triplets};
+use basemat::structure::{Base, FemModel, Structure, Triplets};
 
 /// A model on which the free field also acts through the structure's own stiffness.
 pub(crate) struct PrintedForcing {
@@ -16,7 +16,7 @@ impl PrintedForcing {
         let mut stiffness = Triplets::new(model.dofs());
         model.stiffness(&mut stiffness)?;
         let mut contact = vec![0.0; model.dofs()];
-        for node in model.contact_nodes() {
+        for node in model.base().nodes() {
             for &(unknown, weight) in &node.horizontal {
                 contact[unknown] += weight;
             }
@@ -34,8 +34,8 @@ impl Structure for PrintedForcing {
         self.model.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.model.contact_nodes()
+    fn base(&self) -> Base {
+        self.model.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

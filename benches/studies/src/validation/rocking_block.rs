@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::STANDARD_GRAVITY;
-use basemat::structure::{BaseNode, RigidBlock, Structure, Triplets};
+use basemat::structure::{Base, RigidBlock, Structure, Triplets};
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
 
@@ -72,8 +72,8 @@ impl Structure for Pushed {
         self.0.dofs()
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.0.contact_nodes()
+    fn base(&self) -> Base {
+        self.0.base()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {

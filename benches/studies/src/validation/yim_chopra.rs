@@ -5,7 +5,7 @@ use basemat::Simulation;
 use basemat::bem::SpringGround;
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{Record, STANDARD_GRAVITY, el_centro_1940};
-use basemat::structure::{BaseNode, Structure, Triplets};
+use basemat::structure::{Base, BaseNode, Structure, Triplets};
 use plotters::prelude::SeriesLabelPosition;
 
 use super::outcome::{Case, Check, Outcome, worse};
@@ -72,8 +72,8 @@ impl Structure for Model {
         4
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        BaseNode::rigid_base(-self.half_width, self.half_width, [0, 1, 2])
+    fn base(&self) -> Base {
+        BaseNode::rigid_base(-self.half_width, self.half_width, [0, 1, 2]).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
