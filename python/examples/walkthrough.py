@@ -103,7 +103,7 @@ figure.savefig(OUT / "floor_spectra.png", dpi=120)
 
 # %%
 names = ["base_x", "base_y", "base_rotation", *(f"floor_{k}" for k in range(5))]
-matrices = building.mass(), building.stiffness(), building.contact_nodes()
+matrices = building.mass(), building.stiffness(), building.base()
 model = bm.MatrixModel(*matrices, damping=building.damping(), dof_names=names)
 own = bm.Simulation(
     0.005,

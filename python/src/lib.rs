@@ -38,8 +38,8 @@ macro_rules! extracts {
 }
 
 mod array;
+mod base_node;
 mod cases;
-mod contact_node;
 mod dof_names;
 mod error;
 mod ground;
@@ -72,8 +72,8 @@ mod _core {
     #[pymodule_export]
     use crate::{
         array::{memory_limit, set_memory_limit},
+        base_node::{PyBaseFaces, PyBaseNode},
         cases::{case_numbers, merge_cases, save_cases},
-        contact_node::{PyContactNode, PyFaceNode},
         ground::{
             PyElasticGround, PyGround, PyImpedances, PyPlan, PySharedKernels, PySpringGround,
             PyStrip,

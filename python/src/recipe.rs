@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use basemat::Result;
-use basemat::structure::{BaseNode, Structure, Triplets};
+use basemat::structure::{Base, Structure, Triplets};
 
 use crate::dof_names::DofNames;
 
@@ -35,9 +35,7 @@ macro_rules! forward {
 impl<T: Structure + Sync> Structure for Shared<T> {
     forward! {
         dofs() -> usize;
-        contact_nodes() -> Vec<BaseNode>;
-        foundation_ends() -> Vec<usize>;
-        contact_faces() -> Vec<Vec<BaseNode>>;
+        base() -> Base;
         mass(matrix: &mut Triplets) -> Result<()>;
         stiffness(matrix: &mut Triplets) -> Result<()>;
         damping(matrix: &mut Triplets) -> Result<()>;

@@ -7,7 +7,7 @@ use pyo3::{IntoPyObjectExt, PyClass};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::contact_node::{PyContactNode, PyFaceNode};
+use crate::base_node::{PyBaseFaces, PyBaseNode};
 use crate::error::refuse;
 use crate::ground::PyImpedances;
 use crate::motion::PySpectrum;
@@ -64,5 +64,5 @@ macro_rules! results {
 results! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
     PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode
-    PySoil PyContactNode PyFaceNode PyDofCombination PyCondition PyLimits PyTolerance
+    PySoil PyBaseNode PyBaseFaces PyDofCombination PyCondition PyLimits PyTolerance
 }

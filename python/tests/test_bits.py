@@ -103,8 +103,8 @@ def test_python_structure_and_law_give_the_same_bits(soil: bm.Soil, rocking, blo
     class Own:
         dofs = 3
 
-        def contact_nodes(self):
-            return block.contact_nodes()
+        def base(self):
+            return block.base()
 
         def mass(self):
             return block.mass()

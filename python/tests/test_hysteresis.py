@@ -157,7 +157,7 @@ def test_an_oscillator_follows_its_differential_equation(place: str) -> None:
     else:
         row = {0: -1.0, 3: 1.0}
         matrices = np.diag([50e3, 50e3, 4e5, mass]), np.zeros((4, 4))
-        base = bm.ContactNode.rigid_base(-4.0, 4.0, [0, 1, 2])
+        base = bm.BaseNode.rigid_base(-4.0, 4.0, [0, 1, 2])
         structure = bm.WithSprings(bm.MatrixModel(*matrices, base), [(row, Smooth())])
     ground = bm.SpringGround.under(structure, 4, 1e13, 1e13)  # type: ignore[arg-type]
     record = bm.el_centro_1940()

@@ -57,7 +57,7 @@ masses, springs = np.full(3 + free, 1e3), np.zeros((3 + free, 3 + free))
 masses[:3] = 5e4, 5e4, 2e5
 for k in range(free):
     springs[np.ix_([0, 3 + k], [0, 3 + k])] += 1e6 * np.array([[1.0, -1.0], [-1.0, 1.0]])
-model = bm.MatrixModel(np.diag(masses), springs, bm.ContactNode.rigid_base(-3.0, 3.0, [0, 1, 2]))
+model = bm.MatrixModel(np.diag(masses), springs, bm.BaseNode.rigid_base(-3.0, 3.0, [0, 1, 2]))
 ground = bm.SpringGround.under(model, 4, 1e8, 1e8)
 simulation = bm.Simulation(0.01, model, ground, bm.Bonded(), motion=bm.el_centro_1940())
 simulation.run(2)

@@ -12,7 +12,7 @@ import scipy.sparse
 
 import basemat as bm
 
-BASE = bm.ContactNode.rigid_base(-2.0, 2.0, [0, 1, 2])
+BASE = bm.BaseNode.rigid_base(-2.0, 2.0, [0, 1, 2])
 BUILDING = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 40e6)] * 5)
 
 
@@ -117,7 +117,7 @@ def test_rows_of_all_weights_belong_to_a_structure_of_as_many_dofs(soil: bm.Soil
         lambda: bm.DofCombination(three).weights(8),
         lambda: bm.DofCombination(eight).value(three),
         lambda: bm.MatrixModel(
-            np.eye(3), np.zeros((3, 3)), [bm.ContactNode(0.0, eight, 1), BASE[1]]
+            np.eye(3), np.zeros((3, 3)), [bm.BaseNode(0.0, eight, 1), BASE[1]]
         ),
     ):
         with pytest.raises(bm.InputError, match="weights"):
@@ -153,7 +153,7 @@ YIELD = bm.Bilinear(1e6, 1e4, 0.1)
         ("count: 2.5, but only whole", lambda: bm.Strip(-1.0, 1.0, 2.5)),
         ("order: -4, but only whole", lambda: bm.el_centro_1940().high_pass(0.2, order=-4)),
         ("degree: -1, but only", lambda: bm.el_centro_1940().with_baseline("none", degree=-1)),
-        ("dofs: .*-1.*, but only", lambda: bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, -1])),
+        ("dofs: .*-1.*, but only", lambda: bm.BaseNode.rigid_base(-1.0, 1.0, [0, 1, -1])),
         ("row: -1, but only whole", lambda: bm.Load.constant(-1, 1.0)),
         ("storey: -1, but only whole", lambda: BUILDING.drift(-1)),
         ("keep: .*, but only whole", lambda: bm.ReducedModel(BUILDING, 1, keep=[-3])),
@@ -228,8 +228,8 @@ class Block:
         self.block = bm.RigidBlock(6.0, 9.0, 1000.0)
         vars(self).update(others)
 
-    def contact_nodes(self) -> list[bm.ContactNode]:
-        return self.block.contact_nodes()
+    def base(self) -> list[list[bm.BaseNode]] | bm.BaseFaces:
+        return self.block.base()
 
     def mass(self) -> np.ndarray:
         return self.block.mass()
@@ -262,7 +262,7 @@ class Law:
         ("damping of the structure returned", {"damping": lambda: "none"}),
         ("dofs of the structure returned", {"dofs": "three"}),
         ("dofs of the structure returned .*-3, but only whole", {"dofs": -3}),
-        ("contact_nodes of the structure returned", {"contact_nodes": lambda: [1, 2]}),
+        ("base of the structure returned", {"base": lambda: [1, 2]}),
         (r"load of the structure returned .* \(2,\), .* \(3,\)", {"load": lambda t: [0.0, 1.0]}),
     ],
 )

@@ -125,8 +125,9 @@ def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
     for tag, ends in enumerate(((3, 5), (5, 7), (5, 9)), 1):
         ops.element("elasticBeamColumn", tag, *ends, 0.3, 30e9, 0.01, 1, "-mass", 700.0)
     model = opensees.structure(ops, [7, 3, 5])
-    assert [node.x for node in model.contact_nodes()] == [-2.0, 0.0, 2.0]
-    assert model.contact_nodes()[0].vertical == model.row(3, "y")
+    [nodes] = model.base()
+    assert [node.x for node in nodes] == [-2.0, 0.0, 2.0]
+    assert nodes[0].vertical == model.row(3, "y")
     assert not model.damping().any()
     soil = bm.Soil.from_shear_wave_speed(250.0, 0.33, 1900.0)
     ground = bm.ElasticGround.under(soil, model, 6)
@@ -289,7 +290,8 @@ def test_ties_fixes_and_numbers_are_those_of_opensees(ties: str, handler: str) -
     expected = deflections(tags, HANDLERS[handler])
     error = np.abs(found - expected).max() / np.abs(expected).max()
     assert error < (1e-5 if handler == "Penalty" else 1e-9)
-    for node, own in zip(model.contact_nodes(), BASE):
+    [nodes] = model.base()
+    for node, own in zip(nodes, BASE):
         assert node.x == ops.nodeCoord(own)[0]
         assert (node.horizontal, node.vertical) == (model.row(own, "x"), model.row(own, "y"))
 

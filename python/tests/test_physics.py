@@ -71,7 +71,7 @@ def test_linear_oscillator_from_matrices_against_its_state_space() -> None:
     model = bm.MatrixModel(
         inertia,
         stiffness,
-        bm.ContactNode.rigid_base(-10.0, 10.0, [0, 1, 2]),
+        bm.BaseNode.rigid_base(-10.0, 10.0, [0, 1, 2]),
         damping=2.0 * ratio / omega * stiffness,
     )
     record = bm.el_centro_1940()

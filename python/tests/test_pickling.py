@@ -25,7 +25,7 @@ RECORD = bm.el_centro_1940()
 def matrices() -> bm.MatrixModel:
     stiffness = scipy.sparse.csr_array(BUILDING.stiffness())
     damping = BUILDING.damping()
-    model = bm.MatrixModel(BUILDING.mass(), stiffness, BUILDING.contact_nodes(), damping=damping)
+    model = bm.MatrixModel(BUILDING.mass(), stiffness, BUILDING.base(), damping=damping)
     # The model stays what it was.
     damping[:] = 0.0
     stiffness.data[:] = 0.0

@@ -43,14 +43,20 @@ def run() -> bm.Run:
     return found
 
 
+def faces(structure: bm.Structure) -> list[list[bm.BaseNode]]:
+    base = structure.base()
+    assert isinstance(base, bm.BaseFaces) and len(base) == len(list(base))
+    return list(base)
+
+
 class Rigid:
     """BODY by its matrices."""
 
     dofs = 6
 
-    def contact_faces(self):
+    def base(self):
         corners = [(-3.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-3.0, 2.0)]
-        return [bm.FaceNode.rigid_base(corners, (0.0, 0.0), [0, 1, 2, 3, 4, 5])]
+        return bm.BaseFaces([bm.BaseNode.rigid_face(corners, (0.0, 0.0), [0, 1, 2, 3, 4, 5])])
 
     def mass(self):
         return BODY.mass()
@@ -65,7 +71,7 @@ def test_a_body_by_its_matrices_is_the_body(run: bm.Run, kind: str) -> None:
     squares = np.array([6.0, 4.0, 8.0]) ** 2
     tensor = mass / 12.0 * np.diag(squares.sum() - squares)
     structure = {
-        "faces": lambda: bm.MatrixModel(own.mass(), own.stiffness(), own.contact_faces()),
+        "faces": lambda: bm.MatrixModel(own.mass(), own.stiffness(), own.base()),
         "user": lambda: own,
         "tensor": lambda: bm.RigidBody.from_mass(
             [(-3.0, -2.0), (3.0, -2.0), (3.0, 2.0), (-3.0, 2.0)], mass, tensor.tolist(), (0.0, 0.0, 4.0)
@@ -76,17 +82,16 @@ def test_a_body_by_its_matrices_is_the_body(run: bm.Run, kind: str) -> None:
 
 
 def test_faces_are_read_back() -> None:
-    [face] = bm.MatrixModel(BODY.mass(), np.zeros((6, 6)), Rigid().contact_faces()).contact_faces()
-    [other] = BODY.contact_faces()
-    assert BODY.contact_nodes() == []
+    model = bm.MatrixModel(BODY.mass(), np.zeros((6, 6)), Rigid().base())
+    [face], [other] = faces(model), faces(BODY)
     for one, two in zip(face, other):
         assert (one.x, one.y) == (two.x, two.y)
         assert (one.horizontal, one.across, one.vertical) == (two.horizontal, two.across, two.vertical)
     again = pickle.loads(pickle.dumps(face[1]))
     assert repr(again) == repr(face[1]) and again.across.terms == [(1, 1.0), (5, 3.0)]
     with pytest.raises(bm.InputError, match="weights"):
-        corner = bm.FaceNode(0.0, 0.0, np.ones(4), 1, 2)
-        bm.MatrixModel(np.eye(6), np.zeros((6, 6)), [[corner, *face[1:]]])
+        corner = bm.BaseNode(0.0, np.ones(4), 2, across=1)
+        bm.MatrixModel(np.eye(6), np.zeros((6, 6)), bm.BaseFaces([[corner, *face[1:]]]))
 
 
 class Limited:
@@ -141,7 +146,7 @@ def test_limits_of_the_packages_laws() -> None:
         (lambda: bm.Simulation(0.01, FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded()), "faces"),
         (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
         (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),
-        (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "in plan a list of faces, lists of FaceNode"),
+        (lambda: bm.MatrixModel(np.eye(6), np.eye(6), [1, 2]), "a list of BaseNode, a list of such lists, or"),
         (lambda: BODY.dof("x").relative_to_base(BODY), "none of the plane"),
         (lambda: simulation().state.value("tork"), "no quantity 'tork', only base_shear"),
     ],
@@ -163,8 +168,9 @@ def test_one_face_may_be_given_by_itself() -> None:
     [square] = bm_square(2.0)
     assert len(bm.Plan(square, 4)) == len(bm.Plan([square], 4)) == 16
     assert len(bm.Plan.masked((0.0, 0.0), (1.0, 1.0), np.eye(3, dtype=int))) == 3
-    model = bm.MatrixModel(BODY.mass(), np.zeros((6, 6)), Rigid().contact_faces()[0])
-    assert len(model.contact_faces()) == 1
+    [face] = faces(BODY)
+    model = bm.MatrixModel(BODY.mass(), np.zeros((6, 6)), bm.BaseFaces(face))
+    assert len(faces(model)) == 1
 
 
 class Raising(Limited):
@@ -290,7 +296,7 @@ def test_springs_damping_and_shear_in_plan() -> None:
         np.testing.assert_allclose(run[force][1:], expected, atol=1e-6 * np.abs(expected).max())
     braced = bm.WithSprings(building, [(building.drift(0)[0], bm.Bilinear(4e7, 1e5, 0.1))])
     damped = bm.WithModalDamping(braced, [0.05], fixed_base=True)
-    assert simulation(damped).run(50).energy_error < 1e-9 and len(damped.contact_faces()) == 1
+    assert simulation(damped).run(50).energy_error < 1e-9 and len(faces(damped)) == 1
 
 
 def test_waves_turn_with_their_azimuth(run: bm.Run) -> None:

@@ -223,7 +223,7 @@ class Counting:
 
     def __init__(self, block: bm.RigidBlock) -> None:
         self.mass, self.stiffness = block.mass, block.stiffness
-        self.contact_nodes = block.contact_nodes
+        self.base = block.base
         self.committed = 0.0
 
     def force(self, u):

@@ -119,7 +119,7 @@ def test_reset_goes_back_to_the_first_bit(rocking) -> None:
 
         dofs = 3
         block = bm.RigidBlock(6.0, 9.0, 1000.0)
-        contact_nodes, mass, stiffness = block.contact_nodes, block.mass, block.stiffness
+        base, mass, stiffness = block.base, block.mass, block.stiffness
 
         def __deepcopy__(self, memo: dict) -> "Unsaved":
             return self
@@ -352,7 +352,7 @@ def test_errors_have_classes_and_the_full_text(soil, rocking, tmp_path) -> None:
         bm.MatrixModel(np.ones((2, 3)), np.ones((2, 2)), [])
     with pytest.raises(bm.InputError, match="positive semi-definite"):
         bm.MatrixModel(
-            -np.eye(3), np.zeros((3, 3)), bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+            -np.eye(3), np.zeros((3, 3)), bm.BaseNode.rigid_base(-1.0, 1.0, [0, 1, 2])
         )
     with pytest.raises(KeyError, match="roof"):
         rocking().run(3)["ruf"]

@@ -27,7 +27,7 @@ def shaken(structure: object, soil: bm.Soil, **others: object) -> bm.Run:
 def test_matrices_of_a_building_give_its_response(soil: bm.Soil) -> None:
     building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS, damping=0.05)
     model = bm.MatrixModel(
-        building.mass(), building.stiffness(), building.contact_nodes(), damping=building.damping()
+        building.mass(), building.stiffness(), building.base(), damping=building.damping()
     )
     expected, found = shaken(building, soil), shaken(model, soil)
     assert expected.uplifted_fraction.value > 0.1
@@ -39,13 +39,13 @@ def test_rayleigh_damping_is_a_sum_of_the_matrices() -> None:
     building = bm.ShearBuilding(8.0, 50e3, 4e5, STOREYS)
     damping = bm.RayleighDamping.from_ratios([1.0, 10.0], [0.05, 0.05])
     model = bm.MatrixModel(
-        building.mass(), building.stiffness(), building.contact_nodes(), rayleigh=damping
+        building.mass(), building.stiffness(), building.base(), rayleigh=damping
     )
     expected = damping.mass * building.mass() + damping.stiffness * building.stiffness()
     np.testing.assert_allclose(model.damping(), expected, rtol=1e-14)
     assert damping.ratio(1.0) == pytest.approx(0.05)
     with pytest.raises(bm.InputError, match="not both"):
-        matrices = building.mass(), building.stiffness(), building.contact_nodes()
+        matrices = building.mass(), building.stiffness(), building.base()
         bm.MatrixModel(*matrices, damping=expected, rayleigh=damping)
 
 
@@ -247,7 +247,7 @@ def test_arrays_that_do_not_fit_are_refused() -> None:
         bm.DofCombination(0).weights(10**18)
     count = 20_001
     mass = scipy.sparse.diags_array(np.ones(count)).tocsr()
-    base = bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+    base = bm.BaseNode.rigid_base(-1.0, 1.0, [0, 1, 2])
     model = bm.MatrixModel(mass, mass, base)
     for matrix in (model.mass, model.stiffness, model.damping):
         with pytest.raises(bm.InputError, match="has 20001 degrees of freedom"):
@@ -258,7 +258,7 @@ SHORT_OF_MEMORY = """
 import resource
 import numpy, scipy.sparse, basemat as bm
 mass = scipy.sparse.diags_array(numpy.ones(15_000)).tocsr()
-model = bm.MatrixModel(mass, mass, bm.ContactNode.rigid_base(-1.0, 1.0, [0, 1, 2]))
+model = bm.MatrixModel(mass, mass, bm.BaseNode.rigid_base(-1.0, 1.0, [0, 1, 2]))
 resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30))
 try:
     model.mass()
@@ -289,7 +289,7 @@ NAMES = ["base_x", "base_y", "base_rotation", "roof"]
 def named(names: object = NAMES, factor: float = 1.0) -> bm.MatrixModel:
     """A building of one storey by its matrices."""
     own = bm.ShearBuilding(8.0, 50e3, 4e5, [bm.Storey(3.0, 20e3, 40e6)])
-    return bm.MatrixModel(own.mass(), factor * own.stiffness(), own.contact_nodes(), dof_names=names)  # type: ignore[arg-type]
+    return bm.MatrixModel(own.mass(), factor * own.stiffness(), own.base(), dof_names=names)  # type: ignore[arg-type]
 
 
 def test_names_of_degrees_of_freedom_reach_probes_frames_and_errors(soil: bm.Soil) -> None:

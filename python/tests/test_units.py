@@ -70,7 +70,7 @@ def test_unsymmetric_stiffness_is_refused_unless_active() -> None:
     mass[0, 3] = mass[3, 0] = 1e3
     stiffness = np.diag([0.0, 0.0, 0.0, 1e6])
     stiffness[2, 3] = 1e5
-    contact = bm.ContactNode.rigid_base(-5.0, 5.0, [0, 1, 2])
+    contact = bm.BaseNode.rigid_base(-5.0, 5.0, [0, 1, 2])
     model = bm.MatrixModel(mass, stiffness, contact)
     ground = bm.ElasticGround.under(SOIL, model, 8)
     with pytest.raises(bm.InputError, match=r"entry \(2, 3\) is 1e5, entry \(3, 2\) 0e0"):

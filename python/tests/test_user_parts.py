@@ -20,8 +20,8 @@ class Tuned:
     def __deepcopy__(self, memo: dict) -> "Tuned":
         return Tuned(self.block, self.breaks_at)
 
-    def contact_nodes(self) -> list[bm.ContactNode]:
-        return self.block.contact_nodes()
+    def base(self) -> list[list[bm.BaseNode]] | bm.BaseFaces:
+        return self.block.base()
 
     def mass(self) -> np.ndarray:
         mass = np.zeros((4, 4))
@@ -85,7 +85,7 @@ def test_an_exception_of_the_structure_comes_out_of_the_run(rocking, block) -> N
     assert simulation.state.step == state.step
 
 
-@pytest.mark.parametrize("method", ["dofs", "contact_nodes", "mass", "stiffness", "tangent"])
+@pytest.mark.parametrize("method", ["dofs", "base", "mass", "stiffness", "tangent"])
 def test_an_exception_while_a_simulation_is_built(rocking, block, method: str) -> None:
     def fail(*_: object) -> None:
         raise NotImplementedError(method)

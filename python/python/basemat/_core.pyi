@@ -4,14 +4,14 @@ Written by ``tools/stubs.py``; types stand in ``tools/annotations.txt``.
 """
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, Union, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import UserHysteresis, UserLaw, UserPlanLaw, UserPlanStructure, UserStructure
+from ._protocols import UserHysteresis, UserLaw, UserPlanLaw, UserStructure
 
 __version__: str
 MODES: list[_Mode]
@@ -77,7 +77,8 @@ _Quantity: TypeAlias = Literal[
     "free_field_across",
     "overturning_safety_across",
 ]
-_Structure: TypeAlias = Union["Structure", UserStructure, UserPlanStructure]
+_Structure: TypeAlias = Union["Structure", UserStructure]
+_Base: TypeAlias = Union[Sequence["BaseNode"], Sequence[Sequence["BaseNode"]], "BaseFaces"]
 _RowLike: TypeAlias = Union[
     "DofCombination", int, Mapping[int, float], Sequence[tuple[int, float]], NDArray[np.float64]
 ]
@@ -2088,16 +2089,16 @@ class Structure:
         """Names of the degrees of freedom: list of n texts; None without names."""
     def dof(self, name: str) -> DofCombination:
         """The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`."""
-    def contact_nodes(self) -> list[ContactNode]:
-        """Points of the base that touch the ground: list of :class:`ContactNode`, from left to right; none in plan."""
+    def base(self) -> list[list[BaseNode]] | BaseFaces:
+        """Base of the structure: a list for each foundation, of its :class:`BaseNode` from left to right; in plan
+        :class:`BaseFaces`.
+        """
     def mass(self) -> NDArray[np.float64]:
         """Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom."""
     def stiffness(self) -> NDArray[np.float64]:
         """Stiffness matrix (n × n array, N/m per metre)."""
     def damping(self) -> NDArray[np.float64]:
         """Viscous damping matrix (n × n array, N s/m per metre)."""
-    def contact_faces(self) -> list[list[FaceNode]]:
-        """Faces of the base of a structure in plan: list of lists of :class:`FaceNode`; none in the plane."""
 
 @final
 class RigidBlock(Structure):
@@ -2421,71 +2422,68 @@ class WithModalDamping(Structure):
         """Frequencies of the modes that are not rigid: array of shape (modes,), Hz."""
 
 @final
-class ContactNode:
-    """A point of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
-    one) of its displacement to the right, ``horizontal``, and up, ``vertical``.
-    """
-
-    def __new__(cls, x: float, horizontal: _RowLike, vertical: _RowLike) -> Self: ...
-    @staticmethod
-    def rigid(x: float, center: float, dofs: Sequence[int]) -> ContactNode:
-        """A point at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-        numbers ``dofs`` (horizontal, vertical, rotation).
-        """
-    @staticmethod
-    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[ContactNode]:
-        """The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
-        at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
-        """
-    @property
-    def x(self) -> float:
-        """Coordinate to the right, m."""
-    @property
-    def horizontal(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement to the right."""
-    @property
-    def vertical(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement up."""
-
-@final
-class FaceNode:
-    """A corner of a face of a base in plan: its coordinates ``x`` (to the right) and ``y`` (away), m, and the rows
-    (:class:`DofCombination`, or what makes one) of its displacement along x, ``horizontal``, along y, ``across``, and up,
-    ``vertical``.
+class BaseNode:
+    """A node of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
+    one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
+    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``.
     """
 
     def __new__(
         cls,
         x: float,
-        y: float,
         horizontal: _RowLike,
-        across: _RowLike,
         vertical: _RowLike,
+        *,
+        y: float = 0.0,
+        across: _RowLike | None = None,
     ) -> Self: ...
     @staticmethod
-    def rigid_base(
+    def rigid(x: float, center: float, dofs: Sequence[int]) -> BaseNode:
+        """A node at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+        numbers ``dofs`` (horizontal, vertical, rotation).
+        """
+    @staticmethod
+    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[BaseNode]:
+        """The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
+        at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
+        """
+    @staticmethod
+    def rigid_face(
         corners: Sequence[tuple[float, float]],
         center: tuple[float, float],
         dofs: Sequence[int],
-    ) -> list[FaceNode]:
-        """The face, a list of its corners, of a rigid flat base: ``corners`` (list of x and y, m) from ``center`` (x and y, m),
-        whose displacements along x, along y and up and rotations about these have the numbers ``dofs`` (six).
+    ) -> list[BaseNode]:
+        """The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
+        (x and y, m), whose displacements along x, along y and up and rotations about these have the numbers ``dofs``
+        (six).
         """
     @property
     def x(self) -> float:
         """Coordinate to the right, m."""
     @property
     def y(self) -> float:
-        """Coordinate away from the reader, m."""
+        """Coordinate away from the reader, m; zero in the plane."""
     @property
     def horizontal(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement along x."""
+        """The :class:`DofCombination` of its displacement to the right."""
     @property
     def across(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement along y."""
+        """The :class:`DofCombination` of its displacement along y; empty in the plane."""
     @property
     def vertical(self) -> DofCombination:
         """The :class:`DofCombination` of its displacement up."""
+
+@final
+class BaseFaces:
+    """The base of a structure in plan: ``faces``, a list of lists of :class:`BaseNode`, over which it iterates.
+
+    A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
+    face, its outline, which may be given without a list. Faces that touch are one foundation.
+    """
+
+    def __new__(cls, faces: Sequence[BaseNode] | Sequence[Sequence[BaseNode]]) -> Self: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[list[BaseNode]]: ...
 
 @final
 class FemModel(Structure):
@@ -2646,9 +2644,9 @@ class MatrixModel(Structure):
     """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
 
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-    (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
-    points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
-    lists of :class:`FaceNode` (or one list alone), each convex, flat and at one height, and matrices refer to the whole body. ``damping`` (n × n, N s/m per
+    (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
+    :class:`BaseNode` from left to right; a list of such lists for several foundations; :class:`BaseFaces` for a ground
+    in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
     (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
     list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -2658,7 +2656,7 @@ class MatrixModel(Structure):
         cls,
         mass: _MatrixLike,
         stiffness: _MatrixLike,
-        contact: Sequence[ContactNode] | Sequence[FaceNode] | Sequence[Sequence[FaceNode]],
+        base: _Base,
         *,
         damping: _MatrixLike | None = None,
         active_damping: bool = False,

@@ -92,8 +92,8 @@ def _kept(value: Any) -> Any:
 
 def _is_part(value: Any) -> bool:
     """Whether this is a function, a structure or a law of the user's, whatever else it may be."""
-    methods = ("contact_nodes", "contact_faces", "conditions", "limits")
-    return callable(value) or any(hasattr(value, method) for method in methods)
+    methods = ("base", "conditions", "limits")
+    return callable(value) or any(callable(getattr(value, method, None)) for method in methods)
 
 
 def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]) -> Made:

@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
-__all__ = ["UserHysteresis", "UserLaw", "UserPlanLaw", "UserPlanStructure", "UserStructure"]
+__all__ = ["UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
 
 if TYPE_CHECKING:
-    from ._core import Condition, ContactNode, ContactState, FaceNode, Limits, PreviousContact, Tolerance
+    from ._core import BaseFaces, BaseNode, Condition, ContactState, Limits, PreviousContact, Tolerance
 
 
 class UserStructure(Protocol):
     """A structure of n dofs written in Python: ``dofs``, an int, and these methods.
 
     If it has them, these are called too: ``damping()`` (n × n), ``load(time)`` (shape (n,), N/m),
-    ``foundation_ends()`` (numbers of the contact nodes that end a foundation but the last),
-    ``active_damping`` and ``active_stiffness`` (flags: the matrix is taken as it is). One for a ground in plan is a
-    :class:`UserPlanStructure`.
+    ``active_damping`` and ``active_stiffness`` (flags: the matrix is taken as it is). In plan matrices and loads belong to
+    the whole body (kg, N/m, N).
 
     A nonlinear structure has ``force(u)`` (shape (n,), N/m, beyond K u) and ``tangent(u)`` (n × n)
     of displacements u (shape (n,), m and rad), which change nothing, and if it has them
@@ -29,28 +28,15 @@ class UserStructure(Protocol):
     ``commit`` is called after a step is accepted: its exception ends the run after the step.
     """
 
-    def contact_nodes(self) -> Sequence[ContactNode]:
-        """Points of the base, from left to right."""
+    def base(self) -> Sequence[BaseNode] | Sequence[Sequence[BaseNode]] | BaseFaces:
+        """Nodes of the base, from left to right; a list of such lists for several foundations; :class:`BaseFaces` in
+        plan. A rigid base needs its two ends, :meth:`BaseNode.rigid_base`, or in plan its outline."""
 
     def mass(self) -> Any:
         """Mass matrix (n × n, dense or of ``scipy.sparse``, kg/m)."""
 
     def stiffness(self) -> Any:
         """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m per metre)."""
-
-
-class UserPlanStructure(Protocol):
-    """A structure for a ground in plan written in Python: all that a :class:`UserStructure` is and may have, but with faces
-    in place of contact nodes, and matrices of the whole body."""
-
-    def contact_faces(self) -> Sequence[Sequence[FaceNode]]:
-        """Faces of the base, each convex, flat and at one height; a rigid base needs one, its outline."""
-
-    def mass(self) -> Any:
-        """Mass matrix (n × n, dense or of ``scipy.sparse``, kg)."""
-
-    def stiffness(self) -> Any:
-        """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m)."""
 
 
 class UserLaw(Protocol):

@@ -68,8 +68,9 @@ def probes(model: bm.FemModel) -> list[bm.Probe]:
     height = HEIGHT * FOOT / LAYERS
     corner = model.node_at(-0.5 * WIDTH * FOOT, height + height * (LAYERS - 1))
     feet = bm.DofCombination([])
-    for node in model.contact_nodes():
-        feet = feet + node.horizontal
+    for line in model.base():
+        for node in line:
+            feet = feet + node.horizontal
     sway = model.row(corner, "x") - (1.0 / len(feet.terms)) * feet
     shear, _, _ = model.section(height)
     return [

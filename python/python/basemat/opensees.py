@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from . import BasematWarning, ContactNode, DofCombination, InputError, MatrixModel
+from . import BasematWarning, BaseNode, DofCombination, InputError, MatrixModel
 from ._opensees_linear import Elements
 from ._opensees_ties import DIRECTIONS, Ties
 
@@ -29,7 +29,7 @@ class OpenSeesModel:
         self._places, self._ties = places, ties
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
-        self.contact_nodes = model.contact_nodes
+        self.base = model.base
         self.mass = model.mass
         self.stiffness = model.stiffness
         self.damping = model.damping
@@ -121,14 +121,14 @@ def structure(
             stacklevel=2,
         )
     stiffness = initial if tangent == "initial" else present
-    contact = _contact(ops, places, ties, base_nodes, width)
+    base = _base(ops, places, ties, base_nodes, width)
     _moves(ops, places, ties, np.abs(stiffness).max(axis=1) + np.abs(mass).max(axis=1) > 0.0)
     names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, DIRECTIONS)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
     kept = [ties.sums.T @ _symmetric(own, names) @ ties.sums for own in (mass, stiffness, damping)]
     if np.abs(damping).max() > 1e-12 * np.abs(stiffness).max():
         options["damping"] = _clean(kept[2])
-    return OpenSeesModel(MatrixModel(_clean(kept[0]), _clean(kept[1]), contact, **options), places, ties)
+    return OpenSeesModel(MatrixModel(_clean(kept[0]), _clean(kept[1]), base, **options), places, ties)
 
 
 def _check(ops: Any) -> None:
@@ -139,8 +139,8 @@ def _check(ops: Any) -> None:
             counts = "{} coordinates and {} degrees of freedom".format(*found)
             raise InputError(
                 f"node {tag} has {counts}, but must have 2 and 3: -ndm 2 -ndf 3. Any other linear model is a "
-                "MatrixModel by its matrices (integrator GimmeMCK, then printA), with ContactNode for its base, or "
-                "FaceNode in three dimensions"
+                "MatrixModel by its matrices (integrator GimmeMCK, then printA), with a base of BaseNode, in "
+                "three dimensions of BaseFaces"
             )
     if not ops.getEleTags():
         raise InputError("the model of OpenSees has no elements")
@@ -168,10 +168,10 @@ def _assembled(ops: Any, penalty: float, factors: Any) -> tuple[list[Any], dict[
     return found, {int(tag): [int(own) for own in ops.nodeDOFs(tag)] for tag in ops.getNodeTags()}
 
 
-def _contact(
+def _base(
     ops: Any, places: dict[int, list[int]], ties: Ties, base_nodes: Sequence[int], width: float | None
-) -> list[ContactNode]:
-    """Points of the base."""
+) -> list[BaseNode]:
+    """Nodes of the base."""
     at = {tag: ops.nodeCoord(tag) for tag in base_nodes if tag in places}
     x = {tag: float(own[0]) for tag, own in at.items()}
     rows = {}
@@ -184,11 +184,11 @@ def _contact(
     if len(x) < 2 and width is None or len(x) != 1 and width is not None:
         raise InputError(f"{len(x)} base nodes: give several, or a single one with a width")
     if width is None:
-        return [ContactNode(x[tag], rows[tag, "x"], rows[tag, "y"]) for tag in sorted(x, key=lambda tag: x[tag])]
+        return [BaseNode(x[tag], rows[tag, "x"], rows[tag, "y"]) for tag in sorted(x, key=lambda tag: x[tag])]
     [tag] = x
     ends = (-0.5 * width, 0.5 * width)
     return [
-        ContactNode(x[tag] + own, rows[tag, "x"], rows[tag, "y"] + rows[tag, "rotation"] * own) for own in ends
+        BaseNode(x[tag] + own, rows[tag, "x"], rows[tag, "y"] + rows[tag, "rotation"] * own) for own in ends
     ]
 
 

@@ -2,6 +2,7 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{Grading, Strip};
+use basemat::structure::Base;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
@@ -66,11 +67,11 @@ impl Elements {
     ) -> PyResult<Py<PyAny>> {
         let py = structure.py();
         let structure = crate::structure::recipe(structure)?().or_raise()?;
-        if structure.contact_faces().is_empty() {
-            let strips = Strip::under(&*structure, count, grading).or_raise()?;
-            return strips.into_iter().map(PyStrip).collect::<Vec<_>>().into_py_any(py);
+        if matches!(structure.base(), Base::Faces(_)) {
+            return PyPlan(Plan::under(&*structure, count).or_raise()?).into_py_any(py);
         }
-        PyPlan(Plan::under(&*structure, count).or_raise()?).into_py_any(py)
+        let strips = Strip::under(&*structure, count, grading).or_raise()?;
+        strips.into_iter().map(PyStrip).collect::<Vec<_>>().into_py_any(py)
     }
 }
 

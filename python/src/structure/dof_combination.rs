@@ -1,6 +1,6 @@
 //! Weighted sums of degrees of freedom in Python: arithmetic, conversion and comparison.
 
-use basemat::structure::{DofCombination, Structure};
+use basemat::structure::{Base, DofCombination, Structure};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
@@ -13,7 +13,7 @@ impl PyDofCombination {
     /// The structure in the plane that this row is for.
     fn in_plane(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
         let structure = recipe(structure)?().or_raise()?;
-        if !structure.contact_faces().is_empty() {
+        if matches!(structure.base(), Base::Faces(_)) {
             let needed = "in plan subtract a row of DofCombination.of_base";
             return Err(refuse(format!("the structure is none of the plane: {needed}")));
         }

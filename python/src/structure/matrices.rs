@@ -8,7 +8,7 @@ use pyo3::prelude::*;
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use crate::array::Matrix;
-use crate::contact_node::Contact;
+use crate::base_node::BaseLike;
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::Shared;
@@ -16,9 +16,9 @@ use crate::recipe::Shared;
 /// A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
 ///
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-/// (m, rad). The structure is free, without supports: the ground holds it up. ``contact``: the
-/// points of its base, a list of :class:`ContactNode` from left to right; for a ground in plan its faces, a list of
-/// lists of :class:`FaceNode` (or one list alone), each convex, flat and at one height, and matrices refer to the whole body. ``damping`` (n × n, N s/m per
+/// (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
+/// :class:`BaseNode` from left to right; a list of such lists for several foundations; :class:`BaseFaces` for a ground
+/// in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
 /// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
 /// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
@@ -27,12 +27,12 @@ pub(crate) struct PyMatrixModel;
 
 #[pymethods]
 impl PyMatrixModel {
-    #[pyo3(signature = (mass, stiffness, contact, *, damping=None, active_damping=false, active_stiffness=false, rayleigh=None, dof_names=None))]
+    #[pyo3(signature = (mass, stiffness, base, *, damping=None, active_damping=false, active_stiffness=false, rayleigh=None, dof_names=None))]
     #[new]
     fn new(
         mass: Matrix,
         stiffness: Matrix,
-        contact: Contact<'_>,
+        base: BaseLike,
         damping: Option<Matrix>,
         active_damping: bool,
         active_stiffness: bool,
@@ -49,16 +49,12 @@ impl PyMatrixModel {
         } else {
             MatrixModel::with_damping
         };
-        let model = match contact.nodes(dofs)? {
-            (nodes, faces) if faces.is_empty() => MatrixModel::new(mass.0, stiffness.0, nodes),
-            (_, faces) => MatrixModel::in_plan(mass.0, stiffness.0, faces),
-        };
-        let model = model
+        let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dofs)?)
             .with(damping, |model, matrix| damped(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
             .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .or_raise()?;
-        let base = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        let own = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
+        Ok(PyClassInitializer::from(own).add_subclass(Self))
     }
 }

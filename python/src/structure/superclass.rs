@@ -6,7 +6,7 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::contact_node::{PyContactNode, PyFaceNode};
+use crate::base_node::shown;
 use crate::dof_names::DofNames;
 use crate::error::{OrRaise, kept, refuse};
 use crate::recipe::Recipe;
@@ -54,15 +54,12 @@ pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure
             Ok(Box::new(made.map_err(|error| kept("structure", error))?))
         }));
     }
-    Err(refuse(format!(
-        "{} is no structure: it has no method `contact_nodes` or `contact_faces`",
-        object.get_type().name()?
-    )))
+    Err(refuse(format!("{} is no structure: it has no method `base`", object.get_type().name()?)))
 }
 
 /// Whether this may be a structure.
 fn has_base(object: &Bound<'_, PyAny>) -> PyResult<bool> {
-    Ok(object.hasattr("contact_nodes")? || object.hasattr("contact_faces")?)
+    Ok(object.getattr_opt("base")?.is_some_and(|base| base.is_callable()))
 }
 
 /// A structure for one simulation, and the object that has its internal variables: a copy if it is a
@@ -141,15 +138,10 @@ impl PyStructure {
         Ok(DofCombination::from(names.number(name)?).into())
     }
 
-    /// Points of the base that touch the ground: list of :class:`ContactNode`, from left to right; none in plan.
-    fn contact_nodes(&self) -> PyResult<Vec<PyContactNode>> {
-        Ok((self.make)().or_raise()?.contact_nodes().into_iter().map(PyContactNode::from).collect())
-    }
-
-    /// Faces of the base of a structure in plan: list of lists of :class:`FaceNode`; none in the plane.
-    fn contact_faces(&self) -> PyResult<Vec<Vec<PyFaceNode>>> {
-        let faces = (self.make)().or_raise()?.contact_faces().into_iter();
-        Ok(faces.map(|face| face.into_iter().map(PyFaceNode::from).collect()).collect())
+    /// Base of the structure: a list for each foundation, of its :class:`BaseNode` from left to right; in plan
+    /// :class:`BaseFaces`.
+    fn base(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        shown(py, (self.make)().or_raise()?.base())
     }
 
     /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom.

@@ -1,29 +1,27 @@
 //! A structure written in Python.
 
 use basemat::Result;
-use basemat::structure::{BaseNode, InternalEnergy, NonlinearForce, Structure, Triplets};
+use basemat::structure::{Base, InternalEnergy, NonlinearForce, Structure, Triplets};
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
 use super::object::{UserObject, copied};
 use crate::array::{Array, Count, Matrix, Numbers};
-use crate::contact_node::Contact;
+use crate::base_node::BaseLike;
 use crate::dof_names::DofNames;
 use crate::error::{keep, refuse, returned};
 
 /// Name of this kind of part in errors.
 const PART: &str = "structure";
 /// Methods that may be missing.
-const OPTIONAL: [&str; 7] =
-    ["damping", "load", "foundation_ends", "contact_faces", "energy", "commit", "save"];
+const OPTIONAL: [&str; 5] = ["damping", "load", "energy", "commit", "save"];
 
-/// A Python object with `dofs`, `contact_nodes()` or `contact_faces()`, `mass()` and `stiffness()`; a structure that
-/// is nonlinear also has `force(u)` and `tangent(u)`.
+/// A Python object with `dofs`, `base()`, `mass()` and `stiffness()`; a structure that is nonlinear also has `force(u)`
+/// and `tangent(u)`.
 pub(crate) struct UserStructure {
     object: UserObject,
     dofs: usize,
-    contact: (Vec<BaseNode>, Vec<Vec<BaseNode>>),
-    ends: Vec<usize>,
+    base: Base,
     names: Option<DofNames>,
     active_damping: bool,
     active_stiffness: bool,
@@ -41,13 +39,7 @@ impl UserStructure {
         let dofs = given.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
         let Count(dofs) = returned("dofs of the structure", &dofs)?;
-        let base = |method| object.call::<Contact<'_>>(py, method, ());
-        let faces = object.has("contact_faces").then(|| base("contact_faces")).transpose()?;
-        let contact = match faces {
-            Some(faces @ Contact::Faces(_)) => faces,
-            _ => base("contact_nodes")?,
-        };
-        let ends = object.has("foundation_ends").then(|| object.call(py, "foundation_ends", ()));
+        let base: BaseLike = object.call(py, "base", ())?;
         let flag = |name: &str| -> PyResult<bool> {
             let flag = given.getattr_opt(name)?;
             flag.map_or(Ok(false), |flag| flag.is_truthy())
@@ -55,8 +47,7 @@ impl UserStructure {
         Ok(Self {
             dofs,
             names: DofNames::from_structure(&given, dofs)?,
-            contact: contact.nodes(dofs)?,
-            ends: ends.transpose()?.unwrap_or_default(),
+            base: base.of_structure(dofs)?,
             active_damping: flag("active_damping")?,
             active_stiffness: flag("active_stiffness")?,
             nonlinear,
@@ -119,16 +110,8 @@ impl Structure for UserStructure {
         self.dofs
     }
 
-    fn contact_nodes(&self) -> Vec<BaseNode> {
-        self.contact.0.clone()
-    }
-
-    fn contact_faces(&self) -> Vec<Vec<BaseNode>> {
-        self.contact.1.clone()
-    }
-
-    fn foundation_ends(&self) -> Vec<usize> {
-        self.ends.clone()
+    fn base(&self) -> Base {
+        self.base.clone()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
