@@ -134,7 +134,7 @@
 //! | feature | what it adds |
 //! |---|---|
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
-//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape` |
+//! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape`; `sweep`: files |
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |

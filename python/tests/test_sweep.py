@@ -176,21 +176,22 @@ def test_files_of_shards_merge_to_the_table(tmp_path: Path) -> None:
     right = merged.drop(4)
     assert right["area"].tolist() == whole.drop(4)["area"].tolist() and right["none"].isna().all()
     assert right["flat"].tolist() == [1.0, 1.0, 1.0, 0.0, 0.0]
-    heading, row, *_ = (tmp_path / "whole.csv").read_text("utf-8").splitlines()
-    assert heading == "case,width,soil,area,flat,none,error,check"
-    assert row[:-16] == "0,4.0,sand,5.333333333333333,1.0,,," and int(row[-16:], 16)
+    first, heading, row, *_ = (tmp_path / "whole.csv").read_text("utf-8").splitlines()
+    assert heading == "case,width,soil,area,flat,none,error"
+    assert first.startswith("# basemat sweep 1 check sum ") and int(first[-16:], 16)
+    assert row == "0,4.0,sand,5.333333333333333,1.0,,"
 
     with pytest.raises(bm.FileError, match=r"3 of the sweep's cases missing: .*shard 1/2"):
         bm.merge(tmp_path / "0.csv", AREAS)
     text = (tmp_path / "whole.csv").read_text("utf-8")
     (tmp_path / "whole.csv").write_text(text.replace("5.333333333333333", "5.333333333333334", 1), "utf-8")
-    with pytest.raises(bm.FileError, match=r"whole.csv, line 2: .*check"):
+    with pytest.raises(bm.FileError, match=r"whole.csv: .*check sum"):
         bm.merge(tmp_path / "whole.csv", AREAS)
 
 
 def test_a_file_needs_numbers_and_is_refused_before_anything_runs(tmp_path: Path) -> None:
     made: list[object] = []
-    for grid in ({"a": [1.0, 1.0]}, {"a": [object()]}, [{"a": 1.0}], {"check": [1.0]}):
+    for grid in ({"a": [1.0, 1.0]}, {"a": [object()]}, [{"a": 1.0}], {"error": [1.0]}):
         with pytest.raises((bm.InputError, TypeError)):
             bm.sweep(lambda **case: made.append(case), grid, file=tmp_path / "cases.csv")
     with pytest.raises(bm.InputError, match=r"shard is \(2, 2\)"):

@@ -49,9 +49,6 @@ pub enum FileFault {
         /// Requirement.
         needed: String,
     },
-    /// The file ends too early: writing it was interrupted.
-    #[error("the file ends within this line")]
-    Cut,
     /// The content differs from the content that was written.
     #[error(
         "{quantity} does not agree with its check sum: damaged or changed by hand (delete it to have it made anew)"

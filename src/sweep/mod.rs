@@ -34,8 +34,11 @@
 //! [`Sweep::table_in`] stores its rows in a file, from which a restarted process continues. [`Sweep::merge`]
 //! combines the files of all shards. `docs/guide.md` has a complete job array.
 
+#[cfg(feature = "io")]
 mod file;
 mod run;
+#[cfg(feature = "io")]
+mod stored;
 mod table;
 mod tables;
 
@@ -114,13 +117,12 @@ impl Grid {
     }
 }
 
-/// Columns of a table after the results.
-pub(super) const LAST_COLUMNS: [&str; 2] = ["error", "check"];
+/// Column of a table after the results.
+pub(super) const ERROR: &str = "error";
 
 /// Error for a column without a name, or with a name that occurs twice or is reserved.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut before = HashSet::from(LAST_COLUMNS);
-    before.insert("case");
+    let mut before = HashSet::from(["case", ERROR]);
     for name in names {
         require_part("column", !name.is_empty(), "it must have a name")?;
         if !before.insert(name) {

@@ -141,6 +141,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Position of a case among the cases that are run; `None` if it is not run.
+    #[cfg(feature = "io")]
     pub(super) fn place(&self, case: usize) -> Option<usize> {
         let behind = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
         (behind % self.stride == 0).then(|| behind / self.stride)

@@ -1,10 +1,9 @@
 //! Parameters and results of cases, one row each.
 
 use std::fmt;
-use std::path::Path;
 use std::sync::Arc;
 
-use super::{Grid, LAST_COLUMNS};
+use super::{ERROR, Grid};
 use crate::error::{Error, Result};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::Cell;
@@ -46,19 +45,14 @@ impl Row {
         Self { case, outcome }
     }
 
-    /// Check sum of the columns' names and of all cells' values, as hexadecimal digits.
-    pub(super) fn check(&self, grid: &Grid, columns: &[String]) -> String {
-        let mut sum = CheckSum::default();
-        for name in heading(grid, columns) {
-            sum.add_text(&name);
-        }
+    /// Adds the values of all cells to the check sum of a table.
+    pub(super) fn add_to(&self, grid: &Grid, sum: &mut CheckSum) {
         sum.add(self.case as u64);
         parameter_cells(grid, self.case).for_each(|cell| sum.add_text(&cell));
         match &self.outcome {
             Ok(results) => sum.add_numbers(results),
             Err(reason) => sum.add_text(reason),
         }
-        sum.text()
     }
 
     /// Writes the row as a line of CSV, with its line end.
@@ -75,7 +69,6 @@ impl Row {
                 cells.push(reason.clone());
             }
         }
-        cells.push(self.check(grid, columns));
         csv_line(&cells)
     }
 }
@@ -110,8 +103,25 @@ pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
     let mut cells = vec!["case".to_owned()];
     cells.extend(grid.parameters.iter().map(|parameter| parameter.name().to_owned()));
     cells.extend_from_slice(columns);
-    cells.extend(LAST_COLUMNS.map(str::to_owned));
+    cells.push(ERROR.to_owned());
     cells
+}
+
+/// First line of a table's file, up to its check sum. The number is the version of the format.
+pub(super) const FIRST: &str = "# basemat sweep 1 check sum ";
+
+/// Check sum of a table without rows.
+pub(super) fn heading_sum(grid: &Grid, columns: &[String]) -> CheckSum {
+    let mut sum = CheckSum::default();
+    for name in heading(grid, columns) {
+        sum.add_text(&name);
+    }
+    sum
+}
+
+/// The first two lines of a table's file.
+pub(super) fn first_lines(grid: &Grid, columns: &[String], sum: CheckSum) -> String {
+    format!("{FIRST}{}\n{}", sum.text(), csv_line(&heading(grid, columns)))
 }
 
 /// A row of a [`CaseTable`].
@@ -176,22 +186,19 @@ impl CaseTable {
         &self.columns
     }
 
-    /// Writes the table as CSV (RFC 4180): a heading, and a line for each case.
+    /// Writes the table as CSV (RFC 4180): a comment, a heading, and a line for each case.
     ///
-    /// Columns are `case`, the parameters, the results, `error` and `check`, the check sum of the row that is
-    /// needed to read it again. Numbers, in the caller's units, have enough digits to be read back to the
-    /// last bit. NaN is an empty cell, infinities are `inf` and `-inf`. A case that failed has empty results
-    /// and a text in `error`.
+    /// The comment has the version of the format and the check sum of all values, which are needed to read the table
+    /// again: other programs skip the first line. Columns are `case`, the parameters, the results and `error`. Numbers,
+    /// in the caller's units, have enough digits to be read back to the last bit. NaN is an empty cell, infinities are
+    /// `inf` and `-inf`. A case that failed has empty results and a text in `error`.
     pub fn csv(&self) -> Csv {
-        let mut text = csv_line(&heading(&self.grid, &self.columns));
+        let mut sum = heading_sum(&self.grid, &self.columns);
+        self.rows.iter().for_each(|row| row.add_to(&self.grid, &mut sum));
+        let mut text = first_lines(&self.grid, &self.columns, sum);
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
         Csv(text)
     }
-}
-
-/// The path as text.
-pub(super) fn name(path: &Path) -> String {
-    path.display().to_string()
 }
 
 /// Writes a number with five figures, a whole number in full, the smallest numbers with an exponent.
@@ -210,7 +217,7 @@ impl fmt::Display for CaseTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let columns = self.columns.len();
         let mut heading = heading(&self.grid, &self.columns);
-        heading.truncate(heading.len() - LAST_COLUMNS.len());
+        heading.pop();
         let rows = self.rows.iter().map(|row| {
             let mut cells = vec![row.case.to_string()];
             cells.extend(parameter_cells(&self.grid, row.case));

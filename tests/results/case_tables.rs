@@ -261,17 +261,12 @@ fn wrong_sets_of_shards_are_refused() {
 #[test]
 fn spoilt_files_are_refused() {
     let text = whole().csv();
-    // Cut anywhere: within a line, or between two, where cases are missing.
+    // Cut anywhere: the check sum is that of all rows.
     let path = folder("cut").join("cases.csv");
     std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-    for end in (0..text.len()).filter(|&end| text.is_char_boundary(end)) {
+    for end in (0..text.len() - 1).filter(|&end| text.is_char_boundary(end)) {
         std::fs::write(&path, &text[..end]).unwrap();
-        match refused(sweep().merge([&path])) {
-            Error::File(FileError { fault: FileFault::Cut, .. }) => {}
-            Error::Sweep(SweepError::Missing { .. })
-                if end > 0 && text.as_bytes()[end - 1] == b'\n' => {}
-            other => panic!("{end}: {other}"),
-        }
+        assert!(matches!(refused(sweep().merge([&path])), Error::File(_)), "{end}");
     }
     std::fs::write(&path, &text.as_bytes()[..=text.find('µ').unwrap()]).unwrap();
     assert!(matches!(
@@ -291,23 +286,32 @@ fn spoilt_files_are_refused() {
         fault("spoilt", &text.replacen(from, to, 1))
     };
     let (line, reason) = spoilt("\n1,0.1,", "\n24,0.1,");
-    assert_eq!((line, reason), (3, value("case", "'24'", OF_SWEEP)));
+    assert_eq!((line, reason), (4, value("case", "'24'", OF_SWEEP)));
     assert_eq!(spoilt("\n1,0.1,", "\n+1,0.1,").1, value("case", "'+1'", OF_SWEEP));
     assert_eq!(spoilt("\n1,0.1,", "\n1,0.11,").1, value("friction of case 1", "'0.11'", "'0.1'"));
-    assert_eq!(spoilt("\n1,0.1,", "\n1,0.1,0,").1, count("cells", 9, "8"));
-    assert_eq!(spoilt(",-inf,", ",inf,").1, FileFault::Damaged { quantity: "case 5".into() });
+    assert_eq!(spoilt("\n1,0.1,", "\n1,0.1,0,").1, count("cells", 8, "7"));
+    assert_eq!(spoilt(",-inf,", ",inf,").1, FileFault::Damaged { quantity: "the table".into() });
     let (_, fault_of_number) = spoilt(",-inf,", ",minus,");
     assert_eq!(fault_of_number.to_string(), "residual_slip_m is 'minus', but must be a number");
     let both = value("case 11", "a row with an error and results", "a row with either");
     assert_eq!(spoilt(",failed", "0,failed").1, both);
-    assert!(is_value(&spoilt("friction", "fric\"tion").1, "quotation mark"));
+    let heading = spoilt("friction", "fric\"tion").1;
+    assert_eq!(heading, value("heading of column 2", "'fric\"tion'", "'friction'"));
     assert_eq!(spoilt("case,", "").1, value("heading of column 1", "'friction'", "'case'"));
-    assert_eq!(fault("empty", ""), (1, FileFault::Cut));
-    assert_eq!(fault("short", "case\n").1, value("heading of column 2", "''", "'friction'"));
-    // As tables were before they had check sums.
-    let bare = "case,friction,record,width_m,y,error\n";
-    let (_, reason) = fault("bare", bare);
-    assert_eq!(reason, value("heading of column 7", "''", "'check'"));
+    let short = "# basemat sweep 1 check sum\ncase\n";
+    assert_eq!(fault("short", short).1, value("heading of column 2", "''", "'friction'"));
+    let wrong = spoilt("check sum ", "check sum x").1;
+    assert!(is_value(&wrong, "check sum"), "{wrong}");
+    // Another version, and files of something else.
+    for (found, text) in [
+        ("", String::new()),
+        ("case,friction,record,width_m,y,error", "case,friction,record,width_m,y,error\n".into()),
+        ("# basemat sweep 2 check sum", "# basemat sweep 2 check sum\n".into()),
+    ] {
+        let needed = "'# basemat sweep 1 check sum …'".to_owned();
+        let format = FileFault::Format { found: found.into(), needed };
+        assert_eq!(fault("other", &text), (1, format));
+    }
 }
 
 #[test]
@@ -331,44 +335,47 @@ fn a_killed_sweep_goes_on() {
     assert_eq!(kept().unwrap(), whole());
     assert_eq!(ran(), 0);
 
-    // Killed at any byte: whole rows are kept.
+    // Killed at any byte of a row, or between a row and its check sum: the rows before are kept.
     let text = whole().csv();
     let begin = |case: usize| text.find(&format!("\n{case},")).unwrap() + 1;
-    let ends: Vec<_> = (1..24).map(begin).chain([text.len()]).collect();
-    let bytes = text.as_bytes();
-    for end in (0..=bytes.len()).step_by(7).chain([bytes.len()]) {
-        let _ = std::fs::remove_file(&path);
-        std::fs::write(&part, &bytes[..end]).unwrap();
-        assert_eq!(kept().unwrap(), whole(), "{end}");
-        assert!(!part.exists() && std::fs::read_to_string(&path).unwrap() == *text, "{end}");
-        assert_eq!(ran(), ends.iter().filter(|&&row| row > end).count(), "{end}");
-    }
-    assert_eq!(ran(), 0);
-    // Rows are in the file beside while it runs; killed within row 10 and again at the last case.
     std::fs::remove_file(&path).unwrap();
-    std::fs::write(&part, &bytes[..begin(10) + 3]).unwrap();
-    let seen = Mutex::new(Vec::new());
+    let states = Mutex::new(Vec::new());
     let table = sweep().table_in(&path, COLUMNS, |case| {
-        let (now, mut seen) = (std::fs::read(&part).unwrap(), seen.lock().unwrap());
-        if now.len() > seen.len() {
-            *seen = now;
-        }
-        drop(seen);
+        states.lock().unwrap().push(std::fs::read(&part).unwrap());
         compute(case)
     });
     assert_eq!(table.unwrap(), whole());
-    std::fs::remove_file(&path).unwrap();
-    std::fs::write(&part, seen.into_inner().unwrap()).unwrap();
-    assert_eq!(kept().unwrap(), whole());
-    assert!(ran() < 14, "{}", ran());
+    let mut states = states.into_inner().unwrap();
+    states.sort_by_key(Vec::len);
+    states.dedup();
+    for (count, pair) in states.windows(2).enumerate() {
+        let row = &pair[1][pair[0].len()..];
+        for end in (0..=row.len()).step_by(7).chain([row.len()]) {
+            let _ = std::fs::remove_file(&path);
+            std::fs::write(&part, [&pair[0], &row[..end]].concat()).unwrap();
+            assert_eq!(kept().unwrap(), whole(), "{count}, {end}");
+            assert!(!part.exists() && std::fs::read_to_string(&path).unwrap() == *text);
+            assert!(ran() == 24 - count || cfg!(feature = "rayon"), "{count}, {end}");
+        }
+    }
+    // Killed before the heading was written.
+    for end in 0..=states[0].len() {
+        let _ = std::fs::remove_file(&path);
+        std::fs::write(&part, &states[0][..end]).unwrap();
+        assert_eq!((kept().unwrap(), ran()), (whole(), 24), "{end}");
+    }
     // A row that is deleted is run again; progress tells of it alone.
     let failed = &text[begin(3)..begin(4)];
     assert!(
         failed.starts_with(
-            "3,0.1,\"the \"\"pulse\"\"\",1e300,,,\"no, \"\"not\"\" this,\r\none; µ\","
+            "3,0.1,\"the \"\"pulse\"\"\",1e300,,,\"no, \"\"not\"\" this,\r\none; µ\"\n"
         )
     );
     std::fs::write(&path, text.replace(failed, "")).unwrap();
+    let damaged = FileFault::Damaged { quantity: "the table".into() };
+    assert_eq!(refused(kept()), file_error(&path.display().to_string(), damaged));
+    let rows = text.replace(failed, "").split_once('\n').unwrap().1.to_owned();
+    std::fs::write(&path, format!("# basemat sweep 1 check sum\n{rows}")).unwrap();
     let told = AtomicUsize::new(0);
     let again = sweep().on_progress(|_, _| {
         told.fetch_add(1, Ordering::Relaxed);
@@ -392,7 +399,7 @@ fn a_killed_sweep_goes_on() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), *text);
     std::fs::remove_file(&path).unwrap();
     std::fs::write(&part, text.replace("\n2,0.1", "\n1,0.1")).unwrap();
-    assert!(refused(kept()).to_string().contains("line 4"));
+    assert!(refused(kept()).to_string().contains("line 5"));
     // Nowhere to write: known before anything runs.
     let file = folder.join("a_file");
     std::fs::write(&file, "").unwrap();
@@ -426,7 +433,7 @@ fn parameters_and_columns_are_checked() {
     let empty = Error::Scene { quantity: "value", needed: "it must not be an empty text" };
     assert_eq!(grid(vec![Parameter::texts("r", [""])]), of("r", empty));
     assert_eq!(grid(vec![Parameter::numbers("", [1.0])]), unnamed());
-    for name in ["case", "error", "check", "x"] {
+    for name in ["case", "error", "x"] {
         let fault = grid(vec![numbers(&[1.0]), Parameter::numbers(name, [1.0])]);
         assert_eq!(fault, Error::DuplicateName { quantity: "column", name: name.to_owned() });
     }
@@ -448,9 +455,12 @@ fn parameters_and_columns_are_checked() {
     assert_eq!(Sweep::grid([]).unwrap().cases().len(), 1);
     let table = Sweep::new(2).table([], |_| Ok::<_, Error>([])).unwrap();
     let lines: Vec<_> = table.csv().lines().map(str::to_owned).collect();
-    assert!(lines[0] == "case,error,check" && lines[1].starts_with("0,,") && lines.len() == 3);
+    assert!(
+        lines[0].starts_with("# basemat sweep 1 check sum ")
+            && lines[1..] == ["case,error", "0,", "1,"]
+    );
     let none = Sweep::new(0);
-    assert_eq!(none.merge([""; 0]).unwrap().csv().to_string(), "case,error,check\n");
+    assert_eq!(none.merge([""; 0]).unwrap().csv().lines().nth(1), Some("case,error"));
     assert_eq!(
         none.table(["y"], |_| Ok::<_, Error>([0.0])).unwrap().to_string(),
         "case  y\n-------"
@@ -509,7 +519,7 @@ proptest! {
         numbers in proptest::collection::vec(any::<u64>(), 3),
         reason in "[ -~\n\r\"µ]{0,30}",
     ) {
-        prop_assume!(!["case", "error", "check", "y"].contains(&name.as_str()));
+        prop_assume!(!["case", "error", "y"].contains(&name.as_str()));
         let texts: Vec<_> = texts.into_iter().collect();
         let sweep = || {
             let parameters = [Parameter::texts(&*name, &texts), Parameter::numbers("x", [1.0, 2.0])];
@@ -523,9 +533,10 @@ proptest! {
         table.csv().save(&path).unwrap();
         prop_assert_eq!(&sweep().merge([&path]).unwrap(), &table);
 
-        let mut reader = basemat_problems::csv::Reader::from_reader(table.csv().as_bytes().to_vec().leak() as &[u8]);
+        let mut reader = basemat_problems::csv::ReaderBuilder::new();
+        let mut reader = reader.comment(Some(b'#')).from_reader(table.csv().as_bytes().to_vec().leak() as &[u8]);
         let heading: Vec<_> = reader.headers().unwrap().iter().map(str::to_owned).collect();
-        prop_assert_eq!(&heading, &["case", &*name, "x", "y", "z", "w", "error", "check"]);
+        prop_assert_eq!(&heading, &["case", &*name, "x", "y", "z", "w", "error"]);
         for (record, row) in reader.records().zip(table.rows()) {
             let record = record.unwrap();
             prop_assert_eq!(&record[1], row.text(&name).unwrap());

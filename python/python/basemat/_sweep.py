@@ -104,7 +104,7 @@ def sweep(
         shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
             frame's index has the numbers of the cases. All cases unless given.
         file: path of a file of comma-separated values that is written when all cases are done, with
-            a check sum in every row, as Rust's sweeps write it: :func:`merge` and Rust read it. The
+            a check sum, as Rust's sweeps write it: :func:`merge` and Rust read it. The
             grid must be a mapping to numbers or texts, and results must be numbers. If it cannot be
             written, the frame is the attribute ``table`` of the error. None unless given.
 
