@@ -1,7 +1,9 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
+use std::collections::{BTreeSet, HashMap};
+
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
-use crate::fem::Direction;
+use crate::fem::{Direction, Element, Mesh};
 use crate::structure::{
     Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
@@ -71,6 +73,8 @@ impl DeformedShape {
     }
 
     /// Nodes and elements of a finite-element model.
+    ///
+    /// In space solids are drawn by their outer sides.
     pub fn of_model(model: &FemModel) -> Self {
         // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
@@ -88,10 +92,9 @@ impl DeformedShape {
         let point = |(node, place): (usize, &[f64; 3])| {
             if model.mesh().has_depth() { in_space(node, *place) } else { in_plane(node, *place) }
         };
-        let elements = model.mesh().elements();
         Self {
             points: model.mesh().nodes().iter().enumerate().map(point).collect(),
-            cells: elements.map(|element| element.nodes().to_vec()).collect(),
+            cells: cells(model.mesh()),
         }
     }
 
@@ -270,6 +273,28 @@ impl BaseNode {
         let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
         ShapePoint::in_space([self.x, self.y, 0.0], rows)
     }
+}
+
+/// Nodes of the elements of a mesh; for elements with faces in space, of the faces that no second element has.
+fn cells(mesh: &Mesh) -> Vec<Vec<usize>> {
+    let cells = mesh.elements().map(|element| element.nodes().to_vec());
+    if !mesh.has_depth() {
+        return cells.collect();
+    }
+    let faces = |element: &dyn Element| -> Vec<Vec<usize>> {
+        element.faces().iter().map(|face| face.corners().to_vec()).collect()
+    };
+    let key = |corners: &[usize]| corners.iter().copied().collect::<BTreeSet<usize>>();
+    let mut counts: HashMap<_, usize> = HashMap::new();
+    for face in mesh.elements().flat_map(faces) {
+        *counts.entry(key(&face)).or_default() += 1;
+    }
+    let outer = mesh.elements().zip(cells).flat_map(|(element, cell)| match faces(element) {
+        own if own.is_empty() => vec![cell],
+        own if own.len() == 1 => own,
+        own => own.into_iter().filter(|face| counts[&key(face)] == 1).collect(),
+    });
+    outer.collect()
 }
 
 /// A polygon of points from `first` on; single lines if a cell of this many points would be curved.

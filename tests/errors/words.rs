@@ -93,7 +93,8 @@ fn choices_are_read_as_they_are_shown() {
     check("friction limit", &[Total, Lagged, Static, Dynamic]);
     check("sense of slip", &[Inelastic, Velocity, LastVelocity]);
     check("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
-    check("direction", &[Direction::X, Direction::Y, Direction::Rotation]);
+    use Direction::{Rotation as InPlane, RotationX, RotationY, RotationZ, X, Y, Z};
+    check("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
     check("quantity", &Quantity::ALL);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];
     let reduced = tolerances.map(|tolerance| Coordinates::Reduced { tolerance });

@@ -5,6 +5,7 @@
 mod cells;
 mod elastic;
 mod equations;
+mod finite_elements;
 mod interaction;
 mod limits;
 mod march;

@@ -1,15 +1,16 @@
 //! Structure made of finite elements.
 
 use super::dof_names::describe;
+use super::feet::{self, Foot};
 use super::rigid_links::RigidLinks;
-use crate::error::{Error, Result, at_least, in_bounds, positive, require, require_part};
+use crate::error::{Error, Result, at_least, in_bounds};
 use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{Base, BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
 
-/// Finite-element structure on a flat base.
+/// Finite-element structure on a flat base, in the plane or in space.
 ///
-/// Degrees of freedom are numbered node by node, within a node x, y, rotation, as far as an element there has
-/// them; [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh
+/// Degrees of freedom are numbered node by node, within a node in the order of
+/// [`Mesh::directions`](crate::fem::Mesh::directions), as far as an element there has them; [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh
 /// damping.
 ///
 /// Elements act on each other through common nodes. A part without a node in common with the part on the ground
@@ -36,8 +37,8 @@ pub struct FemModel {
     pub(super) mesh: Mesh,
     pub(super) numbering: Numbering,
     pub(super) links: Option<RigidLinks>,
-    /// Nodes of the mesh that touch the ground, in the order of the nodes of `base`.
-    feet: Vec<usize>,
+    /// Points that touch the ground, line by line or face by face.
+    feet: Vec<Vec<Foot>>,
     base: Base,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
@@ -55,38 +56,63 @@ impl FemModel {
     /// [`Error::Input`] when the nodes do not run to the right at one height, [`Error::Scene`] when no element
     /// displaces one of them, or for a mesh in space.
     pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
-        require_part("line of contact nodes", !mesh.has_depth(), "a mesh in the plane")?;
-        at_least("contact nodes", contact.len(), 2)?;
-        let numbering = Numbering::new(&mesh);
-        let mut nodes: Vec<BaseNode> = Vec::with_capacity(contact.len());
-        let mut height = None;
-        for &index in contact {
-            let [x, y, _] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
-            let quantity = "y of a contact node";
-            let needed = "the height of the others";
-            require(quantity, y, (y - *height.get_or_insert(y)).abs() <= mesh.tolerance(), needed)?;
-            if let Some(left) = nodes.last() {
-                positive("distance between contact nodes", x - left.x)?;
-            }
-            let dof = |direction| {
-                numbering.dof(index, direction).ok_or(Error::Scene {
-                    quantity: "contact node",
-                    needed: "must have horizontal and vertical degrees of freedom from some element",
-                })
-            };
-            nodes.push(BaseNode::free(x, dof(Direction::X)?, dof(Direction::Y)?));
-        }
-        Ok(Self {
+        let feet = feet::of_lines(&mesh, &[contact])?;
+        Self::standing(mesh, feet)
+    }
+
+    /// Structure on feet that are given line by line or face by face.
+    fn standing(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
+        let model = Self {
+            numbering: Numbering::new(&mesh),
             mesh,
-            numbering,
             links: None,
-            feet: contact.to_vec(),
-            base: nodes.into(),
+            feet,
+            base: Base::Lines(Vec::new()),
             mass_kind: MassKind::default(),
             damping: RayleighDamping::default(),
             active_damping: false,
             active_stiffness: false,
             p_delta: None,
+        };
+        Ok(Self { base: model.base_of_feet()?, ..model })
+    }
+
+    /// The base, by the present degrees of freedom.
+    fn base_of_feet(&self) -> Result<Base> {
+        let part = |feet: &Vec<Foot>| feet.iter().map(|foot| self.base_node(*foot)).collect();
+        let parts = self.feet.iter().map(part).collect::<Result<Vec<Vec<_>>>>()?;
+        Ok(if self.mesh.has_depth() { Base::Faces(parts) } else { Base::Lines(parts) })
+    }
+
+    /// Motion of a foot.
+    fn base_node(&self, foot: Foot) -> Result<BaseNode> {
+        let has_depth = self.mesh.has_depth();
+        let fault = Error::Scene {
+            quantity: "contact node",
+            needed: if has_depth {
+                "must have three displacements, and rotations on a shell, from some element"
+            } else {
+                "must have horizontal and vertical degrees of freedom from some element"
+            },
+        };
+        let term = |direction| self.row(foot.node, direction).map_err(|_| fault.clone());
+        let row = |direction: Direction| {
+            let mut row = term(direction)?;
+            // The foot hangs below its node.
+            for &motion in self.mesh.directions().iter().filter(|own| own.is_rotation()) {
+                let weight = direction.in_rigid_motion(motion, [0.0, 0.0, -foot.depth]);
+                if weight != 0.0 {
+                    row += weight * term(motion)?;
+                }
+            }
+            Ok::<_, Error>(row)
+        };
+        let [x, y, _] = self.mesh.nodes()[foot.node];
+        let (horizontal, vertical) = (row(Direction::X)?, row(self.mesh.upwards())?);
+        Ok(if has_depth {
+            BaseNode { x, y, z: 0.0, horizontal, across: row(Direction::Y)?, vertical }
+        } else {
+            BaseNode { x, horizontal, vertical, ..BaseNode::default() }
         })
     }
 
@@ -125,17 +151,40 @@ impl FemModel {
         for line in lines {
             at_least("contact nodes of a foundation", line.len(), 2)?;
         }
-        let whole = Self::new(mesh, &lines.concat())?;
-        let mut nodes = whole.base.into_nodes().into_iter();
-        let own = lines.iter().map(|line| nodes.by_ref().take(line.len()).collect()).collect();
-        Ok(Self { base: Base::Lines(own), ..whole })
+        let lines: Vec<&[usize]> = lines.iter().map(Vec::as_slice).collect();
+        let feet = feet::of_lines(&mesh, &lines)?;
+        Self::standing(mesh, feet)
     }
 
-    /// Structure that touches the ground with all its lowest nodes.
+    /// Structure in space that touches the ground with these faces, each given by its corner nodes.
+    ///
+    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. A shell touches the ground with its
+    /// underside: a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness))
+    /// moves like the points half the thickness below its nodes. Another face moves like its nodes, such as the
+    /// outline of nodes that a rigid link ties together.
     ///
     /// # Errors
-    /// As for [`FemModel::new`].
+    /// [`Error::Scene`] for a mesh in the plane, or when no element moves a corner in all directions;
+    /// [`Error::Size`] without faces or for fewer than three corners; [`Error::Index`] for a node that does not
+    /// exist; [`Error::Input`] for corners at different heights.
+    pub fn on_faces(mesh: Mesh, faces: &[Vec<usize>]) -> Result<Self> {
+        let feet = feet::of_faces(&mesh, faces)?;
+        Self::standing(mesh, feet)
+    }
+
+    /// Structure that touches the ground with all its lowest nodes, in space with all faces at the lowest height.
+    ///
+    /// In space these are horizontal shells and sides of solids ([`Element::faces`](crate::fem::Element::faces)), as
+    /// for [`FemModel::on_faces`].
+    ///
+    /// # Errors
+    /// As for [`FemModel::new`] and [`FemModel::on_faces`]; [`Error::Scene`] for a mesh in space without a face at its
+    /// lowest height.
     pub fn on_base(mesh: Mesh) -> Result<Self> {
+        if mesh.has_depth() {
+            let faces = feet::lowest_faces(&mesh)?;
+            return Self::on_faces(mesh, &faces);
+        }
         let contact = mesh.nodes_at_height(mesh.lowest(), mesh.tolerance())?;
         Self::new(mesh, &contact)
     }
@@ -171,58 +220,19 @@ impl FemModel {
         Self { active_stiffness: true, ..self }
     }
 
-    /// Connects the nodes `followers` with `leader` so that they move as one rigid body.
-    ///
-    /// For stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
-    /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
-    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses of followers
-    /// stay where they are. Contact nodes may follow. The axial forces of [`with_p_delta`](FemModel::with_p_delta)
-    /// are computed anew.
-    ///
-    /// ```
-    /// use basemat::fem::{Beam, Direction, Mesh};
-    /// use basemat::structure::{FemModel, Structure};
-    ///
-    /// // A column on the middle of a rigid basemat 4 m wide.
-    /// let mut mesh = Mesh::new();
-    /// let [left, foot, right] =
-    ///     [mesh.add_node(-2.0, 0.0)?, mesh.add_node(0.0, 0.0)?, mesh.add_node(2.0, 0.0)?];
-    /// let top = mesh.add_node(0.0, 6.0)?;
-    /// for ends in [[left, foot], [foot, right], [foot, top]] {
-    ///     mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
-    /// }
-    /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
-    /// assert_eq!(model.dofs(), 6);
-    /// assert_eq!(model.dof(top, Direction::X), Some(3));
-    /// // The right end rises with the foot and by 2 m times its rotation.
-    /// assert_eq!(model.row(right, Direction::Y)?[..], [(1, 1.0), (2, 2.0)]);
-    /// # Ok::<(), basemat::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of the three
-    /// degrees of freedom or follows another node, or a follower leads or follows already; after
-    /// [`with_p_delta`](FemModel::with_p_delta) also its errors.
-    pub fn with_rigid_link(mut self, leader: usize, followers: &[usize]) -> Result<Self> {
-        let links = self.links.take();
-        let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
-        links.link(&self.mesh, &self.numbering, leader, followers)?;
-        let mut linked = Self { links: Some(links), ..self };
-        let mut base = linked.base.clone();
-        for (node, foot) in base.nodes_mut().zip(&linked.feet) {
-            node.horizontal = linked.row(*foot, Direction::X)?;
-            node.vertical = linked.row(*foot, Direction::Y)?;
-        }
-        linked.base = base;
+    /// The nodes and elements.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The model with other links; base and axial forces of P–Δ follow.
+    pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
+        let linked = Self { links: Some(links), ..self };
+        let linked = Self { base: linked.base_of_feet()?, ..linked };
         match linked.p_delta {
             Some(gravity) => linked.with_p_delta(gravity),
             None => Ok(linked),
         }
-    }
-
-    /// The nodes and elements.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
     }
 
     /// Index of the degree of freedom of `node` in `direction`.
@@ -231,7 +241,7 @@ impl FemModel {
     /// [`row`](FemModel::row).
     pub fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
         let dof = self.numbering.dof(node, direction)?;
-        self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, dof))
+        self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, direction, dof))
     }
 
     /// Motion of `node` in `direction` as a weighted sum of degrees of freedom.

@@ -1,9 +1,11 @@
 //! Structures that come with the crate.
 
 mod dof_names;
+mod feet;
 mod fem_model;
 mod group;
 mod line_load;
+mod linked;
 mod matrix_model;
 mod p_delta;
 mod rigid_block;

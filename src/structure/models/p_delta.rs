@@ -4,7 +4,7 @@ use crate::error::{Error, Result, StructureError, not_negative};
 use crate::fem::{MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
-use crate::structure::{FemModel, Structure, Triplets};
+use crate::structure::{BaseNode, FemModel, Structure, Triplets};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
 /// Residual forces of a solution, relative to the weight, above which the structure is a mechanism.
@@ -129,10 +129,8 @@ impl HeldStructure {
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
         let mut is_held = vec![false; n];
-        for node in model.base().into_nodes() {
-            for (index, _) in node.horizontal.into_iter().chain(node.vertical) {
-                is_held[index] = true;
-            }
+        for dof in model.base().nodes().flat_map(BaseNode::dofs) {
+            is_held[dof] = true;
         }
         let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();
         let mut place = vec![None; n];

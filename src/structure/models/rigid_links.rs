@@ -1,14 +1,42 @@
 //! Rigid links, by which nodes follow another node like a rigid body.
 
 use crate::error::{Error, Result, in_bounds};
-use crate::fem::{Mesh, Numbering};
+use crate::fem::{Direction, Mesh, Numbering};
 use crate::structure::Triplets;
+
+/// Motions in which a follower moves with its leader.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Link {
+    /// All: a rigid body.
+    Body,
+    /// Motions in a horizontal plane: a rigid diaphragm.
+    Floor,
+}
+
+impl Link {
+    fn ties(self, direction: Direction) -> bool {
+        let horizontal = matches!(direction, Direction::X | Direction::Y | Direction::RotationZ);
+        self == Self::Body || horizontal
+    }
+
+    /// Need for the degrees of freedom of a leader.
+    fn needed(self) -> &'static str {
+        match self {
+            Self::Body => {
+                "its leader must have all degrees of freedom of a node, from a beam for example"
+            }
+            Self::Floor => {
+                "its leader must have displacements along x and y and the rotation about z"
+            }
+        }
+    }
+}
 
 /// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
     /// Leader of each follower.
-    leader: Vec<Option<usize>>,
+    leader: Vec<Option<(Link, usize)>>,
     is_leader: Vec<bool>,
     /// Pairs (remaining degree of freedom, weight) for each degree of freedom of the mesh.
     rows: Vec<Vec<(usize, f64)>>,
@@ -28,6 +56,7 @@ impl RigidLinks {
         &mut self,
         mesh: &Mesh,
         numbering: &Numbering,
+        link: Link,
         leader: usize,
         followers: &[usize],
     ) -> Result<()> {
@@ -36,10 +65,14 @@ impl RigidLinks {
         for &index in std::iter::once(&leader).chain(followers) {
             in_bounds("node of a rigid link", index, bound)?;
         }
-        if mesh.directions().iter().any(|&own| numbering.dof(leader, own).is_none()) {
-            return Err(fault(
-                "its leader must have all degrees of freedom of a node, from a beam for example",
-            ));
+        let mut tied = mesh.directions().iter().filter(|own| link.ties(**own));
+        if tied.any(|&own| numbering.dof(leader, own).is_none()) {
+            return Err(fault(link.needed()));
+        }
+        let height = |node: usize| mesh.nodes()[node][mesh.up()];
+        let level = |&node: &usize| (height(node) - height(leader)).abs() <= mesh.tolerance();
+        if link == Link::Floor && !followers.iter().all(level) {
+            return Err(fault("the nodes of a diaphragm must lie at one height"));
         }
         if self.leader[leader].is_some() {
             return Err(fault("its leader must not follow another node"));
@@ -52,7 +85,7 @@ impl RigidLinks {
         }
         self.is_leader[leader] = true;
         for &follower in followers {
-            self.leader[follower] = Some(leader);
+            self.leader[follower] = Some((link, leader));
         }
         self.renumber(mesh, numbering);
         Ok(())
@@ -63,10 +96,12 @@ impl RigidLinks {
         let nodes = mesh.nodes();
         let mut next = 0;
         let mut remaining = vec![None; numbering.dofs()];
-        for node in (0..nodes.len()).filter(|&node| self.leader[node].is_none()) {
-            for dof in mesh.directions().iter().filter_map(|&d| numbering.dof(node, d)) {
-                remaining[dof] = Some(next);
-                next += 1;
+        for node in 0..nodes.len() {
+            for &direction in mesh.directions().iter().filter(|own| !self.is_tied(node, **own)) {
+                if let Some(dof) = numbering.dof(node, direction) {
+                    remaining[dof] = Some(next);
+                    next += 1;
+                }
             }
         }
         self.dofs = next;
@@ -74,10 +109,12 @@ impl RigidLinks {
         for node in 0..nodes.len() {
             for &direction in mesh.directions() {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
-                let leader = self.leader[node].unwrap_or(node);
+                let tied = self.leader[node].filter(|(link, _)| link.ties(direction));
+                let (link, leader) = tied.unwrap_or((Link::Body, node));
                 let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
                 // A follower moves like its leader, and its displacement also with the leader's rotations.
-                let motions = mesh.directions().iter().map(|&motion| {
+                let own = mesh.directions().iter().filter(|motion| link.ties(**motion));
+                let motions = own.map(|&motion| {
                     (number(leader, motion), direction.in_rigid_motion(motion, arm))
                 });
                 let own = motions.filter(|(_, weight)| *weight != 0.0);
@@ -92,9 +129,14 @@ impl RigidLinks {
         self.dofs
     }
 
+    /// Whether a node follows another one in this direction.
+    fn is_tied(&self, node: usize, direction: Direction) -> bool {
+        self.leader.get(node).is_some_and(|own| own.is_some_and(|(link, _)| link.ties(direction)))
+    }
+
     /// The new number of a mesh's degree of freedom; `None` for a follower's.
-    pub(super) fn remaining(&self, node: usize, dof: usize) -> Option<usize> {
-        let free = self.leader.get(node)?.is_none();
+    pub(super) fn remaining(&self, node: usize, direction: Direction, dof: usize) -> Option<usize> {
+        let free = !self.is_tied(node, direction);
         self.rows.get(dof)?.first().filter(|_| free).map(|&(index, _)| index)
     }
 

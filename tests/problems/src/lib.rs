@@ -28,6 +28,7 @@ pub mod rocking;
 pub mod sampled_block;
 pub mod scenes;
 pub mod series;
+pub mod stiff_element;
 pub mod table;
 pub mod tabled_structures;
 pub mod tower;

@@ -1,11 +1,16 @@
-//! GOAL: meshes in three coordinates take what belongs there, and nothing of the plane.
-//! SCENE: a few nodes and elements.
+//! GOAL: meshes in three coordinates take what belongs there, and nothing of the plane; models of them stand on faces.
+//! SCENE: a few nodes and elements, a tower on a mat, bricks.
 //! REFERENCE: by hand.
 
 use basemat::Error;
 use basemat::fem::{
-    Beam, Direction, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Spring, Truss,
+    Beam, Direction, Element, Layer, LumpedMass, MassKind, Material, Mesh, Quad4, QuadFormulation,
+    Spring, Truss,
 };
+use basemat::results::DeformedShape;
+use basemat::structure::{Base, BaseNode, DofCombination, FemModel, Structure};
+use basemat_problems::dense::{form, largest, mass, multiply, stiffness};
+use basemat_problems::stiff_element::StiffElement;
 
 /// The corners of a cube of 2 m, from the upper ones down.
 fn cube() -> Mesh {
@@ -73,4 +78,278 @@ fn a_mesh_takes_elements_of_its_kind_only() {
         let refused = text(mesh.add(Spring::new([0, 1], own, 1.0).unwrap()));
         assert_eq!(refused, "direction of the element: x, y or rotation in the plane");
     }
+}
+
+/// A mat of a shell on four nodes, 0.5 m thick, with a tower of four nodes over it.
+fn tower() -> FemModel {
+    let mut mesh = cube();
+    mesh.add(StiffElement::shell(&[7, 6, 4, 5], 0.5, 1.0e12, 10.0)).unwrap();
+    mesh.add(StiffElement::frame(&[7, 6, 4, 5, 3, 2, 0, 1], 1.0e12, 20.0)).unwrap();
+    FemModel::on_base(mesh).unwrap()
+}
+
+const DIRECTIONS: [Direction; 6] = [
+    Direction::X,
+    Direction::Y,
+    Direction::Z,
+    Direction::RotationX,
+    Direction::RotationY,
+    Direction::RotationZ,
+];
+
+/// Rigid motions meet no force, and their inertia is that of 30 kg at the base and 20 kg at the top of each corner.
+fn assert_free(model: &FemModel) {
+    let (stiffness, mass) = (stiffness(model), mass(model));
+    let point = [0.3, -0.2, 1.5];
+    for direction in DIRECTIONS {
+        let motion = model.rigid_motion(direction, point);
+        assert!(largest(&multiply(&stiffness, &motion)) < 1e-13 * 1e12, "{direction:?}");
+        let mut exact = 0.0;
+        for [x, y, z] in cube().nodes() {
+            let [x, y, z] = [x - point[0], y - point[1], z - point[2]];
+            let square = match direction {
+                Direction::RotationX => y * y + z * z,
+                Direction::RotationY => z * z + x * x,
+                Direction::RotationZ => x * x + y * y,
+                _ => 1.0,
+            };
+            let mass = if z < 0.0 { 30.0 } else { 20.0 };
+            exact += mass * square;
+        }
+        let found = form(&motion, &mass, &motion);
+        assert!((found / exact - 1.0).abs() < 1e-12, "{direction:?} {found} {exact}");
+    }
+    assert_eq!(model.rigid_motion(Direction::Rotation, point), vec![0.0; model.dofs()]);
+}
+
+#[test]
+fn rigid_motions_in_space_meet_no_force() {
+    let model = tower();
+    assert_eq!(model.dofs(), 48);
+    assert_free(&model);
+    // A link and a diaphragm restrain no rigid motion either.
+    let linked = tower().with_rigid_link(7, &[6, 4]).unwrap();
+    assert_eq!(linked.dofs(), 36);
+    assert_free(&linked);
+    let floor = linked.with_rigid_diaphragm(3, &[2, 0, 1]).unwrap();
+    assert_eq!(floor.dofs(), 27);
+    assert_free(&floor);
+}
+
+/// The ground meets a shell's underside: u + r × (0, 0, −0.25).
+#[test]
+fn a_mat_stands_on_its_underside() {
+    let model = tower();
+    let Base::Faces(faces) = model.base() else { panic!("a base in space has faces") };
+    assert_eq!(faces.len(), 1);
+    let places: Vec<_> = faces[0].iter().map(|node| [node.x, node.y, node.z]).collect();
+    assert_eq!(places, [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]]);
+    for (corner, node) in faces[0].iter().zip([7, 6, 4, 5]) {
+        let dof = |direction| model.dof(node, direction).unwrap();
+        assert_eq!(
+            corner.horizontal[..],
+            [(dof(Direction::X), 1.0), (dof(Direction::RotationY), -0.25)]
+        );
+        assert_eq!(
+            corner.across[..],
+            [(dof(Direction::Y), 1.0), (dof(Direction::RotationX), 0.25)]
+        );
+        assert_eq!(corner.vertical[..], [(dof(Direction::Z), 1.0)]);
+    }
+    // The linked corner moves with its leader, 2 m to the left and as much in front, and stands as deep.
+    let linked = tower().with_rigid_link(7, &[6, 4]).unwrap();
+    let Base::Faces(faces) = linked.base() else { panic!("a base in space has faces") };
+    let dof = |direction| linked.dof(7, direction).unwrap();
+    let [x, y, z] = [Direction::X, Direction::Y, Direction::Z].map(dof);
+    let [about_x, about_y, about_z] = [3, 4, 5].map(|k| dof(DIRECTIONS[k]));
+    let sorted = |row: &DofCombination| {
+        let mut row = row.to_vec();
+        row.sort_by_key(|term| term.0);
+        row
+    };
+    let corner = &faces[0][2];
+    assert_eq!(sorted(&corner.horizontal), [(x, 1.0), (about_y, -0.25), (about_z, -2.0)]);
+    assert_eq!(sorted(&corner.across), [(y, 1.0), (about_x, 0.25), (about_z, 2.0)]);
+    assert_eq!(sorted(&corner.vertical), [(z, 1.0), (about_x, 2.0), (about_y, -2.0)]);
+    // Faces of bare nodes: the same outline from the shell's corners in another order is the shell, three corners
+    // are not.
+    let mesh = || tower().mesh().clone();
+    let turned = FemModel::on_faces(mesh(), &[vec![4, 5, 7, 6]]).unwrap();
+    assert_eq!(turned.base().nodes().next().unwrap().horizontal.len(), 2);
+    let bare = FemModel::on_faces(mesh(), &[vec![7, 6, 4]]).unwrap();
+    assert!(bare.base().nodes().all(|node| node.horizontal.len() == 1));
+}
+
+#[test]
+fn a_diaphragm_ties_its_plane_only() {
+    let model = tower().with_rigid_diaphragm(3, &[2, 0, 1]).unwrap();
+    let dof = |node, direction| model.dof(node, direction);
+    let [x, y, about_z] =
+        [Direction::X, Direction::Y, Direction::RotationZ].map(|d| dof(3, d).unwrap());
+    // Node 0 lies 2 m to the right of the leader and 2 m behind it.
+    assert_eq!(model.row(0, Direction::X).unwrap()[..], [(x, 1.0), (about_z, -2.0)]);
+    assert_eq!(model.row(0, Direction::Y).unwrap()[..], [(y, 1.0), (about_z, 2.0)]);
+    assert_eq!(model.row(0, Direction::RotationZ).unwrap()[..], [(about_z, 1.0)]);
+    for own in [Direction::X, Direction::Y, Direction::RotationZ] {
+        assert_eq!(dof(0, own), None);
+    }
+    for own in [Direction::Z, Direction::RotationX, Direction::RotationY] {
+        assert_eq!(model.row(0, own).unwrap()[..], [(dof(0, own).unwrap(), 1.0)]);
+    }
+    let text = |outcome: basemat::Result<FemModel>| outcome.unwrap_err().to_string();
+    assert_eq!(
+        text(tower().with_rigid_diaphragm(3, &[2, 7])),
+        "rigid link: the nodes of a diaphragm must lie at one height"
+    );
+    let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
+    let plane = FemModel::on_base(plane).unwrap();
+    assert_eq!(text(plane.with_rigid_diaphragm(0, &[1])), "rigid diaphragm: a mesh in space");
+    // Bricks cannot lead.
+    let mut mesh = cube();
+    mesh.add(StiffElement::brick([7, 6, 4, 5, 3, 2, 0, 1], 1.0, 1.0)).unwrap();
+    let brick = FemModel::on_base(mesh).unwrap();
+    assert!(text(brick.clone().with_rigid_diaphragm(3, &[2])).contains("rotation about z"));
+    assert!(text(brick.with_rigid_link(3, &[2])).contains("all degrees of freedom of a node"));
+}
+
+fn solid() -> Material {
+    Material::new(1.0e9, 0.2, 2000.0).unwrap()
+}
+
+/// Two by one bricks, with a second storey on the left one.
+#[test]
+fn bricks_stand_on_their_lower_sides() {
+    let mut mesh = Mesh::in_space();
+    for z in [-1.0, 0.0, 1.0] {
+        for y in [0.0, 1.0] {
+            for x in [0.0, 1.0, 2.0] {
+                mesh.add_node_at([x, y, z]).unwrap();
+            }
+        }
+    }
+    let brick = |first: usize| {
+        let lower = [first, first + 1, first + 4, first + 3];
+        let nodes: Vec<usize> = lower.into_iter().chain(lower.map(|node| node + 6)).collect();
+        StiffElement::brick(nodes.try_into().unwrap(), 1.0e6, 1.0)
+    };
+    for first in [6, 1, 0] {
+        mesh.add(brick(first)).unwrap();
+    }
+    let again = mesh.add(brick(1)).unwrap_err().to_string();
+    assert!(again.contains("it lies where element 1 is, and would count twice"), "{again}");
+    let model = FemModel::on_base(mesh.clone()).unwrap();
+    let Base::Faces(faces) = model.base() else { panic!("a base in space has faces") };
+    let places =
+        |face: &Vec<BaseNode>| face.iter().map(|node| [node.x, node.y]).collect::<Vec<_>>();
+    assert_eq!(places(&faces[0]), [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
+    assert_eq!(places(&faces[1]), [[1.0, 0.0], [1.0, 1.0], [2.0, 1.0], [2.0, 0.0]]);
+    assert!(model.base().nodes().all(|node| node.z == 0.0 && node.vertical.len() == 1));
+    // Of eighteen sides two pairs are inner and not drawn.
+    let shape = DeformedShape::of_model(&model);
+    assert_eq!((shape.points().len(), shape.cells().len()), (18, 14));
+    assert_eq!((shape.points()[4].position, shape.points()[4].away), ([1.0, -1.0], 1.0));
+    let rise = model.rigid_motion(Direction::Z, [0.0; 3]);
+    let moved = |motion: &[f64], by: [f64; 3]| {
+        shape.displacements(motion).unwrap().iter().filter(|u| **u == by).count()
+    };
+    // Two nodes belong to no element.
+    assert_eq!(moved(&rise, [0.0, 1.0, 0.0]), 16);
+    let away = model.rigid_motion(Direction::Y, [0.0; 3]);
+    assert_eq!(moved(&away, [0.0, 0.0, 1.0]), 16);
+
+    let text = |outcome: basemat::Result<FemModel>| outcome.unwrap_err().to_string();
+    let faces = |faces: &[&[usize]]| {
+        let faces: Vec<_> = faces.iter().map(|face| face.to_vec()).collect();
+        FemModel::on_faces(mesh.clone(), &faces)
+    };
+    assert!(matches!(faces(&[]), Err(Error::Size { .. })));
+    assert!(matches!(faces(&[&[0, 1]]), Err(Error::Size { .. })));
+    assert!(matches!(faces(&[&[0, 1, 18]]), Err(Error::Index { index: 18, bound: 18, .. })));
+    let Err(Error::Input { value, .. }) = faces(&[&[0, 1, 3], &[1, 2, 10]]) else { panic!() };
+    assert_eq!(value, 0.0);
+    // Node 14 is no brick's.
+    assert!(
+        text(faces(&[&[12, 13, 14]])).starts_with("contact node: must have three displacements")
+    );
+    assert_eq!(
+        text(FemModel::new(mesh.clone(), &[0, 1])),
+        "line of contact nodes: a mesh in the plane"
+    );
+    let needed =
+        "base of a mesh in space: shells or sides of solids at the lowest height of the mesh";
+    let mut bare = cube();
+    bare.add(StiffElement::solid(&[0, 1, 2, 4], 1.0, 1.0)).unwrap();
+    assert_eq!(text(FemModel::on_base(bare)), needed);
+    let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
+    assert_eq!(
+        text(FemModel::on_faces(plane, &[vec![0, 1, 2]])),
+        "faces of a base: a mesh in space"
+    );
+    let free = model.describe(&[0, 1, 2, 5]).unwrap();
+    assert_eq!(free, "node 0 at (0, 0, -1), node 1 at (1, 0, -1) in Z");
+}
+
+/// A column that shortens only, with half of its mass at each end.
+struct Column {
+    nodes: [usize; 2],
+    compression: f64,
+}
+
+const AXIAL: f64 = 1.0e9;
+const HALF: f64 = 5.0e3;
+
+impl Element for Column {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        &DIRECTIONS[..3]
+    }
+
+    fn stiffness(&self, _: &[[f64; 3]], matrix: &mut [f64]) {
+        for (i, j, sign) in [(2, 2, 1.0), (5, 5, 1.0), (2, 5, -1.0), (5, 2, -1.0)] {
+            matrix[6 * i + j] += sign * AXIAL;
+        }
+    }
+
+    fn geometric_stiffness(&self, p: &[[f64; 3]], matrix: &mut [f64]) {
+        let sway = self.compression / (p[1][2] - p[0][2]);
+        for axis in [0, 1] {
+            for (i, j, sign) in [(0, 0, -1.0), (3, 3, -1.0), (0, 3, 1.0), (3, 0, 1.0)] {
+                matrix[6 * (i + axis) + j + axis] += sign * sway;
+            }
+        }
+    }
+
+    fn in_static_state(&self, _: &[[f64; 3]], u: &[f64], _: f64) -> Option<Box<dyn Element>> {
+        let compression = AXIAL * (u[2] - u[5]);
+        Some(Box::new(Self { nodes: self.nodes, compression }))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        Some(self.compression)
+    }
+
+    fn mass(&self, _: &[[f64; 3]], _: MassKind, matrix: &mut [f64]) {
+        for i in 0..6 {
+            matrix[7 * i] += HALF;
+        }
+    }
+}
+
+/// Weight acts along −z: the column carries g · 5 t, and sways when this exceeds k L of the weaker spring.
+#[test]
+fn weight_in_space_acts_down() {
+    let mut mesh = tower().mesh().clone();
+    let top = mesh.add_node_at([0.0, 0.0, 3.0]).unwrap();
+    mesh.add(Column { nodes: [7, top], compression: 0.0 }).unwrap();
+    mesh.add(Spring::new([3, top], Direction::X, 6.0e5).unwrap()).unwrap();
+    mesh.add(Spring::new([3, top], Direction::Y, 1.2e5).unwrap()).unwrap();
+    let model = FemModel::on_base(mesh).unwrap().with_p_delta(9.81).unwrap();
+    let column = model.mesh().elements().nth(2).unwrap();
+    let weight = HALF * 9.81;
+    assert!((column.compression().unwrap() / weight - 1.0).abs() < 1e-6);
+    let factor = model.buckling_factor().unwrap();
+    assert!((factor / (1.2e5 * 2.0 / weight) - 1.0).abs() < 1e-6, "{factor}");
 }

@@ -1,0 +1,100 @@
+//! Points and faces by which a finite-element model touches the ground.
+
+use std::collections::HashMap;
+
+use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
+use crate::fem::{ElementFace, Mesh};
+
+/// A point of the base: it moves with a node of the mesh, some distance above it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Foot {
+    pub(super) node: usize,
+    /// Distance of the point below the node, m: half of the thickness of a shell, whose underside is the base.
+    pub(super) depth: f64,
+}
+
+/// Feet of the `lines` of a base in the plane, each given by its nodes from left to right.
+///
+/// # Errors
+/// [`Error::Scene`](crate::Error::Scene) for a mesh in space, [`Error::Size`](crate::Error::Size) for fewer than two
+/// nodes, [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input)
+/// when the nodes of all lines do not run to the right at one height.
+pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>> {
+    require_part("line of contact nodes", !mesh.has_depth(), "a mesh in the plane")?;
+    let contact = lines.concat();
+    at_least("contact nodes", contact.len(), 2)?;
+    let (mut height, mut left) = (None, None);
+    for index in contact {
+        let [x, y, _] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
+        let near = (y - *height.get_or_insert(y)).abs() <= mesh.tolerance();
+        require("y of a contact node", y, near, "the height of the others")?;
+        if let Some(left) = left.replace(x) {
+            positive("distance between contact nodes", x - left)?;
+        }
+    }
+    let foot = |&node: &usize| Foot { node, depth: 0.0 };
+    Ok(lines.iter().map(|line| line.iter().map(foot).collect()).collect())
+}
+
+/// Feet of the `faces` of a base in space, each given by its corner nodes.
+///
+/// # Errors
+/// [`Error::Size`](crate::Error::Size) without faces, or for a face of less than three corners;
+/// [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input) for
+/// corners at different heights.
+pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot>>> {
+    require_part("faces of a base", mesh.has_depth(), "a mesh in space")?;
+    at_least("faces of the base", faces.len(), 1)?;
+    let shells = faces_by_corners(mesh, |face| !face.is_side());
+    let mut height = None;
+    let foot = |face: &Vec<usize>| {
+        at_least("corners of a face of the base", face.len(), 3)?;
+        let depth = 0.5 * shells.get(&sorted(face)).map_or(0.0, ElementFace::thickness);
+        let corner = |&node: &usize| {
+            let [_, _, z] =
+                mesh.nodes()[in_bounds("corner of the base", node, mesh.nodes().len())?];
+            let near = (z - *height.get_or_insert(z)).abs() <= mesh.tolerance();
+            require("z of a corner of the base", z, near, "the height of the others")?;
+            Ok(Foot { node, depth })
+        };
+        face.iter().map(corner).collect()
+    };
+    faces.iter().map(foot).collect()
+}
+
+/// Faces of a mesh in space at its lowest height: sides of solids and shells.
+///
+/// # Errors
+/// [`Error::Scene`](crate::Error::Scene) if there are none.
+pub(super) fn lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
+    let highest = mesh.lowest() + mesh.tolerance();
+    let low = |face: &ElementFace| {
+        face.corners().iter().all(|&node| mesh.nodes()[node][mesh.up()] <= highest)
+    };
+    let mut faces: Vec<_> = faces_by_corners(mesh, low).into_values().collect();
+    let needed = "shells or sides of solids at the lowest height of the mesh";
+    require_part("base of a mesh in space", !faces.is_empty(), needed)?;
+    faces.sort_by(|a, b| a.corners().cmp(b.corners()));
+    Ok(faces.into_iter().map(|face| face.corners().to_vec()).collect())
+}
+
+/// Faces of elements that `keep` selects, by their sorted corners; of several the thickest.
+fn faces_by_corners(
+    mesh: &Mesh,
+    keep: impl Fn(&ElementFace) -> bool,
+) -> HashMap<Vec<usize>, ElementFace> {
+    let mut faces: HashMap<Vec<usize>, ElementFace> = HashMap::new();
+    for face in mesh.elements().flat_map(|element| element.faces()).filter(keep) {
+        let own = faces.entry(sorted(face.corners())).or_insert_with(|| face.clone());
+        if face.thickness() > own.thickness() {
+            *own = face;
+        }
+    }
+    faces
+}
+
+fn sorted(nodes: &[usize]) -> Vec<usize> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes
+}

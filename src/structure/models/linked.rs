@@ -1,0 +1,63 @@
+//! Finite-element models with rigid links and diaphragms.
+
+use super::rigid_links::{Link, RigidLinks};
+use crate::error::{Result, require_part};
+use crate::structure::FemModel;
+
+impl FemModel {
+    /// Connects the nodes `followers` with `leader` so that they move as one rigid body.
+    ///
+    /// For stiff joints, offsets of beams, a rigid slab or basemat. Followers lose their degrees of freedom, and
+    /// the remaining ones are renumbered, node by node: for a follower [`dof`](FemModel::dof) returns `None` and
+    /// [`row`](FemModel::row) its motion by the leader's degrees of freedom. Masses and stiffnesses of followers
+    /// stay where they are. Contact nodes may follow. The axial forces of [`with_p_delta`](FemModel::with_p_delta)
+    /// are computed anew.
+    ///
+    /// ```
+    /// use basemat::fem::{Beam, Direction, Mesh};
+    /// use basemat::structure::{FemModel, Structure};
+    ///
+    /// // A column on the middle of a rigid basemat 4 m wide.
+    /// let mut mesh = Mesh::new();
+    /// let [left, foot, right] =
+    ///     [mesh.add_node(-2.0, 0.0)?, mesh.add_node(0.0, 0.0)?, mesh.add_node(2.0, 0.0)?];
+    /// let top = mesh.add_node(0.0, 6.0)?;
+    /// for ends in [[left, foot], [foot, right], [foot, top]] {
+    ///     mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    /// }
+    /// let model = FemModel::on_base(mesh)?.with_rigid_link(foot, &[left, right])?;
+    /// assert_eq!(model.dofs(), 6);
+    /// assert_eq!(model.dof(top, Direction::X), Some(3));
+    /// // The right end rises with the foot and by 2 m times its rotation.
+    /// assert_eq!(model.row(right, Direction::Y)?[..], [(1, 1.0), (2, 2.0)]);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of a node's
+    /// degrees of freedom or follows another node, or a follower leads or follows already; after
+    /// [`with_p_delta`](FemModel::with_p_delta) also its errors.
+    pub fn with_rigid_link(self, leader: usize, followers: &[usize]) -> Result<Self> {
+        self.with_link(Link::Body, leader, followers)
+    }
+
+    /// Ties the nodes `followers` to `leader` in a horizontal plane, like a floor that is stiff in its plane.
+    ///
+    /// The displacements along x and y and the rotation about z follow the leader; the displacement along z and the
+    /// other two rotations remain free. All nodes lie at one height, so that the diaphragm resists no rigid motion.
+    ///
+    /// # Errors
+    /// As for [`FemModel::with_rigid_link`], except that the leader needs three degrees of freedom only;
+    /// [`Error::Scene`] for a mesh in the plane or for nodes at different heights.
+    pub fn with_rigid_diaphragm(self, leader: usize, followers: &[usize]) -> Result<Self> {
+        require_part("rigid diaphragm", self.mesh.has_depth(), "a mesh in space")?;
+        self.with_link(Link::Floor, leader, followers)
+    }
+
+    fn with_link(mut self, link: Link, leader: usize, followers: &[usize]) -> Result<Self> {
+        let links = self.links.take();
+        let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
+        links.link(&self.mesh, &self.numbering, link, leader, followers)?;
+        self.with_links(links)
+    }
+}

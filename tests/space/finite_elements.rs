@@ -1,0 +1,124 @@
+//! Blocks of finite elements in space: stiff ones against the rigid body, soft ones that lift off and slide.
+
+use basemat::bem::{ElasticGround, Ground};
+use basemat::fem::{Direction, Mesh};
+use basemat::interface::{Bonded, Coulomb, Mode};
+use basemat::structure::{FemModel, RigidBody, Structure};
+use basemat::{Simulation, Soil};
+use basemat_problems::stiff_element::StiffElement;
+
+use super::cells::{BED, Cells, Waves};
+
+/// Sides, m, and bricks along x, y and z.
+const SIDES: [f64; 3] = [6.0, 4.0, 4.0];
+const COUNTS: [usize; 3] = [3, 2, 2];
+
+/// Mass of a brick, kg: the block is heavier on the right and in front.
+fn brick_mass([i, j, _]: [usize; 3]) -> f64 {
+    2.0e4 * (1.0 + i as f64 - 0.5 * j as f64)
+}
+
+fn bricks() -> impl Iterator<Item = [usize; 3]> {
+    let [nx, ny, nz] = COUNTS;
+    (0..nx * ny * nz).map(move |k| [k % nx, k / nx % ny, k / nx / ny])
+}
+
+/// Bricks of this stiffness (N/m) on their lower sides, about the origin.
+fn block(stiffness: f64) -> FemModel {
+    let mut mesh = Mesh::in_space();
+    let [nx, ny, nz] = COUNTS;
+    for k in 0..(nx + 1) * (ny + 1) * (nz + 1) {
+        let cell = [k % (nx + 1), k / (nx + 1) % (ny + 1), k / (nx + 1) / (ny + 1)];
+        let [x, y, z] = [0, 1, 2].map(|a| SIDES[a] * cell[a] as f64 / COUNTS[a] as f64);
+        mesh.add_node_at([x - 0.5 * SIDES[0], y - 0.5 * SIDES[1], z]).unwrap();
+    }
+    for brick in bricks() {
+        let node = |[a, b, c]: [usize; 3]| {
+            let [i, j, k] = [brick[0] + a, brick[1] + b, brick[2] + c];
+            i + (nx + 1) * (j + (ny + 1) * k)
+        };
+        let corner = |c: usize| [[0, 0, c], [1, 0, c], [1, 1, c], [0, 1, c]].map(node);
+        let ([a, b, c, d], [e, f, g, h]) = (corner(0), corner(1));
+        let nodes = [a, b, c, d, e, f, g, h];
+        mesh.add(StiffElement::brick(nodes, stiffness, brick_mass(brick) / 8.0)).unwrap();
+    }
+    FemModel::on_base(mesh).unwrap()
+}
+
+/// The same mass on the same base, which is rigid.
+fn rigid() -> RigidBody {
+    let mass: f64 = bricks().map(brick_mass).sum();
+    let center = [0, 1, 2].map(|axis| {
+        let moment = |brick: [usize; 3]| {
+            let place = SIDES[axis] * (brick[axis] as f64 + 0.5) / COUNTS[axis] as f64;
+            brick_mass(brick) * if axis < 2 { place - 0.5 * SIDES[axis] } else { place }
+        };
+        bricks().map(moment).sum::<f64>() / mass
+    });
+    let inertia = [[mass, 0.0, 0.0], [0.0, mass, 0.0], [0.0, 0.0, mass]];
+    let [x, y] = [0.5 * SIDES[0], 0.5 * SIDES[1]];
+    RigidBody::from_mass(vec![[-x, -y], [x, -y], [x, y], [-x, y]], mass, inertia, center).unwrap()
+}
+
+/// Displacement of a structure at rest on a ground.
+fn at_rest(structure: impl Structure + 'static, ground: impl Ground + 'static) -> Vec<f64> {
+    let simulation = Simulation::builder(0.01)
+        .structure(structure)
+        .ground(ground)
+        .interface(Bonded)
+        .build()
+        .unwrap();
+    simulation.static_displacement().to_vec()
+}
+
+/// On springs, and on a half-space, which couples the cells.
+#[test]
+fn a_stiff_block_is_the_rigid_body() {
+    let soft = block(1.0e14);
+    let bed = || Cells::under([SIDES[0], SIDES[1]], [0.0; 2], [7, 5], BED);
+    let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap();
+    let half_space = |own: &dyn Structure| ElasticGround::under(soil, own, 8).unwrap();
+    let cases = [
+        (at_rest(soft.clone(), bed()), at_rest(rigid(), bed())),
+        (at_rest(soft.clone(), half_space(&soft)), at_rest(rigid(), half_space(&rigid()))),
+    ];
+    for (found, exact) in cases {
+        let size = exact[2].abs();
+        assert!(size > 1e-5 && exact[3].abs().min(exact[4].abs()) > 1e-2 * size, "{exact:?}");
+        let base = soft.base();
+        assert_eq!(base.nodes().count(), 4 * 3 * 2);
+        for node in base.nodes() {
+            let own = [&node.horizontal, &node.across, &node.vertical].map(|row| row.value(&found));
+            let rows = rigid().displacement_at([node.x, node.y, 0.0]);
+            for (own, row) in own.into_iter().zip(rows) {
+                let exact = row.value(&exact);
+                assert!((own - exact).abs() < 1e-6 * size, "{own} {exact} of {size}");
+            }
+        }
+    }
+}
+
+/// Waves from three sides: cells open and slide under a soft block, and no energy is lost.
+#[test]
+fn a_soft_block_lifts_off_and_slides() {
+    let model = block(4.0e8);
+    let top = model.mesh().node_at_point([3.0, 2.0, 4.0]).unwrap();
+    let drift = model.row(top, Direction::X).unwrap();
+    let mut simulation = Simulation::builder(2e-3)
+        .structure(model)
+        .ground(Cells::under([SIDES[0], SIDES[1]], [0.0; 2], [7, 5], BED))
+        .interface(Coulomb::new(0.4).unwrap())
+        .motion(Waves { quarters: 0 })
+        .gravity(2.0)
+        .build()
+        .unwrap();
+    let (mut open, mut sliding, mut sway) = (0, 0, 0.0_f64);
+    let run = simulation.run(600, |state| {
+        open = open.max(state.modes.iter().filter(|mode| **mode == Mode::Open).count());
+        sliding = sliding.max(state.modes.iter().filter(|mode| **mode == Mode::Slip).count());
+        sway = sway.max(drift.value(state.displacement()).abs());
+    });
+    let run = run.unwrap();
+    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+    assert!(open > 3 && sliding > 3 && sway > 1e-4, "{open} {sliding} {sway}");
+}
