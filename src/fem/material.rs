@@ -1,4 +1,4 @@
-//! Isotropic linear elastic solid in plane strain.
+//! Isotropic linear elastic solid.
 
 use crate::error::{Result, finite, not_negative, positive, require};
 
@@ -26,7 +26,7 @@ validated! {
 impl Material {
     /// Material from Young's modulus E (Pa), Poisson's ratio ν and density ρ (kg/m³; 0 allowed).
     ///
-    /// E and ν belong to the solid; the plane-strain stiffness follows from them.
+    /// E and ν belong to the solid; the stiffness in plane strain, and of shells in plane stress, follows from them.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless E > 0, −1 < ν < 0.5, ρ ≥ 0, all finite.
@@ -46,6 +46,11 @@ impl Material {
         self.density
     }
 
+    /// Poisson's ratio ν.
+    pub(crate) fn poisson(&self) -> f64 {
+        self.poisson
+    }
+
     /// Shear modulus E/(2(1+ν)), Pa.
     pub(crate) fn shear_modulus(&self) -> f64 {
         0.5 * self.young_modulus / (1.0 + self.poisson)
@@ -57,5 +62,12 @@ impl Material {
         let lame = 2.0 * shear * self.poisson / (1.0 - 2.0 * self.poisson);
         let direct = lame + 2.0 * shear;
         [[direct, lame, 0.0], [lame, direct, 0.0], [0.0, 0.0, shear]]
+    }
+
+    /// Plane-stress matrix D, Pa: `[σ_xx, σ_yy, τ_xy] = D · [ε_xx, ε_yy, γ_xy]`.
+    pub(crate) fn plane_stress(&self) -> [[f64; 3]; 3] {
+        let direct = self.young_modulus / (1.0 - self.poisson * self.poisson);
+        let other = self.poisson * direct;
+        [[direct, other, 0.0], [other, direct, 0.0], [0.0, 0.0, self.shear_modulus()]]
     }
 }

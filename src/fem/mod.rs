@@ -1,4 +1,4 @@
-//! Finite elements: solids, beams, trusses, masses, springs, and your own.
+//! Finite elements: solids, shells, beams, trusses, masses, springs, and your own.
 //!
 //! A [`Mesh`] is a list of nodes and of [`Element`]s; [`crate::structure::FemModel`] makes a structure of it.
 //! In the plane all quantities are per metre of thickness, x points to the right, y up, and rotations are
@@ -17,6 +17,7 @@
 
 mod assembly;
 mod beam;
+mod condensation;
 mod element;
 mod element_face;
 mod layer;
@@ -26,8 +27,10 @@ mod mesh;
 mod numbering;
 mod quad4;
 mod quad8;
+mod shell;
 mod spring;
 mod truss;
+mod vector;
 
 pub use crate::geometry::Direction;
 pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
@@ -40,5 +43,6 @@ pub use mesh::Mesh;
 pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
+pub use shell::{Shell, ShellResultants};
 pub use spring::{Dashpot, LumpedMass, Spring};
 pub use truss::Truss;

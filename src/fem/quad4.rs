@@ -1,5 +1,6 @@
 //! Four-node quadrilateral of a solid in plane strain.
 
+use super::condensation::{condense, leading};
 use super::element::{Element, MassKind, add_square};
 use super::element_face::ElementFace;
 use super::material::Material;
@@ -78,7 +79,7 @@ impl Quad4 {
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
         let points = points.into_iter().map(|point| (point, weight));
-        integrate(&self.material, points, |point| {
+        integrate(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             (node_strains(point, &jacobian), jacobian.determinant)
         })
@@ -87,7 +88,7 @@ impl Quad4 {
     fn with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut full = integrate(&self.material, points, |point| {
+        let mut full = integrate(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             let mut strain = [[0.0; 3]; 12];
             strain[..8].copy_from_slice(&node_strains(point, &jacobian));
@@ -100,42 +101,41 @@ impl Quad4 {
             strain[10..].copy_from_slice(&bend_eta);
             (strain, jacobian.determinant)
         });
-        // The internal modes are condensed one after another.
-        for pivot in (8..12).rev() {
-            let row = full[pivot];
-            for i in 0..pivot {
-                let factor = full[i][pivot] / row[pivot];
-                for j in 0..pivot {
-                    full[i][j] -= factor * row[j];
-                }
-            }
-        }
-        std::array::from_fn(|i| std::array::from_fn(|j| full[i][j]))
+        condense(&mut full, 8);
+        leading(&full)
     }
 }
 
-/// ∫ Sᵀ D S over points with their weights.
+/// ∫ Sᵀ D S over points with their weights, for the matrix D of the strains.
 ///
 /// `strains` returns the strains S of N patterns at a point, and the determinant of the Jacobian there.
-pub(super) fn integrate<const N: usize>(
-    material: &Material,
+pub(super) fn integrate<const N: usize, const S: usize>(
+    elasticity: &[[f64; S]; S],
     points: impl Iterator<Item = ([f64; 2], f64)>,
-    strains: impl Fn([f64; 2]) -> ([[f64; 3]; N], f64),
+    strains: impl Fn([f64; 2]) -> ([[f64; S]; N], f64),
 ) -> [[f64; N]; N] {
-    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let elasticity = material.elasticity();
     let mut matrix = [[0.0; N]; N];
     for (point, weight) in points {
         let (strain, determinant) = strains(point);
-        let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
-        let area = weight * determinant;
-        for i in 0..N {
-            for j in 0..N {
-                matrix[i][j] += area * dot(&strain[i], &stress[j]);
-            }
-        }
+        add_energy(&mut matrix, &strain, elasticity, weight * determinant);
     }
     matrix
+}
+
+/// Adds Sᵀ D S times an `area`, for N patterns of strains.
+pub(super) fn add_energy<const N: usize, const S: usize>(
+    matrix: &mut [[f64; N]; N],
+    strain: &[[f64; S]; N],
+    elasticity: &[[f64; S]; S],
+    area: f64,
+) {
+    let dot = |a: &[f64; S], b: &[f64; S]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+    for i in 0..N {
+        for j in 0..N {
+            matrix[i][j] += area * dot(&strain[i], &stress[j]);
+        }
+    }
 }
 
 /// Strains due to unit displacements of the nodes, in x and y alternately.
@@ -229,7 +229,7 @@ pub(super) struct Jacobian {
 }
 
 impl Jacobian {
-    pub(super) fn at(point: [f64; 2], coordinates: &[[f64; 3]]) -> Self {
+    pub(super) fn at<const D: usize>(point: [f64; 2], coordinates: &[[f64; D]]) -> Self {
         let (j, determinant) = derivatives(&natural_slopes(point), coordinates);
         let inverse = [
             [j[1][1] / determinant, -j[1][0] / determinant],
@@ -250,7 +250,10 @@ impl Jacobian {
 }
 
 /// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions, and its determinant.
-pub(super) fn derivatives(natural: &[[f64; 2]], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 2], f64) {
+pub(super) fn derivatives<const D: usize>(
+    natural: &[[f64; 2]],
+    coordinates: &[[f64; D]],
+) -> ([[f64; 2]; 2], f64) {
     let mut j = [[0.0; 2]; 2];
     for (slope, node) in natural.iter().zip(coordinates) {
         for axis in 0..2 {
@@ -261,6 +264,7 @@ pub(super) fn derivatives(natural: &[[f64; 2]], coordinates: &[[f64; 3]]) -> ([[
     (j, j[0][0] * j[1][1] - j[0][1] * j[1][0])
 }
 
-fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
+/// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
+pub(super) fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
     CORNERS.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
 }

@@ -140,7 +140,7 @@ impl Element for Quad8 {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let points = gauss::square(self.integration.order());
-        let block = integrate(&self.material, points, |point| {
+        let block = integrate(&self.material.elasticity(), points, |point| {
             let (slopes, determinant) = slopes(point, coordinates);
             let strains = slopes.map(strains);
             (std::array::from_fn::<_, 16, _>(|i| strains[i / 2][i % 2]), determinant)

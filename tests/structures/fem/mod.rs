@@ -21,3 +21,4 @@ mod rigid_block;
 mod rigid_motion;
 mod section;
 mod shear_building;
+mod shells;

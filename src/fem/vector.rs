@@ -1,0 +1,22 @@
+//! Vectors with three components.
+
+/// Inner product.
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Vector product.
+pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// a + factor · b.
+pub(super) fn add(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|axis| a[axis] + factor * b[axis])
+}
+
+/// Length of a vector, and the vector of length 1 along it.
+pub(super) fn direction(a: [f64; 3]) -> (f64, [f64; 3]) {
+    let length = a[0].hypot(a[1]).hypot(a[2]);
+    (length, a.map(|component| component / length))
+}

@@ -1,0 +1,39 @@
+//! GOAL: the matrices of single elements are right in every entry.
+//! SCENE: three quadrilaterals and three triangles of `tests/data/shells`.
+//! REFERENCE: an implementation in Python, 17 digits.
+
+use super::tabled;
+use basemat::fem::{Element, MassKind};
+use basemat_problems::dense::largest;
+use basemat_problems::table::table;
+
+#[test]
+fn matrices_are_the_tabled_ones() {
+    for (name, shell, nodes) in tabled() {
+        let table = table(&format!("shells/{name}.csv"));
+        let order = shell.order();
+        let index = |column| -> Vec<usize> {
+            table.text(column).into_iter().map(|text| text.parse().unwrap()).collect()
+        };
+        let [rows, columns] = ["row", "column"].map(index);
+        let (matrices, values) = (table.text("matrix"), table.column("value"));
+        for matrix in ["stiffness", "mass", "lumped_mass"] {
+            let mut wanted = vec![0.0; order * order];
+            for (k, name) in matrices.iter().enumerate() {
+                if *name == matrix {
+                    wanted[rows[k] * order + columns[k]] = values[k];
+                    wanted[columns[k] * order + rows[k]] = values[k];
+                }
+            }
+            let mut found = vec![0.0; order * order];
+            match matrix {
+                "stiffness" => shell.stiffness(&nodes, &mut found),
+                "mass" => shell.mass(&nodes, MassKind::Consistent, &mut found),
+                _ => shell.mass(&nodes, MassKind::Lumped, &mut found),
+            }
+            let error: Vec<f64> = found.iter().zip(&wanted).map(|(a, b)| a - b).collect();
+            let error = largest(&error) / largest(&wanted);
+            assert!(error < 1e-13, "{matrix} of {name}: {error:.1e}");
+        }
+    }
+}
