@@ -16,6 +16,7 @@ mod random;
 mod refused;
 mod results;
 mod several;
+mod shells;
 mod slabs;
 mod sliding;
 mod springs;
