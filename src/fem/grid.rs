@@ -1,0 +1,181 @@
+//! Grids of nodes on surfaces, in rows.
+
+use super::mesh::Mesh;
+use crate::error::{Error, Result, at_least, finite, not_negative, require};
+
+/// Nodes of a surface, row by row, and the cells between them.
+///
+/// ```
+/// use basemat::fem::{Material, Mesh, Shell};
+///
+/// // A tank: a flat bottom of radius 5 m from its middle, then a wall of 6 m, by 24 sectors.
+/// let steel = Material::new(210.0e9, 0.3, 7850.0)?;
+/// let mut mesh = Mesh::in_space();
+/// let radii = [0.0, 2.5, 5.0].map(|radius| [radius, 0.0]);
+/// let heights = [2.0, 4.0, 6.0].map(|height| [5.0, height]);
+/// let tank = mesh.revolve([0.0, 0.0], &[&radii[..], &heights].concat(), 24)?;
+/// for (row, cell) in tank.cells() {
+///     mesh.add(Shell::new(cell, steel, if row < 2 { 0.012 } else { 0.008 })?)?;
+/// }
+/// assert_eq!(mesh.nodes().len(), 1 + 5 * 24);
+/// assert_eq!(mesh.elements().len(), 5 * 24);
+/// assert_eq!(tank.row(0), [0]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Grid {
+    rows: Vec<Vec<usize>>,
+    is_closed: bool,
+}
+
+impl Grid {
+    /// Nodes of the row `index`, from its first column on; a pole is a row of one node.
+    ///
+    /// Empty for a row that does not exist.
+    pub fn row(&self, index: usize) -> &[usize] {
+        self.rows.get(index).map_or(&[], Vec::as_slice)
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Cells between neighbouring rows: the number of the lower row, and the corner nodes.
+    ///
+    /// A cell has four corners, and three beside a pole. They are listed counter-clockwise seen from the side where
+    /// columns run to the right and rows upwards; of a wall that [`Mesh::revolve`] made, from outside.
+    pub fn cells(&self) -> impl Iterator<Item = (usize, Vec<usize>)> + '_ {
+        let pairs = self.rows.windows(2).enumerate();
+        pairs.flat_map(move |(row, pair)| {
+            let columns = pair[0].len().max(pair[1].len());
+            let count = if self.is_closed { columns } else { columns - 1 };
+            let at = |own: &[usize], column: usize| own[column % own.len()];
+            let corners = move |column: usize| {
+                let next = column + 1;
+                let ([lower, upper], mut cell) = ([&pair[0], &pair[1]], Vec::with_capacity(4));
+                cell.extend([
+                    at(lower, column),
+                    at(lower, next),
+                    at(upper, next),
+                    at(upper, column),
+                ]);
+                cell.dedup();
+                (row, cell)
+            };
+            (0..count).map(corners)
+        })
+    }
+
+    /// Adds nodes above the grid and returns the bricks between them, for [`Hex8`](super::Hex8).
+    ///
+    /// `heights`: distances of the layers of nodes above the grid, m, ascending. The bricks of the first layer come
+    /// first. The grid is seen from above: its cells run counter-clockwise.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a mesh in the plane or a grid with a pole, [`Error::Input`] unless the heights are finite
+    /// and ascend from above zero.
+    pub fn extrude(&self, mesh: &mut Mesh, heights: &[f64]) -> Result<Vec<[usize; 8]>> {
+        let quads: Option<Vec<[usize; 4]>> =
+            self.cells().map(|(_, cell)| cell.try_into().ok()).collect();
+        let needed = "must have cells of four corners to be extruded";
+        let quads = quads.ok_or(Error::Scene { quantity: "grid", needed })?;
+        let nodes: Vec<usize> = self.rows.concat();
+        let (mut bricks, mut last) = (Vec::with_capacity(quads.len() * heights.len()), 0.0);
+        let (mut below, mut place) = (nodes.clone(), vec![0; mesh.nodes().len()]);
+        nodes.iter().enumerate().for_each(|(index, &node)| place[node] = index);
+        for &height in heights {
+            finite("height of a layer", height)?;
+            require(
+                "height of a layer",
+                height,
+                height > last,
+                "more than that of the layer below",
+            )?;
+            let mut above = Vec::with_capacity(nodes.len());
+            for &node in &nodes {
+                let [x, y, z] = mesh.nodes()[node];
+                above.push(mesh.add_node_at([x, y, z + height])?);
+            }
+            bricks.extend(quads.iter().map(|quad| {
+                let [a, b, c, d] = quad.map(|node| below[place[node]]);
+                let [e, f, g, h] = quad.map(|node| above[place[node]]);
+                [a, b, c, d, e, f, g, h]
+            }));
+            (below, last) = (above, height);
+        }
+        Ok(bricks)
+    }
+}
+
+impl Mesh {
+    /// Adds the nodes of a surface: `point(row, column)` is the place of each, [x, y, z] in m.
+    ///
+    /// ```
+    /// use basemat::fem::{Hex8, Material, Mesh};
+    ///
+    /// // A block of 4 m × 2 m × 3 m from 4 × 2 × 3 bricks.
+    /// let mut mesh = Mesh::in_space();
+    /// let floor = mesh.add_grid(3, 5, |row, column| [column as f64, row as f64, 0.0])?;
+    /// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+    /// for brick in floor.extrude(&mut mesh, &[1.0, 2.0, 3.0])? {
+    ///     mesh.add(Hex8::new(brick, concrete))?;
+    /// }
+    /// assert_eq!(mesh.elements().len(), 4 * 2 * 3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`] for fewer than two rows or columns; as for [`Mesh::add_node_at`].
+    pub fn add_grid(
+        &mut self,
+        rows: usize,
+        columns: usize,
+        point: impl Fn(usize, usize) -> [f64; 3],
+    ) -> Result<Grid> {
+        at_least("rows of the grid", rows, 2)?;
+        at_least("columns of the grid", columns, 2)?;
+        let mut row =
+            |row| (0..columns).map(|column| self.add_node_at(point(row, column))).collect();
+        let rows = (0..rows).map(&mut row).collect::<Result<Vec<Vec<_>>>>()?;
+        Ok(Grid { rows, is_closed: false })
+    }
+
+    /// Adds the nodes of a surface of revolution about the vertical axis through `axis` ([x, y], m).
+    ///
+    /// `meridian`: [radius, height] of each row of nodes, m. A row on the axis is one node, a pole. `sectors`: number
+    /// of columns round the axis, from the direction of x towards y. [`Grid`] has an example.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for fewer than two rows or three sectors; [`Error::Input`] for a negative radius;
+    /// [`Error::Scene`] for a mesh in the plane, or for two neighbouring rows on the axis.
+    pub fn revolve(
+        &mut self,
+        axis: [f64; 2],
+        meridian: &[[f64; 2]],
+        sectors: usize,
+    ) -> Result<Grid> {
+        at_least("rows of the meridian", meridian.len(), 2)?;
+        at_least("sectors of the surface", sectors, 3)?;
+        let has_depth = self.has_depth();
+        let fault = |needed| Err(Error::Scene { quantity: "surface of revolution", needed });
+        if !has_depth {
+            return fault("needs a mesh in space");
+        }
+        if meridian.windows(2).any(|pair| pair[0][0] == 0.0 && pair[1][0] == 0.0) {
+            return fault("must not run along its axis");
+        }
+        let mut rows = Vec::with_capacity(meridian.len());
+        for &[radius, height] in meridian {
+            not_negative("radius of the meridian", radius)?;
+            let count = if radius == 0.0 { 1 } else { sectors };
+            let mut node = |column: usize| {
+                let angle = std::f64::consts::TAU * column as f64 / sectors as f64;
+                let [x, y] = [axis[0] + radius * angle.cos(), axis[1] + radius * angle.sin()];
+                self.add_node_at([x, y, height])
+            };
+            rows.push((0..count).map(&mut node).collect::<Result<Vec<_>>>()?);
+        }
+        Ok(Grid { rows, is_closed: true })
+    }
+}
