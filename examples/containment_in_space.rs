@@ -4,8 +4,8 @@
 //! cargo run --release --example containment_in_space
 //! ```
 //!
-//! Raft, wall and dome are shells. The raft is as flexible as it is: the ground acts on each cell of its underside. The
-//! table compares a bonded base with one that opens and slides, and lists the largest bending moment in the raft.
+//! Raft, wall and dome are shells. The raft bends: the ground acts on each cell of its underside. The table compares a
+//! bonded base with one that opens and slides, and lists the largest bending moment in the raft.
 
 use basemat::fem::{Element, Material, Mesh, Shell};
 use basemat::motion::Triaxial;
@@ -94,20 +94,15 @@ fn main() -> basemat::Result<()> {
             .build()?;
         let rest = simulation.static_displacement().to_vec();
         let mut moment = largest_moment(&model, &raft, &rest)?;
-        let mut fault = None;
         let run = simulation.run(STEPS, |state| {
             if state.step % 5 == 0 {
-                let whole: Vec<f64> =
+                let all: Vec<f64> =
                     state.displacement().iter().zip(&rest).map(|(u, r)| u + r).collect();
-                match largest_moment(&model, &raft, &whole) {
-                    Ok(own) => moment = moment.max(own),
-                    Err(error) => fault = Some(error),
-                }
+                // Infinite, if it could not be computed.
+                let own = largest_moment(&model, &raft, &all);
+                moment = moment.max(own.unwrap_or(f64::INFINITY));
             }
         })?;
-        if let Some(fault) = fault {
-            return Err(fault);
-        }
         let whole = &run.whole;
         let [shear, shear_across] =
             [&whole.base_shear, &whole.shear_across].map(|own| own.magnitude());
