@@ -69,7 +69,7 @@ pub(super) fn read(
     let mut intact = None;
     let mut record = StringRecord::new();
     loop {
-        let line = reader.position().line() as usize + 1;
+        let line = usize::try_from(reader.position().line()).map_or(usize::MAX, |line| line + 1);
         let read = match reader.read_record(&mut record) {
             Ok(false) => break,
             Ok(true) => match &names {

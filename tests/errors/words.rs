@@ -69,6 +69,7 @@ fn choices_are_read_as_they_are_shown() {
         DisplacementPolynomial, NewmarkParabola, RemoveMean, RestToRest, VelocityPolynomial,
     };
     use Criterion::{Gap, Rotation, Slip, UpliftedFraction};
+    use Direction::{Rotation as InPlane, RotationX, RotationY, RotationZ, X, Y, Z};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
@@ -93,7 +94,6 @@ fn choices_are_read_as_they_are_shown() {
     check("friction limit", &[Total, Lagged, Static, Dynamic]);
     check("sense of slip", &[Inelastic, Velocity, LastVelocity]);
     check("kind of mass", &[MassKind::Consistent, MassKind::Lumped]);
-    use Direction::{Rotation as InPlane, RotationX, RotationY, RotationZ, X, Y, Z};
     check("direction", &[X, Y, InPlane, Z, RotationX, RotationY, RotationZ]);
     check("quantity", &Quantity::ALL);
     let tolerances = [1e-6, 0.5, 1.0 / 3.0, 5e-324];

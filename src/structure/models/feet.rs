@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
-use crate::fem::{ElementFace, Mesh};
+use crate::fem::{Element, ElementFace, Mesh};
 
 /// A point of the base: it moves with a node of the mesh, some distance above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ fn faces_by_corners(
     keep: impl Fn(&ElementFace) -> bool,
 ) -> HashMap<Vec<usize>, ElementFace> {
     let mut faces: HashMap<Vec<usize>, ElementFace> = HashMap::new();
-    for face in mesh.elements().flat_map(|element| element.faces()).filter(keep) {
+    for face in mesh.elements().flat_map(Element::faces).filter(keep) {
         let own = faces.entry(sorted(face.corners())).or_insert_with(|| face.clone());
         if face.thickness() > own.thickness() {
             *own = face;
