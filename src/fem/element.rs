@@ -144,3 +144,24 @@ pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; 
         *entry += value;
     }
 }
+
+/// Adds Tᵀ k T of a `local` matrix k, where T = `to_local` takes global to local displacements.
+pub(crate) fn add_transformed<const N: usize>(
+    local: &[[f64; N]; N],
+    to_local: &[[f64; N]; N],
+    matrix: &mut [f64],
+) {
+    let mut half = [[0.0; N]; N];
+    let mut global = [[0.0; N]; N];
+    for i in 0..N {
+        for j in 0..N {
+            half[i][j] = (0..N).map(|k| local[i][k] * to_local[k][j]).sum();
+        }
+    }
+    for i in 0..N {
+        for j in 0..N {
+            global[i][j] = (0..N).map(|k| to_local[k][i] * half[k][j]).sum();
+        }
+    }
+    add_square(matrix, &global);
+}

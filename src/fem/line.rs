@@ -1,21 +1,29 @@
 //! Line between the nodes of a two-node element.
 
-use super::element::add_square;
+use super::element::add_transformed;
+use super::vector::{add, cross, direction};
 use crate::error::{Result, positive, same_length};
 
 /// Length and direction of the straight line from the first to the second node.
 pub(super) struct Line {
     pub(super) length: f64,
-    cosine: f64,
-    sine: f64,
+    along: [f64; 3],
+    /// Level direction across the line.
+    across: [f64; 3],
 }
 
 impl Line {
     /// Line between two points; `None` unless there are exactly two.
     pub(super) fn between(coordinates: &[[f64; 3]]) -> Option<Self> {
-        let &[[x0, y0, _], [x1, y1, _]] = coordinates else { return None };
-        let length = (x1 - x0).hypot(y1 - y0);
-        Some(Self { length, cosine: (x1 - x0) / length, sine: (y1 - y0) / length })
+        let &[first, second] = coordinates else {
+            return None;
+        };
+        let way = add(second, -1.0, first);
+        let (length, along) = direction(way);
+        let level = way[0].hypot(way[1]);
+        let across =
+            if level > 0.0 { [-way[1] / level, way[0] / level, 0.0] } else { [0.0, 1.0, 0.0] };
+        Some(Self { length, along, across })
     }
 
     /// Error unless there are two points at different places.
@@ -24,50 +32,53 @@ impl Line {
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds the axial `stiffness` of the line; degrees of freedom x, y at both ends.
-    pub(super) fn add_axial(&self, stiffness: f64, matrix: &mut [f64]) {
-        let row = [-self.cosine, -self.sine, self.cosine, self.sine];
-        add_square(matrix, &row.map(|a| row.map(|b| stiffness * a * b)));
+    /// Adds the axial `stiffness` of the line; degrees of freedom along the first `axes` axes at both ends.
+    pub(super) fn add_axial(&self, stiffness: f64, axes: usize, matrix: &mut [f64]) {
+        add_relative(stiffness, self.along, axes, matrix);
     }
 
     /// Adds the geometric stiffness −P/L of a bar with the compressive force P.
     ///
-    /// It acts on relative displacements across the bar; degrees of freedom x, y at both ends.
-    pub(super) fn add_sway(&self, compression: f64, matrix: &mut [f64]) {
-        let row = [self.sine, -self.cosine, -self.sine, self.cosine];
-        let factor = -compression / self.length;
-        add_square(matrix, &row.map(|a| row.map(|b| factor * a * b)));
+    /// It acts on relative displacements across the bar; degrees of freedom along the first `axes` axes at both
+    /// ends.
+    pub(super) fn add_sway(&self, compression: f64, axes: usize, matrix: &mut [f64]) {
+        // In the plane the second direction across the line leaves it.
+        let directions = [self.across, cross(self.along, self.across)];
+        for across in directions.into_iter().take(axes - 1) {
+            add_relative(-compression / self.length, across, axes, matrix);
+        }
     }
 
-    /// Lengthening of the line, m, when its ends are displaced by [x, y].
-    pub(super) fn lengthening(&self, first: [f64; 2], second: [f64; 2]) -> f64 {
-        self.cosine * (second[0] - first[0]) + self.sine * (second[1] - first[1])
+    /// Lengthening of the line, m, when its ends are displaced along the first axes.
+    pub(super) fn lengthening(&self, first: &[f64], second: &[f64]) -> f64 {
+        let ends = first.iter().zip(second);
+        self.along.iter().zip(ends).map(|(along, (first, second))| along * (second - first)).sum()
     }
 
-    /// Transforms a `local` matrix to global degrees of freedom and adds it.
+    /// Transforms a `local` matrix to global degrees of freedom of the plane and adds it.
     ///
     /// Local: along the line, across it to the left, rotation; both ends. Global: x, y, rotation; both ends.
     pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
+        let [cosine, sine, _] = self.along;
         let mut to_local = [[0.0; 6]; 6];
         for end in [0, 3] {
-            to_local[end][end] = self.cosine;
-            to_local[end][end + 1] = self.sine;
-            to_local[end + 1][end] = -self.sine;
-            to_local[end + 1][end + 1] = self.cosine;
+            to_local[end][end] = cosine;
+            to_local[end][end + 1] = sine;
+            to_local[end + 1][end] = -sine;
+            to_local[end + 1][end + 1] = cosine;
             to_local[end + 2][end + 2] = 1.0;
         }
-        let mut half = [[0.0; 6]; 6];
-        let mut global = [[0.0; 6]; 6];
-        for i in 0..6 {
-            for j in 0..6 {
-                half[i][j] = (0..6).map(|k| local[i][k] * to_local[k][j]).sum();
-            }
-        }
-        for i in 0..6 {
-            for j in 0..6 {
-                global[i][j] = (0..6).map(|k| to_local[k][i] * half[k][j]).sum();
-            }
-        }
-        add_square(matrix, &global);
+        add_transformed(local, &to_local, matrix);
+    }
+}
+
+/// Adds factor · (relative displacement of two nodes along a `vector`)² as a matrix.
+fn add_relative(factor: f64, vector: [f64; 3], axes: usize, matrix: &mut [f64]) {
+    let order = 2 * axes;
+    let row = |k: usize| {
+        if k < axes { -vector[k] } else { vector[k - axes] }
+    };
+    for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
+        *entry += factor * row(index / order) * row(index % order);
     }
 }

@@ -46,6 +46,16 @@ impl Material {
         self.density
     }
 
+    /// Young's modulus E, Pa.
+    pub(crate) fn young_modulus(&self) -> f64 {
+        self.young_modulus
+    }
+
+    /// Lamé's first constant λ, Pa.
+    pub(crate) fn lame(&self) -> f64 {
+        2.0 * self.shear_modulus() * self.poisson / (1.0 - 2.0 * self.poisson)
+    }
+
     /// Poisson's ratio ν.
     pub(crate) fn poisson(&self) -> f64 {
         self.poisson
@@ -59,7 +69,7 @@ impl Material {
     /// Plane-strain matrix D, Pa: `[σ_xx, σ_yy, τ_xy] = D · [ε_xx, ε_yy, γ_xy]`.
     pub fn elasticity(&self) -> [[f64; 3]; 3] {
         let shear = self.shear_modulus();
-        let lame = 2.0 * shear * self.poisson / (1.0 - 2.0 * self.poisson);
+        let lame = self.lame();
         let direct = lame + 2.0 * shear;
         [[direct, lame, 0.0], [lame, direct, 0.0], [0.0, 0.0, shear]]
     }

@@ -1,9 +1,9 @@
-//! Springs, dashpots and lumped masses.
+//! Springs and dashpots.
 
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;
-use crate::error::{Result, not_negative, positive};
-use crate::geometry::{Direction, FRAME, TRANSLATIONS};
+use crate::error::{Result, positive};
+use crate::geometry::{Direction, IN_SPACE, TRANSLATIONS};
 
 /// Linear spring between two nodes.
 ///
@@ -32,7 +32,7 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Direction(direction), coefficient }))
     }
 
     /// Spring against the change of distance between two nodes.
@@ -43,7 +43,18 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, direction: None, coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(TRANSLATIONS), coefficient }))
+    }
+
+    /// Spring of a mesh in space, against the change of distance between two nodes.
+    ///
+    /// `coefficient` in N/m.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
+    pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
+        positive("coefficient of the spring", coefficient)?;
+        Ok(Self(Pair { nodes, action: Action::Line(&IN_SPACE[..3]), coefficient }))
     }
 }
 
@@ -69,33 +80,49 @@ impl Element for Spring {
     }
 }
 
+/// Directions in which a pair of nodes acts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Action {
+    Direction(Direction),
+    /// Along the line between the nodes, which move in these directions.
+    Line(&'static [Direction]),
+}
+
 /// Two nodes, and the coefficient of the spring or dashpot between them.
 #[derive(Debug, Clone, PartialEq)]
 struct Pair {
     nodes: [usize; 2],
-    /// Direction of the force; `None`: along the line between the nodes.
-    direction: Option<Direction>,
+    action: Action,
     coefficient: f64,
 }
 
 impl Pair {
     fn directions(&self) -> &[Direction] {
-        self.direction.as_ref().map_or(TRANSLATIONS, std::slice::from_ref)
+        match &self.action {
+            Action::Direction(direction) => std::slice::from_ref(direction),
+            Action::Line(directions) => directions,
+        }
     }
 
-    /// Adds the 2 × 2 or 4 × 4 matrix of the pair to `matrix`.
+    /// Adds the matrix of the pair to `matrix`.
     fn add(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let c = self.coefficient;
-        if self.direction.is_some() {
-            add_square(matrix, &[[c, -c], [-c, c]]);
-        } else if let Some(line) = Line::between(coordinates) {
-            line.add_axial(c, matrix);
+        match self.action {
+            Action::Direction(_) => add_square(matrix, &[[c, -c], [-c, c]]),
+            Action::Line(directions) => {
+                if let Some(line) = Line::between(coordinates) {
+                    line.add_axial(c, directions.len(), matrix);
+                }
+            }
         }
     }
 
     /// Error if an axial pair has both nodes at one place.
     fn check(&self, length: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
-        self.direction.map_or_else(|| Line::check(length, coordinates), |_| Ok(()))
+        match self.action {
+            Action::Direction(_) => Ok(()),
+            Action::Line(_) => Line::check(length, coordinates),
+        }
     }
 }
 
@@ -126,7 +153,7 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, direction: Some(direction), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Direction(direction), coefficient }))
     }
 
     /// Dashpot against the rate of the distance between two nodes.
@@ -137,7 +164,18 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, direction: None, coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(TRANSLATIONS), coefficient }))
+    }
+
+    /// Dashpot of a mesh in space, against the rate of the distance between two nodes.
+    ///
+    /// `coefficient` in N s/m.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
+    pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
+        positive("coefficient of the dashpot", coefficient)?;
+        Ok(Self(Pair { nodes, action: Action::Line(&IN_SPACE[..3]), coefficient }))
     }
 }
 
@@ -163,66 +201,5 @@ impl Element for Dashpot {
     /// [`Error::Input`](crate::Error::Input) when the nodes of an axial dashpot coincide.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         self.0.check("length of the axial dashpot", coordinates)
-    }
-}
-
-/// Mass at a node, with or without rotary inertia.
-///
-/// ```
-/// use basemat::fem::{Element, LumpedMass, MassKind};
-///
-/// let floor = LumpedMass::new(0, 100.0)?.with_rotary_inertia(40.0)?;
-/// let mut mass = vec![0.0; 9];
-/// floor.mass(&[[0.0, 3.0, 0.0]], MassKind::Consistent, &mut mass);
-/// assert_eq!(mass, [100.0, 0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 40.0]);
-/// # Ok::<(), basemat::Error>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-pub struct LumpedMass {
-    node: [usize; 1],
-    mass: f64,
-    rotary_inertia: f64,
-}
-
-impl LumpedMass {
-    /// Point mass at `node`, kg per metre of thickness; adds no rotation degree of freedom.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
-    pub fn new(node: usize, mass: f64) -> Result<Self> {
-        Ok(Self { node: [node], mass: positive("lumped mass", mass)?, rotary_inertia: 0.0 })
-    }
-
-    /// Adds rotary inertia about the node, kg m² per metre of thickness.
-    ///
-    /// If the rotary inertia is above zero, the node gets a rotation degree of freedom. Other elements should
-    /// restrain it.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless it is finite and not negative.
-    pub fn with_rotary_inertia(self, rotary_inertia: f64) -> Result<Self> {
-        let rotary_inertia = not_negative("rotary inertia of the lumped mass", rotary_inertia)?;
-        Ok(Self { rotary_inertia, ..self })
-    }
-}
-
-impl Element for LumpedMass {
-    fn nodes(&self) -> &[usize] {
-        &self.node
-    }
-
-    fn directions(&self) -> &[Direction] {
-        if self.rotary_inertia > 0.0 { FRAME } else { TRANSLATIONS }
-    }
-
-    /// Adds nothing.
-    fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
-
-    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
-        let diagonal = [self.mass, self.mass, self.rotary_inertia];
-        let next = self.order() + 1;
-        for (entry, value) in matrix.iter_mut().step_by(next).zip(diagonal) {
-            *entry += value;
-        }
     }
 }

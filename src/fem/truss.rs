@@ -1,11 +1,11 @@
 //! Bar with two nodes and axial force only.
 
-use super::element::{Element, MassKind, add_square};
+use super::element::{Element, MassKind};
 use super::line::Line;
 use crate::error::{Result, not_negative, positive};
-use crate::geometry::{Direction, TRANSLATIONS};
+use crate::geometry::{Direction, IN_SPACE, TRANSLATIONS};
 
-/// Straight bar between two nodes, hinged at both.
+/// Straight bar between two nodes, hinged at both, in the plane or [in space](Truss::in_space).
 ///
 /// The P–Δ effect of its axial force is included only if
 /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes the force.
@@ -25,6 +25,7 @@ pub struct Truss {
     young_modulus: f64,
     area: f64,
     density: f64,
+    directions: &'static [Direction],
     /// Axial force for P–Δ, N.
     compression: f64,
 }
@@ -41,7 +42,22 @@ impl Truss {
         positive("area of the truss", area)?;
         not_negative("density of the truss", density)?;
         positive("axial stiffness of the truss", young_modulus * area)?;
-        Ok(Self { nodes, young_modulus, area, density, compression: 0.0 })
+        let directions = TRANSLATIONS;
+        Ok(Self { nodes, young_modulus, area, density, directions, compression: 0.0 })
+    }
+
+    /// Bar of a mesh in space; as [`Truss::new`], with the whole cross-section (m²).
+    ///
+    /// # Errors
+    /// As for [`Truss::new`].
+    pub fn in_space(
+        nodes: [usize; 2],
+        young_modulus: f64,
+        area: f64,
+        density: f64,
+    ) -> Result<Self> {
+        let directions = &IN_SPACE[..3];
+        Ok(Self { directions, ..Self::new(nodes, young_modulus, area, density)? })
     }
 }
 
@@ -51,18 +67,19 @@ impl Element for Truss {
     }
 
     fn directions(&self) -> &[Direction] {
-        TRANSLATIONS
+        self.directions
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         if let Some(line) = Line::between(coordinates) {
-            line.add_axial(self.young_modulus * self.area / line.length, matrix);
+            let stiffness = self.young_modulus * self.area / line.length;
+            line.add_axial(stiffness, self.directions.len(), matrix);
         }
     }
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         if let Some(line) = Line::between(coordinates).filter(|_| self.compression != 0.0) {
-            line.add_sway(self.compression, matrix);
+            line.add_sway(self.compression, self.directions.len(), matrix);
         }
     }
 
@@ -72,10 +89,9 @@ impl Element for Truss {
         displacement: &[f64],
         _gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let (Some(line), &[x0, y0, x1, y1]) = (Line::between(coordinates), displacement) else {
-            return None;
-        };
-        let lengthening = line.lengthening([x0, y0], [x1, y1]);
+        let line = Line::between(coordinates)?;
+        let (first, second) = displacement.split_at_checked(self.directions.len())?;
+        let lengthening = line.lengthening(first, second);
         let compression = -self.young_modulus * self.area / line.length * lengthening;
         Some(Box::new(Self { compression, ..self.clone() }))
     }
@@ -85,20 +101,25 @@ impl Element for Truss {
     }
 
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        let Some(line) = Line::between(coordinates) else { return };
+        let Some(line) = Line::between(coordinates) else {
+            return;
+        };
         let mass = self.density * self.area * line.length;
-        // Points of the bar move linearly between the ends, in both directions.
+        // Points of the bar move linearly between the ends, in all directions.
         let (own, other) = match kind {
             MassKind::Consistent => (mass / 3.0, mass / 6.0),
             MassKind::Lumped => (mass / 2.0, 0.0),
         };
-        let block = [
-            [own, 0.0, other, 0.0],
-            [0.0, own, 0.0, other],
-            [other, 0.0, own, 0.0],
-            [0.0, other, 0.0, own],
-        ];
-        add_square(matrix, &block);
+        let axes = self.directions.len();
+        let order = 2 * axes;
+        for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
+            let [row, column] = [index / order, index % order];
+            if row == column {
+                *entry += own;
+            } else if row % axes == column % axes {
+                *entry += other;
+            }
+        }
     }
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.

@@ -80,6 +80,12 @@ pub(crate) fn square(order: usize) -> impl Iterator<Item = ([f64; 2], f64)> {
     line.clone().flat_map(move |(x, v)| line.clone().map(move |(y, w)| ([x, y], v * w)))
 }
 
+/// Points and weights on the cube [−1, 1]³, with `order` from 2 to 8 points along each side.
+pub(crate) fn cube(order: usize) -> impl Iterator<Item = ([f64; 3], f64)> {
+    square(order)
+        .flat_map(move |([x, y], v)| rule(order).points().map(move |(z, w)| ([x, y, z], v * w)))
+}
+
 fn rules() -> &'static [Rule] {
     static RULES: OnceLock<Vec<Rule>> = OnceLock::new();
     RULES.get_or_init(|| ORDERS.iter().map(|&order| Rule::new(order)).collect())

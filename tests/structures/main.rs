@@ -1,11 +1,13 @@
 //! Structures: finite elements, hysteresis, matrices, groups.
 
+mod elements;
 mod fem;
 mod flexible_base;
 mod group;
 mod hysteresis;
 mod matrices;
 mod portal;
+mod space_support;
 
 /// ∂²f/∂uᵢ∂uⱼ at u = 0, by central differences of this step.
 fn curvature<const N: usize>(f: impl Fn(&[f64; N]) -> f64, [i, j]: [usize; 2], step: f64) -> f64 {

@@ -1,0 +1,14 @@
+//! Straight beams and columns, in the plane and in space.
+
+mod axes;
+mod axial_force;
+mod bar;
+mod bending;
+mod plane;
+mod releases;
+mod section;
+mod space;
+
+pub use plane::Beam;
+pub use section::BeamSection;
+pub use space::SpaceBeam;

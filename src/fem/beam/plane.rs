@@ -1,0 +1,188 @@
+//! Straight beam or column in the plane.
+
+use super::axial_force::AxialForce;
+use super::bar::{self, BarMatrix};
+use super::bending::{Bending, EndMatrix, put};
+use crate::error::{Result, finite, not_negative, positive};
+use crate::fem::element::{Element, MassKind};
+use crate::fem::line::Line;
+use crate::geometry::{Direction, FRAME};
+
+/// Straight prismatic beam of the plane between two nodes that rotate with it.
+///
+/// Meshes in space have a [`SpaceBeam`](super::SpaceBeam).
+///
+/// Euler–Bernoulli with axial deformation; [`with_shear_stiffness`](Beam::with_shear_stiffness) makes it a
+/// Timoshenko beam. Exact for loads at the nodes (Przemieniecki, Theory of Matrix Structural Analysis, 1968,
+/// ch. 5). Rotary inertia of the cross-section is included only with
+/// [`with_rotary_inertia`](Beam::with_rotary_inertia). The P–Δ effect of an axial force is included only if
+/// [`with_compression`](Beam::with_compression) gives the force or
+/// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes it. Quadrilaterals do not
+/// restrain the rotation of their nodes: a beam that ends on a quadrilateral is hinged there, unless it
+/// continues along the edge of a second one.
+///
+/// ```
+/// use basemat::fem::{Beam, Element};
+///
+/// let beam = Beam::new([0, 1], 30.0e9, 0.5, 0.01, 2400.0)?;
+/// let mut stiffness = vec![0.0; 36];
+/// beam.stiffness(&[[0.0; 3], [0.0, 10.0, 0.0]], &mut stiffness);
+/// assert!((stiffness[0] - 12.0 * 30.0e9 * 0.01 / 1000.0).abs() < 1e-6); // 12 EI/L³ sideways
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beam {
+    nodes: [usize; 2],
+    axial_stiffness: f64,
+    bending: Bending,
+    mass_per_length: f64,
+    force: AxialForce,
+}
+
+impl Beam {
+    /// Beam with Young's modulus (Pa), area (m²), second moment of area (m⁴) and density (kg/m³).
+    ///
+    /// Area and second moment are per metre of thickness.
+    ///
+    /// A plate strip in plane strain has E/(1−ν²) in place of E.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless all are positive; the density may be zero.
+    pub fn new(
+        nodes: [usize; 2],
+        young_modulus: f64,
+        area: f64,
+        second_moment: f64,
+        density: f64,
+    ) -> Result<Self> {
+        positive("Young's modulus of the beam", young_modulus)?;
+        positive("area of the beam", area)?;
+        positive("second moment of area of the beam", second_moment)?;
+        not_negative("density of the beam", density)?;
+        Ok(Self {
+            nodes,
+            axial_stiffness: positive("axial stiffness of the beam", young_modulus * area)?,
+            bending: Bending {
+                stiffness: positive("bending stiffness", young_modulus * second_moment)?,
+                shear_stiffness: None,
+                section_inertia: not_negative("inertia of the section", density * second_moment)?,
+                has_rotary_inertia: false,
+            },
+            mass_per_length: not_negative("mass per length of the beam", density * area)?,
+            force: AxialForce::default(),
+        })
+    }
+
+    /// Adds shear deformation; `shear_stiffness` is G times the shear area, N.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is positive.
+    pub fn with_shear_stiffness(self, shear_stiffness: f64) -> Result<Self> {
+        let shear_stiffness = Some(positive("shear stiffness of the beam", shear_stiffness)?);
+        Ok(Self { bending: Bending { shear_stiffness, ..self.bending }, ..self })
+    }
+
+    /// Adds the rotary inertia ρ I of the cross-section: with shear stiffness,
+    /// Timoshenko's beam in full.
+    #[must_use]
+    pub fn with_rotary_inertia(self) -> Self {
+        Self { bending: Bending { has_rotary_inertia: true, ..self.bending }, ..self }
+    }
+
+    /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
+    ///
+    /// The force P adds −½ P ∫ w′² dx to the potential energy, where w is the lateral displacement (P–Δ and
+    /// P–δ). It is the force of the static state, for example the weight above. A force given here stays when
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) computes the forces of the other
+    /// elements. The beam then resists a rigid rotation with the moment of its offset end forces, as a real
+    /// column does.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
+    pub fn with_compression(self, compression: f64) -> Result<Self> {
+        let compression = finite("axial force of the beam", compression)?;
+        Ok(Self { force: AxialForce::given(compression), ..self })
+    }
+}
+
+impl Element for Beam {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        FRAME
+    }
+
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        let Some(line) = Line::between(coordinates) else {
+            return;
+        };
+        let bar = bar::stiffness(self.axial_stiffness / line.length);
+        line.add_rotated(&local(&bar, &self.bending.stiffness(line.length)), matrix);
+    }
+
+    fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        let Some(line) = Line::between(coordinates) else {
+            return;
+        };
+        if !self.force.is_zero() {
+            let block = self.bending.geometric_stiffness(&self.force, line.length);
+            line.add_rotated(&local(&[[0.0; 2]; 2], &block), matrix);
+        }
+    }
+
+    fn in_static_state(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        gravity: f64,
+    ) -> Option<Box<dyn Element>> {
+        let (Some(line), &[x0, y0, _, x1, y1, _]) = (Line::between(coordinates), displacement)
+        else {
+            return None;
+        };
+        if self.force.is_given {
+            return None;
+        }
+        let lengthening = line.lengthening(&[x0, y0], &[x1, y1]);
+        // Displacements of the nodes are exact, so the compression is the mean over the length. The element's
+        // own weight makes it vary between the nodes.
+        let rise = coordinates[1][1] - coordinates[0][1];
+        let force = AxialForce {
+            compression: -self.axial_stiffness / line.length * lengthening,
+            taper: self.mass_per_length * gravity * rise,
+            is_given: false,
+        };
+        Some(Box::new(Self { force, ..self.clone() }))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        Some(self.force.compression)
+    }
+
+    /// Lumped: half the mass at each node, with the rotary inertia m L²/78, which keeps the ratio of the
+    /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the rotary inertia of the
+    /// sections.
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
+        let Some(line) = Line::between(coordinates) else {
+            return;
+        };
+        let mass = self.mass_per_length * line.length;
+        let bending = self.bending.mass(kind, mass, line.length);
+        line.add_rotated(&local(&bar::mass(kind, mass), &bending), matrix);
+    }
+
+    /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
+        Line::check("length of the beam", coordinates)
+    }
+}
+
+/// Local matrix of displacements along and across the beam and the rotation, at both ends.
+fn local(bar: &BarMatrix, bending: &EndMatrix) -> [[f64; 6]; 6] {
+    let mut matrix = [[0.0; 6]; 6];
+    put(bar, [0, 3], &mut matrix);
+    put(bending, [1, 2, 4, 5], &mut matrix);
+    matrix
+}

@@ -1,0 +1,311 @@
+//! Straight beam or column in space.
+
+use super::axes::{Axes, EndsMatrix};
+use super::axial_force::AxialForce;
+use super::bar::{self, BarMatrix};
+use super::bending::{Bending, EndMatrix, put};
+use super::releases::Releases;
+use super::section::BeamSection;
+use crate::error::{Error, Result, all_finite, finite, positive, same_length};
+use crate::fem::element::{Element, MassKind, add_transformed};
+use crate::fem::material::Material;
+use crate::fem::vector::{add, direction, dot};
+use crate::geometry::{Direction, IN_SPACE};
+
+/// Straight prismatic beam in space between two nodes that rotate with it.
+///
+/// It stretches, twists (St Venant) and bends in two planes; shear areas of its
+/// [section](BeamSection::with_shear_areas) make it a Timoshenko beam. Exact for loads at the nodes. x is the
+/// axis of the beam, y the part of its `orientation` across x, and z is across both, right-handed.
+///
+/// Its lumped mass is diagonal in the axes of the beam; in other directions it couples the rotations of a
+/// node, and offsets couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending
+/// and the P–Δ effect of axial forces are options. Warping and the effect of axial forces on the torsion are
+/// left out.
+///
+/// ```
+/// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};
+///
+/// let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+/// let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?;
+/// // A column with the y axis of its section along x.
+/// let column = SpaceBeam::new([0, 1], concrete, section, [1.0, 0.0, 0.0])?;
+/// let mut stiffness = vec![0.0; 144];
+/// column.stiffness(&[[0.0; 3], [0.0, 0.0, 4.0]], &mut stiffness);
+/// let along_x = 12.0 * 30.0e9 * 0.9e-3 / 64.0; // 12 E I_z/L³
+/// assert!((stiffness[0] / along_x - 1.0).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpaceBeam {
+    nodes: [usize; 2],
+    orientation: [f64; 3],
+    /// From the nodes to the ends, m.
+    offsets: [[f64; 3]; 2],
+    releases: Releases,
+    /// E A, N.
+    axial_stiffness: f64,
+    /// G J, N m².
+    torsional_stiffness: f64,
+    /// Along y, then along z.
+    bending: [Bending; 2],
+    mass_per_length: f64,
+    force: AxialForce,
+}
+
+impl SpaceBeam {
+    /// Beam of a material and a section whose y axis lies in the plane of beam and `orientation`.
+    ///
+    /// The orientation is a vector in x, y, z of any length. The axes of the section matter even if both second
+    /// moments are equal, for releases and forces.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] and [`Error::Input`] for an orientation that is not finite or has no length, and for
+    /// stiffnesses that are too small or too large for a number. [`Mesh::add`](crate::fem::Mesh::add) returns an
+    /// error for a beam without length or along its orientation. All are in an [`Error::Item`] with the nodes.
+    pub fn new(
+        nodes: [usize; 2],
+        material: Material,
+        section: BeamSection,
+        orientation: [f64; 3],
+    ) -> Result<Self> {
+        Self::unnamed(nodes, material, section, orientation).map_err(|fault| named(nodes, fault))
+    }
+
+    fn unnamed(
+        nodes: [usize; 2],
+        material: Material,
+        section: BeamSection,
+        orientation: [f64; 3],
+    ) -> Result<Self> {
+        all_finite("orientation of the beam", &orientation)?;
+        positive("length of the beam's orientation", direction(orientation).0)?;
+        let [young, shear] = [material.young_modulus(), material.shear_modulus()];
+        let [about_y, about_z] = section.second_moments;
+        let bending = |second_moment: f64, axis: usize| -> Result<Bending> {
+            let shear_stiffness = section.shear_areas.map(|areas| shear * areas[axis]);
+            shear_stiffness.map(|k| positive("shear stiffness of the beam", k)).transpose()?;
+            Ok(Bending {
+                stiffness: positive("bending stiffness of the beam", young * second_moment)?,
+                shear_stiffness,
+                section_inertia: finite(
+                    "inertia of the section",
+                    material.density() * second_moment,
+                )?,
+                has_rotary_inertia: false,
+            })
+        };
+        let torsional_stiffness = shear * section.torsion_constant;
+        Ok(Self {
+            nodes,
+            orientation,
+            offsets: [[0.0; 3]; 2],
+            releases: Releases::default(),
+            axial_stiffness: positive("axial stiffness of the beam", young * section.area)?,
+            torsional_stiffness: positive("torsional stiffness of the beam", torsional_stiffness)?,
+            bending: [bending(about_z, 0)?, bending(about_y, 1)?],
+            mass_per_length: finite(
+                "mass per length of the beam",
+                material.density() * section.area,
+            )?,
+            force: AxialForce::default(),
+        })
+    }
+
+    /// Places the ends of the beam away from its nodes, by rigid arms from node to end (m, along x, y, z).
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] unless all are finite.
+    pub fn with_offsets(self, offsets: [[f64; 3]; 2]) -> Result<Self> {
+        all_finite("offsets of the beam", offsets.as_flattened())
+            .map_err(|fault| named(self.nodes, fault))?;
+        Ok(Self { offsets, ..self })
+    }
+
+    /// Releases the first (0) or second (1) end in `directions`, which are in the axes of the beam.
+    ///
+    /// Nothing holds the end in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending
+    /// along y. Adds to earlier releases. A lumped mass loses the entries of released directions.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for another end; [`Error::Scene`] for [`Direction::Rotation`], and for releases that leave
+    /// a mechanism: both ends along or about x, both ends along y or along z, and three of the four
+    /// displacements and rotations of bending along y or along z. All are in an [`Error::Item`] with the nodes.
+    pub fn with_releases(self, end: usize, directions: &[Direction]) -> Result<Self> {
+        let releases =
+            self.releases.and(end, directions).map_err(|fault| named(self.nodes, fault))?;
+        Ok(Self { releases, ..self })
+    }
+
+    /// Adds the rotary inertia ρ I of bending; the inertia of the torsion is always included.
+    #[must_use]
+    pub fn with_rotary_inertia(self) -> Self {
+        let bending = self.bending.map(|plane| Bending { has_rotary_inertia: true, ..plane });
+        Self { bending, ..self }
+    }
+
+    /// Makes the beam a beam–column with the constant axial force `compression`, N (negative for tension).
+    ///
+    /// As [`Beam::with_compression`](super::Beam::with_compression), in both planes. The rigid arms of offset
+    /// ends take part.
+    ///
+    /// # Errors
+    /// [`Error::Input`] unless it is finite.
+    pub fn with_compression(self, compression: f64) -> Result<Self> {
+        let compression = finite("axial force of the beam", compression)
+            .map_err(|fault| named(self.nodes, fault))?;
+        Ok(Self { force: AxialForce::given(compression), ..self })
+    }
+
+    /// Places of the ends in x, y and z, m; `None` unless there are two nodes.
+    fn ends(&self, coordinates: &[[f64; 3]]) -> Option<[[f64; 3]; 2]> {
+        let &[first, second] = coordinates else {
+            return None;
+        };
+        Some([add(first, 1.0, self.offsets[0]), add(second, 1.0, self.offsets[1])])
+    }
+
+    /// Axes of the beam; `None` for a beam that [`check`](Element::check) does not accept.
+    fn axes(&self, coordinates: &[[f64; 3]]) -> Option<Axes> {
+        Axes::new(self.ends(coordinates)?, self.orientation).ok()
+    }
+
+    /// Stiffness without releases.
+    fn local_stiffness(&self, length: f64) -> EndsMatrix {
+        let bending = self.bending.map(|plane| plane.stiffness(length));
+        let axial = bar::stiffness(self.axial_stiffness / length);
+        local(&axial, &bar::stiffness(self.torsional_stiffness / length), &bending)
+    }
+
+    /// Local displacements due to displacements of the nodes, with the releases.
+    fn to_local(&self, axes: &Axes) -> EndsMatrix {
+        let mut to_local = axes.to_local(&self.offsets);
+        self.releases.apply(self.local_stiffness(axes.length), &mut to_local);
+        to_local
+    }
+
+    /// Mass without releases.
+    fn local_mass(&self, kind: MassKind, length: f64) -> EndsMatrix {
+        let mass = self.mass_per_length * length;
+        let polar = self.bending[0].section_inertia + self.bending[1].section_inertia;
+        let bending = self.bending.map(|plane| plane.mass(kind, mass, length));
+        local(&bar::mass(kind, mass), &bar::mass(kind, polar * length), &bending)
+    }
+
+    /// Adds the second-order motion of the rigid arms that carry the force to the nodes.
+    fn add_arms(&self, axes: &Axes, matrix: &mut [f64]) {
+        let along = axes.axes[0];
+        let ends = [(0.0, -1.0), (1.0, 1.0)];
+        for (end, (arm, (place, sign))) in self.offsets.iter().zip(ends).enumerate() {
+            let force = -self.force.at(place) * sign;
+            for i in 0..3 {
+                for j in 0..3 {
+                    let trace = if i == j { dot(along, *arm) } else { 0.0 };
+                    let product = 0.5 * (along[i] * arm[j] + arm[i] * along[j]);
+                    let place = 12 * (6 * end + 3 + i) + 6 * end + 3 + j;
+                    if let Some(entry) = matrix.get_mut(place) {
+                        *entry += force * (product - trace);
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Element for SpaceBeam {
+    fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+
+    fn directions(&self) -> &[Direction] {
+        IN_SPACE
+    }
+
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        if let Some(axes) = self.axes(coordinates) {
+            add_transformed(&self.local_stiffness(axes.length), &self.to_local(&axes), matrix);
+        }
+    }
+
+    fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        let Some(axes) = self.axes(coordinates).filter(|_| !self.force.is_zero()) else {
+            return;
+        };
+        let none = [[0.0; 2]; 2];
+        let bending = self.bending.map(|plane| plane.geometric_stiffness(&self.force, axes.length));
+        let local = local(&none, &none, &bending);
+        add_transformed(&local, &self.to_local(&axes), matrix);
+        self.add_arms(&axes, matrix);
+    }
+
+    fn in_static_state(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        gravity: f64,
+    ) -> Option<Box<dyn Element>> {
+        let (axes, ends) = (self.axes(coordinates)?, self.ends(coordinates)?);
+        if self.force.is_given || displacement.len() != 12 {
+            return None;
+        }
+        let to_local = self.to_local(&axes);
+        let local =
+            |row: usize| to_local[row].iter().zip(displacement).map(|(a, b)| a * b).sum::<f64>();
+        // Displacements of the nodes are exact, so the compression is the mean over the length. The element's
+        // own weight makes it vary between the ends.
+        let force = AxialForce {
+            compression: -self.axial_stiffness / axes.length * (local(6) - local(0)),
+            taper: self.mass_per_length * gravity * (ends[1][2] - ends[0][2]),
+            is_given: false,
+        };
+        Some(Box::new(Self { force, ..self.clone() }))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        Some(self.force.compression)
+    }
+
+    /// Lumped: half the mass at each end, with the rotary inertia m L²/78, and half of the polar inertia.
+    ///
+    /// It is diagonal in the axes of the beam at its ends.
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
+        let Some(axes) = self.axes(coordinates) else {
+            return;
+        };
+        let mut local = self.local_mass(kind, axes.length);
+        let to_local = match kind {
+            MassKind::Consistent => self.to_local(&axes),
+            MassKind::Lumped => {
+                self.releases.clear(&mut local);
+                axes.to_local(&self.offsets)
+            }
+        };
+        add_transformed(&local, &to_local, matrix);
+    }
+
+    /// [`Error::Input`] in an [`Error::Item`] when the ends coincide or the orientation lies along the beam.
+    fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
+        same_length("coordinates of a beam", coordinates.len(), 2)?;
+        let ends = self.ends(coordinates).unwrap_or_default();
+        let axes = Axes::new(ends, self.orientation);
+        axes.map(drop).map_err(|fault| named(self.nodes, fault))
+    }
+}
+
+/// A fault of the beam between these nodes.
+fn named([first, second]: [usize; 2], fault: Error) -> Error {
+    fault.within(format!("beam between nodes {first} and {second}"))
+}
+
+/// Local matrix of displacements along x, rotations about x, and bending along y and along z.
+fn local(axial: &BarMatrix, torsion: &BarMatrix, bending: &[EndMatrix; 2]) -> EndsMatrix {
+    let mut matrix = [[0.0; 12]; 12];
+    put(axial, [0, 6], &mut matrix);
+    put(torsion, [3, 9], &mut matrix);
+    put(&bending[0], [1, 5, 7, 11], &mut matrix);
+    // The slope of a deflection along z is minus the rotation about y.
+    let signs = [1.0, -1.0, 1.0, -1.0];
+    let along_z = |i: usize| std::array::from_fn(|j| signs[i] * signs[j] * bending[1][i][j]);
+    put::<4, 12>(&std::array::from_fn(along_z), [2, 4, 8, 10], &mut matrix);
+    matrix
+}

@@ -1,0 +1,288 @@
+//! GOAL: stiffness, mass and geometric stiffness of single beams in space.
+//! SCENE: beams of any direction with offsets and releases.
+//! REFERENCE: the beam of the plane, rigid motions, closed forms.
+
+use basemat::fem::{Beam, BeamSection, Direction, Element, MassKind, Material, SpaceBeam};
+use basemat_problems::dense::eigenvalues;
+
+use super::{add, concrete, cross, inner, section, sheared};
+use crate::space_support::{CLAMPED, Part, RX, RY, RZ, Supported, X, Y, Z, near};
+
+const POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
+const OFFSETS: [[f64; 3]; 2] = [[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]];
+
+fn matrices(element: &dyn Element, points: &[[f64; 3]]) -> [Vec<f64>; 4] {
+    let [consistent, lumped] = [MassKind::Consistent, MassKind::Lumped].map(Part::Mass);
+    [Part::Stiffness, Part::GeometricStiffness, consistent, lumped]
+        .map(|part| part.of(element, points))
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// PROBLEM: beams of the plane x–z with the section's y axis across it. RESULT: the matrices of the
+/// plane's beam, and nothing between motions in the plane and out of it.
+#[test]
+fn a_beam_in_a_plane_is_the_beam_of_the_plane() {
+    const PLACES: [usize; 6] = [0, 2, 4, 6, 8, 10];
+    const SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+    for [[x0, z0], [x1, z1]] in
+        [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]]
+    {
+        let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)
+            .and_then(|beam| beam.with_shear_stiffness(12.5e9 * 0.1))
+            .unwrap()
+            .with_rotary_inertia();
+        let section = section().with_shear_areas([0.07, 0.1]).unwrap();
+        let beam = SpaceBeam::new([0, 1], concrete(), section, [0.0, 1.0, 0.0])
+            .unwrap()
+            .with_rotary_inertia();
+        let displacement = [1e-3, 2e-3, 1e-3, -2e-3, -1e-3, 3e-3];
+        let mut in_space = [0.0; 12];
+        for k in 0..6 {
+            in_space[PLACES[k]] = SIGNS[k] * displacement[k];
+        }
+        let flat_points = [[x0, z0, 0.0], [x1, z1, 0.0]];
+        let points = [[x0, 0.0, z0], [x1, 0.0, z1]];
+        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).unwrap();
+        let beam = beam.in_static_state(&points, &in_space, 50.0).unwrap();
+        near("compression", beam.compression().unwrap(), flat.compression().unwrap(), 1e-13);
+        for (flat, own) in matrices(&flat, &flat_points).iter().zip(matrices(&beam, &points)) {
+            let least = 1e-14 * largest(flat);
+            for i in 0..6 {
+                let row = &own[12 * PLACES[i]..];
+                for j in 0..6 {
+                    let value = SIGNS[i] * SIGNS[j] * row[PLACES[j]];
+                    assert!((value - flat[6 * i + j]).abs() <= least, "({i}, {j})");
+                    assert!(row[2 * j + 1].abs() <= least, "({i}, {j}) out of the plane");
+                }
+            }
+        }
+    }
+}
+
+/// PROBLEM: rotations of both nodes about any point. RESULT: the work of the axial force on the second-order
+/// motion of its ends, with taper and rigid arms, and whatever is released.
+#[test]
+fn an_axial_force_works_on_a_rigid_rotation() {
+    for released in [&[][..], &[RY, RZ], &[RX, RZ, Y], &[X], &CLAMPED] {
+        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+            .and_then(|beam| beam.with_offsets(OFFSETS))
+            .and_then(|beam| beam.with_releases(1, released))
+            .unwrap();
+        let ends = [0, 1].map(|k| add(POINTS[k], 1.0, OFFSETS[k]));
+        let way = add(ends[1], -1.0, ends[0]);
+        let length = inner(way, way).sqrt();
+        let along = way.map(|component| component / length);
+        let mut displacement = [0.0; 12];
+        displacement[6..9].copy_from_slice(&along.map(|component| -2e-3 * component));
+        let beam = beam.in_static_state(&POINTS, &displacement, 300.0).unwrap();
+        let force = beam.compression().unwrap();
+        let elastic = 30.0e9 * 0.12 / length * 2e-3;
+        let expected = if released.contains(&X) { 0.0 } else { elastic };
+        assert!((force - expected).abs() < 1e-12 * elastic, "{force}");
+        let taper = 2500.0 * 0.12 * 300.0 * way[2];
+        let matrix = Part::GeometricStiffness.of(&beam, &POINTS);
+        for (turn, centre) in
+            [([0.3, -0.5, 0.8], [1.0, 2.0, -3.0]), ([1.0, 0.2, 0.1], [0.0, 5.0, 0.0])]
+        {
+            let motion: Vec<f64> = POINTS
+                .iter()
+                .flat_map(|&point| [cross(turn, add(point, -1.0, centre)), turn].concat())
+                .collect();
+            let rows = matrix.chunks(12).zip(&motion);
+            let work = rows.map(|(row, value)| {
+                0.5 * value * row.iter().zip(&motion).map(|(a, b)| a * b).sum::<f64>()
+            });
+            let arms = add(
+                OFFSETS[1].map(|component| (force - 0.5 * taper) * component),
+                -(force + 0.5 * taper),
+                OFFSETS[0],
+            );
+            let across = add(turn, -inner(turn, along), along);
+            let exact = -0.5 * inner(along, cross(turn, cross(turn, arms)))
+                - 0.5 * force * length * inner(across, across);
+            let scale = elastic.max(taper);
+            assert!((work.sum::<f64>() - exact).abs() < 1e-13 * scale, "{exact}");
+        }
+    }
+}
+
+/// PROBLEM: offset beams with releases. RESULT: six rigid motions and one more motion for each release cause
+/// no force, and the mass of a translation is the whole mass.
+#[test]
+fn rigid_motions_cause_no_force() {
+    for released in [&[][..], &[RY], &[RY, RZ], &[X], &[RX, RZ, Y], &CLAMPED] {
+        let beam = SpaceBeam::new([0, 1], concrete(), sheared(), [1.0, 1.0, 0.2])
+            .and_then(|beam| beam.with_offsets(OFFSETS))
+            .and_then(|beam| beam.with_releases(1, released))
+            .unwrap()
+            .with_rotary_inertia();
+        let way = add(add(POINTS[1], 1.0, OFFSETS[1]), -1.0, add(POINTS[0], 1.0, OFFSETS[0]));
+        let length = inner(way, way).sqrt();
+        let [stiffness, _, mass, _] = matrices(&beam, &POINTS);
+        let scale = 30.0e9 * 0.12 / length;
+        for kind in 0..6 {
+            let unit = |k: usize| f64::from(u8::from(kind == k));
+            let turn = [unit(3), unit(4), unit(5)];
+            let shift = [unit(0), unit(1), unit(2)];
+            let motion: Vec<f64> = POINTS
+                .iter()
+                .flat_map(|&point| [add(cross(turn, point), 1.0, shift), turn].concat())
+                .collect();
+            for row in stiffness.chunks(12) {
+                let force: f64 = row.iter().zip(&motion).map(|(a, b)| a * b).sum();
+                assert!(force.abs() < 1e-13 * scale, "{released:?} {kind}: {force}");
+            }
+            if kind < 3 {
+                let momentum: f64 =
+                    (0..4).map(|k| mass[12 * (6 * (k / 2) + kind) + 6 * (k % 2) + kind]).sum();
+                near("mass", momentum, 2500.0 * 0.12 * length, 1e-12);
+            }
+        }
+        let unit = |i: usize| (0..12).map(|j| f64::from(u8::from(i == j))).collect();
+        let unit: Vec<Vec<f64>> = (0..12).map(unit).collect();
+        let rows: Vec<Vec<f64>> = stiffness.chunks(12).map(<[f64]>::to_vec).collect();
+        let values = eigenvalues(&rows, &unit);
+        let zeros = values.iter().filter(|value| value.abs() < 1e-9 * scale).count();
+        assert_eq!(zeros, 6 + released.len(), "{released:?}: {values:?}");
+        assert!(values[0] > -1e-13 * scale, "{values:?}");
+    }
+}
+
+/// PROBLEM: a cantilever hinged against a guide. RESULT: 3 EI/L³, softer by shear.
+#[test]
+fn a_hinge_carries_no_moment() {
+    for (section, ratio) in [(section(), 0.0), (sheared(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
+    {
+        let mut scene = Supported::new();
+        let ends = [[0.0; 3], [0.0, 0.0, 4.0]].map(|point| scene.node(point));
+        let beam = SpaceBeam::new(ends, concrete(), section, [1.0, 0.0, 0.0]).unwrap();
+        scene.add(beam.with_releases(1, &[RY, RZ]).unwrap());
+        scene.hold(0, &CLAMPED);
+        scene.hold(1, &[RX, RY, RZ]);
+        let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
+        near("hinged cantilever", scene.work(&[(1, X, 1.0)]), exact, 1e-12);
+    }
+}
+
+/// PROBLEM: the deep beam FV5 of the National Agency for Finite Element Methods and Standards (NAFEMS).
+/// RESULT: frequencies of bending, torsion and stretching of the table; they are 1e-3 from closed forms
+/// with 40 beams.
+#[test]
+fn a_deep_beam_vibrates_as_tabulated() {
+    let tables = [
+        (
+            5,
+            [
+                42.67461, 42.67461, 71.48922, 125.5147, 150.4251, 150.4251, 221.554, 300.0999,
+                300.0999,
+            ],
+        ),
+        (
+            10,
+            [
+                42.62453, 42.62453, 71.2693, 125.1285, 148.4263, 148.4263, 215.5696, 286.7565,
+                286.7565,
+            ],
+        ),
+    ];
+    let section = BeamSection::new(4.0, [4.0 / 3.0; 2], 2.24923)
+        .and_then(|section| section.with_shear_areas([10.0 / 3.0; 2]))
+        .unwrap();
+    let steel = Material::new(200.0e9, 0.3, 8000.0).unwrap();
+    for (count, table) in tables {
+        let mut scene = Supported::new();
+        for k in 0..=count {
+            scene.node([10.0 * k as f64 / count as f64, 0.0, 0.0]);
+        }
+        for k in 0..count {
+            let beam = SpaceBeam::new([k, k + 1], steel, section, [0.0, 1.0, 0.0]).unwrap();
+            scene.add(beam.with_rotary_inertia());
+        }
+        scene.hold(0, &[X, Y, Z, RX]);
+        scene.hold(count, &[Y, Z]);
+        for (found, value) in scene.frequencies(MassKind::Consistent, 9).iter().zip(table) {
+            near("FV5, Hz", *found, value, 2e-6);
+        }
+    }
+}
+
+/// PROBLEM: a cantilever 3 m × 4 m × 20 m with rotary inertia and shear. RESULT: frequencies of the table,
+/// 0.3 % from Timoshenko's closed form in two modes of each direction with the consistent mass.
+#[test]
+fn a_thick_cantilever_vibrates_as_timoshenko_says() {
+    let closed = [4.128_065, 5.436_274, 23.67972, 29.49179];
+    let section = BeamSection::new(12.0, [16.0, 9.0], 20.0)
+        .and_then(|section| section.with_shear_areas([10.0; 2]))
+        .unwrap();
+    for (kind, table) in [
+        (MassKind::Consistent, [4.128_245, 5.436_675, 23.7123, 29.55256, 59.8951, 71.38831]),
+        (MassKind::Lumped, [4.096_018, 5.395_115, 23.05549, 28.77253, 56.83891, 67.75244]),
+    ] {
+        let mut scene = Supported::new();
+        for k in 0..9 {
+            scene.node([0.0, 0.0, 2.5 * k as f64]);
+            scene.hold(k, if k == 0 { &CLAMPED } else { &[Z, RZ] });
+        }
+        for k in 0..8 {
+            let beam = SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap();
+            scene.add(beam.with_rotary_inertia());
+        }
+        let found = scene.frequencies(kind, 6);
+        for (found, value) in found.iter().zip(table) {
+            near("cantilever, Hz", *found, value, 1e-6);
+        }
+        if kind == MassKind::Consistent {
+            for (found, value) in found.iter().zip(closed) {
+                near("Timoshenko, Hz", *found, value, 3e-3);
+            }
+        }
+    }
+}
+
+/// PROBLEM: the straight and the twisted cantilever of `MacNeal` & Harder (1985). RESULT: displacements of the
+/// tables.
+#[test]
+fn cantilevers_deflect_as_tabulated() {
+    let rectangle = |along_y: f64, along_z: f64, torsion: f64| {
+        let area = along_y * along_z;
+        let moments = [area * along_z * along_z / 12.0, area * along_y * along_y / 12.0];
+        BeamSection::new(area, moments, torsion)
+            .and_then(|section| section.with_shear_areas([5.0 / 6.0 * area; 2]))
+            .unwrap()
+    };
+    let tip = |material: Material, section: BeamSection, length: f64, count: usize, turn: f64| {
+        let mut scene = Supported::new();
+        for k in 0..=count {
+            scene.node([length * k as f64 / count as f64, 0.0, 0.0]);
+        }
+        for k in 0..count {
+            let angle: f64 = turn * (k as f64 + 0.5) / count as f64;
+            let orientation = [0.0, angle.cos(), angle.sin()];
+            scene.add(SpaceBeam::new([k, k + 1], material, section, orientation).unwrap());
+        }
+        scene.hold(0, &CLAMPED);
+        move |direction: Direction| scene.work(&[(count, direction, 1.0)])
+    };
+    for count in [1, 6] {
+        let material = Material::new(1.0e7, 0.3, 0.0).unwrap();
+        let tip = tip(material, rectangle(0.2, 0.1, 4.58e-5), 6.0, count, 0.0);
+        let torsion = 6.0 / (1.0e7 / 2.6 * 4.58e-5);
+        for (direction, value) in [(X, 3e-5), (Y, 0.108_093_6), (Z, 0.432_093_6), (RX, torsion)] {
+            near("straight cantilever", tip(direction), value, 1e-7);
+        }
+    }
+    // The torsion constant matters little: the load bends.
+    let torsion = 1.1 * 0.32_f64.powi(3) / 3.0 * (1.0 - 0.63 * 0.32 / 1.1);
+    for (count, [along, across]) in
+        [(12, [5.424_036e-3, 1.754_909e-3]), (96, [5.429_239e-3, 1.749_705e-3])]
+    {
+        let material = Material::new(2.9e7, 0.22, 0.0).unwrap();
+        let section = rectangle(1.1, 0.32, torsion);
+        let tip = tip(material, section, 12.0, count, std::f64::consts::FRAC_PI_2);
+        near("twisted cantilever, along its width", tip(Z), along, 1e-6);
+        near("twisted cantilever, across", tip(Y), across, 1e-6);
+    }
+}

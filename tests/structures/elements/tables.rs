@@ -1,0 +1,110 @@
+//! GOAL: matrices of beams and bricks in space.
+//! SCENE: beams with taper, offsets and releases; a cube, a parallelepiped and a distorted brick.
+//! REFERENCE: `tests/data/elements`, from an independent program.
+
+use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
+
+use super::{concrete, sheared};
+use crate::space_support::{Part, RY, RZ};
+
+const CUBE: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [0.0, 1.0, 1.0],
+];
+const PARALLELEPIPED: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [1.409_657, -0.350_151, -1.374_868],
+    [1.150_313, 0.488_236, -1.854_294],
+    [-0.259_343, 0.838_387, -0.479_426],
+    [0.330_136, 0.258_097, 0.272_757],
+    [1.739_792, -0.092_054, -1.102_111],
+    [1.480_449, 0.746_333, -1.581_537],
+    [0.070_792, 1.096_484, -0.206_669],
+];
+const DISTORTED: [[f64; 3]; 8] = [
+    [0.12, -0.12, 0.06],
+    [1.152, 0.036, 0.12],
+    [1.2, 1.12, -0.12],
+    [0.096, 1.024, 0.036],
+    [-0.12, -0.084, 1.548],
+    [1.236, -0.024, 1.428],
+    [1.26, 1.108, 1.512],
+    [-0.024, 1.072, 1.392],
+];
+
+/// Compares the matrices of an element with a table of their upper triangles.
+fn compare(table: &str, element: &dyn Element, points: &[[f64; 3]]) {
+    element.check(points).unwrap();
+    let order = element.order();
+    for (name, part) in [
+        ("stiffness", Part::Stiffness),
+        ("geometric_stiffness", Part::GeometricStiffness),
+        ("mass", Part::Mass(MassKind::Consistent)),
+        ("lumped_mass", Part::Mass(MassKind::Lumped)),
+    ] {
+        let mut reference = vec![0.0_f64; order * order];
+        for line in table.lines().skip(1) {
+            let [matrix, row, column, value] = line.split(',').collect::<Vec<_>>()[..] else {
+                panic!("{line}")
+            };
+            if matrix == name {
+                let [row, column]: [usize; 2] = [row, column].map(|index| index.parse().unwrap());
+                reference[row * order + column] = value.parse().unwrap();
+                reference[column * order + row] = value.parse().unwrap();
+            }
+        }
+        let own = part.of(element, points);
+        let scale = reference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let pairs = own.iter().zip(&reference);
+        let error = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        println!("{name}: {error:e} of {scale:e}");
+        assert!(error <= 1e-13 * scale, "{name}: {error:e} of {scale:e}");
+    }
+}
+
+fn beam(orientation: [f64; 3]) -> SpaceBeam {
+    SpaceBeam::new([0, 1], concrete(), sheared(), orientation).unwrap().with_rotary_inertia()
+}
+
+#[test]
+fn beams_have_the_matrices_of_the_tables() {
+    let level = [[0.0; 3], [4.0, 0.0, 0.0]];
+    let table = include_str!("../../data/elements/matrices_beam3d_1.csv");
+    compare(table, &beam([0.0, 0.0, 1.0]), &level);
+
+    // 2.5 MN from a shortening, and 0.4 MN more below from gravity.
+    let along = [1.5, -1.0, 3.0];
+    let strain = 2.5e6 / (30.0e9 * 0.12);
+    let mut displacement = [0.0; 12];
+    displacement[6..9].copy_from_slice(&along.map(|component| -strain * component));
+    let gravity = 0.4e6 / (2500.0 * 0.12 * along[2]);
+    let points = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
+    let compressed = beam([1.0, 1.0, 0.0]).in_static_state(&points, &displacement, gravity);
+    let table = include_str!("../../data/elements/matrices_beam3d_2.csv");
+    compare(table, &compressed.unwrap(), &points);
+
+    let hinged = beam([1.0, 0.0, 0.0])
+        .with_compression(1.0e6)
+        .and_then(|beam| beam.with_offsets([[0.0, 0.0, 0.4], [0.1, -0.2, -0.3]]))
+        .and_then(|beam| beam.with_releases(1, &[RY, RZ]));
+    let table = include_str!("../../data/elements/matrices_beam3d_3.csv");
+    compare(table, &hinged.unwrap(), &[[0.0; 3], [0.0, 0.0, 4.0]]);
+}
+
+#[test]
+fn bricks_have_the_matrices_of_the_tables() {
+    for (poisson, points, table) in [
+        (0.2, CUBE, include_str!("../../data/elements/matrices_hex8_1.csv")),
+        (0.2, PARALLELEPIPED, include_str!("../../data/elements/matrices_hex8_2.csv")),
+        (0.3, DISTORTED, include_str!("../../data/elements/matrices_hex8_3.csv")),
+    ] {
+        let material = Material::new(30.0e9, poisson, 2500.0).unwrap();
+        compare(table, &Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material), &points);
+    }
+}
