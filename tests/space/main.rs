@@ -12,6 +12,7 @@ mod march;
 mod mast;
 mod motions;
 mod pictures;
+mod raft;
 mod random;
 mod refused;
 mod results;
