@@ -123,9 +123,11 @@ impl ElasticGround {
     /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers; [`Error::Memory`](crate::Error::Memory) for
     /// more cells than their matrices allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
-        let (elements, unions) = (plan.elements(), plan.unions());
+        let elements = plan.elements();
         check_count(elements.len(), SPACE)?;
         let source = ElasticSource::new(profile.into(), Some(plan))?;
+        let unions = source.plan.as_ref().map(|own| own.unions(&source.profile, source.tolerance));
+        let unions = unions.transpose()?.flatten();
         let ground = WeightsGround::with_unions(source.clone(), elements, unions);
         Ok(Self { source, used: None, ground })
     }
@@ -304,7 +306,7 @@ impl Ground for ElasticGround {
         let mut matrix = vec![0.0; (4 * SPACE * self.elements().len()).pow(2)];
         let (profile, tolerance) = (&source.profile, source.tolerance);
         let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);
-        match plan.unions() {
+        match plan.unions(profile, tolerance)? {
             Some(unions) => unions.reduce(&mut matrix, find)?,
             None => find(&mut matrix)?,
         }
@@ -317,6 +319,7 @@ impl Ground for ElasticGround {
         GroundDescription {
             soils: self.profile().soils().map(|(soil, _)| soil).collect(),
             sampled_cells: self.source.plan.as_ref().and_then(gate_sample),
+            outline_error: self.source.plan.as_ref().map_or(0.0, Plan::outline_error),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

@@ -174,6 +174,10 @@ pub struct GroundDescription {
     /// If only a sample is checked, a run warns:
     /// [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     pub sampled_cells: Option<[usize; 2]>,
+    /// Estimated relative error of a rigid mat's rocking stiffness by an oblique outline; zero without one.
+    ///
+    /// Above 1 % a run warns: [`Warning::ObliqueOutline`](crate::coupled::Warning::ObliqueOutline).
+    pub outline_error: f64,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,
 }

@@ -59,10 +59,10 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Faces that overlap, or that the cells do not cover.
+    /// Faces that overlap.
     #[error(
-        "cells inside the faces have an area of {} m2, but the faces one of {} m2: they overlap, or are too narrow for \
-         cells of {} m x {} m (at most a tenth may be missing)",
+        "cells inside the faces have an area of {} m2, but the faces together one of {} m2: the faces overlap, or are \
+         too narrow for cells of {} m x {} m (at most 1 % may differ)",
         short(*cells),
         short(*faces),
         short(pitch[0]),

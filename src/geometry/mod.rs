@@ -1,12 +1,14 @@
 //! Geometry: contact elements and the order of their numbers, cells of a lattice, directions, and shapes of
 //! foundations.
 
+mod circle;
 mod direction;
 mod element;
 mod footing;
 mod lattice;
 mod patch;
 
+pub(crate) use circle::circle;
 pub use direction::Direction;
 pub(crate) use direction::{FRAME, IN_SPACE, TRANSLATIONS};
 pub use element::ContactElement;
@@ -111,6 +113,25 @@ pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
 /// The smallest and the largest value.
 pub(crate) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
     far_ends(values.map(|value| [value; 2]))
+}
+
+/// Distance between two ends that counts as rounding, relative to the interval.
+const ROUNDING: f64 = 1e-9;
+
+/// Number of intervals in a row: the fewest that lead from the first end to the last.
+pub(crate) fn in_a_row(mut ends: Vec<[f64; 2]>) -> usize {
+    ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
+    let (mut count, mut end, mut reach, mut rounding) =
+        (0, f64::NEG_INFINITY, f64::NEG_INFINITY, 0.0);
+    for [low, high] in ends {
+        rounding = ROUNDING * (high - low);
+        if low > end + rounding {
+            count += 1;
+            end = if low > reach + rounding { high } else { reach };
+        }
+        reach = reach.max(high);
+    }
+    count + usize::from(reach > end + rounding)
 }
 
 /// The middle between two ends.

@@ -16,5 +16,6 @@ mod passivity;
 mod plan_cells;
 mod plan_ground;
 mod plan_impedances;
+mod plan_outlines;
 mod site_response;
 mod site_round_trip;

@@ -1,12 +1,12 @@
 //! GOAL: cells lie where faces are, and what cannot be covered says so.
-//! SCENE: rectangles, an L, discs, masks, several mats; faces and numbers that make no mat.
-//! REFERENCE: areas and counts by hand.
+//! SCENE: rectangles, an L, a triangle, discs, masks, several mats; faces and numbers that make no mat.
+//! REFERENCE: areas, centres and counts by hand.
 
 use std::ops::ControlFlow;
 
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
-use basemat::bem::{GroundError, PlanError};
+use basemat::bem::{ElasticGround, Ground, GroundError, PlanError};
 use basemat::soil::SoilProfile;
 use basemat::{Error, Soil, unobserved};
 
@@ -49,20 +49,36 @@ fn rectangles_reach_beyond_their_outline() {
     assert_eq!((found.count(), found.middle()), (88, [12.0, 4.0]));
 }
 
-/// Inner edges go to the nearest line, half a cell at most.
+/// Area inside the outline, and its centre: of an L, a triangle, a turned square and a disc.
 #[test]
-fn ells_lose_little_area() {
-    for cells in [8, 16, 32] {
-        for notch in [0.3, 0.5, 0.62] {
-            let faces = [
-                rectangle([0.0, 3.0], [0.0, 1.0]),
-                rectangle([0.0, 3.0 - 2.0 * notch], [1.0, 2.0]),
-            ];
-            let plan = Plan::on_faces(&faces, cells).unwrap();
-            let whole = 6.0 - 2.0 * notch;
-            let most = 0.5 * (plan.pitch()[0] + 2.0 * plan.pitch()[1]) / whole;
-            let error = plan.area_error();
-            assert!(error.abs() < most && error != 0.0, "{cells} {notch} {error}");
+fn cut_cells_have_the_area_and_the_centre_of_their_outline() {
+    let ell = [rectangle([0.0, 3.0], [0.0, 1.0]), rectangle([0.0, 1.76], [1.0, 2.0])];
+    let triangle = [vec![[0.0, 0.0], [3.0, 1.0], [1.0, 2.5]]];
+    let square = [vec![[1.0, 0.0], [2.2, 1.0], [1.2, 2.2], [0.0, 1.2]]];
+    let center = [(3.0 * 1.5 + 1.76 * 0.88) / 4.76, (3.0 * 0.5 + 1.76 * 1.5) / 4.76];
+    for cells in [3, 4, 5, 6, 7, 8, 11, 16, 24] {
+        for (plan, area, center) in [
+            (Plan::on_faces(&ell, cells).unwrap(), 4.76, center),
+            (Plan::on_faces(&triangle, cells).unwrap(), 3.25, [4.0 / 3.0, 3.5 / 3.0]),
+            (Plan::on_faces(&square, cells).unwrap(), 2.44, [1.1, 1.1]),
+            (Plan::disc([1.0, 2.0], 3.0, cells).unwrap(), 9.0 * std::f64::consts::PI, [1.0, 2.0]),
+        ] {
+            assert!(plan.area_error().abs() < 1e-9, "{cells} {}", plan.area_error());
+            let size = area.sqrt() / cells as f64;
+            for (plan, most) in [(plan.clone(), 0.06), (plan.without_overhang().unwrap(), 0.02)] {
+                let soil = Soil::new(1.0, 0.3, 1.0).unwrap();
+                let ground = ElasticGround::in_plan(soil, plan).unwrap();
+                let mut sums = [0.0; 3];
+                for element in ground.elements() {
+                    let (own, [x, y, _]) = (element.area(), element.center());
+                    [1.0, x, y].iter().zip(&mut sums).for_each(|(x, sum)| *sum += own * x);
+                }
+                assert!((sums[0] / area - 1.0).abs() < 1e-9, "{cells} {area} {}", sums[0]);
+                for axis in 0..2 {
+                    let error = (sums[1 + axis] / sums[0] - center[axis]) / size;
+                    assert!(error.abs() < most, "{cells} {area} {axis}: {error} cells");
+                }
+            }
         }
     }
 }
@@ -70,15 +86,13 @@ fn ells_lose_little_area() {
 #[test]
 fn discs_and_masks_are_their_cells() {
     let disc = Plan::disc([1.0, 2.0], 3.0, 20).unwrap();
-    let [a, b] = disc.pitch();
-    assert!((a * b * disc.count() as f64 / 9.0 - std::f64::consts::PI).abs() < 1e-12);
     assert!(disc.middle().iter().zip([1.0, 2.0]).all(|(x, y)| (x - y).abs() < 1e-12));
-    assert_eq!(disc.clone().without_overhang().unwrap(), disc);
     // A ring in a mask with an empty margin.
     let text = ".....\n.###.\n.#.#.\n.###.\n.....";
     let mask: Vec<bool> = text.lines().flat_map(str::chars).map(|c| c == '#').collect();
     let ring = Plan::masked([0.0; 2], [2.0, 1.0], 5, &mask).unwrap();
     assert_eq!((ring.count(), ring.middle(), ring.area_error()), (8, [5.0, 2.5], 0.0));
+    assert_eq!(ring.clone().without_overhang().unwrap(), ring);
 }
 
 #[test]

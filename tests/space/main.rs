@@ -11,6 +11,7 @@ mod limits;
 mod march;
 mod mast;
 mod motions;
+mod outlines;
 mod pictures;
 mod raft;
 mod random;

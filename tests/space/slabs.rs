@@ -292,3 +292,30 @@ fn a_slab_gets_as_many_cells_as_faces() {
     assert_eq!(Plan::under(&fine, 12).unwrap().count(), 31 * 31);
     assert_eq!(Plan::under(&fine, 40).unwrap().count(), 40 * 40);
 }
+
+/// A soft plate under its own weight sinks as the soil under a uniform pressure q does: 1.1222 q B (1 − ν)/(2G) in the
+/// middle (Boussinesq), for D/(G B³) of 1e-6 and 1e-7.
+#[test]
+fn soft_plates_sink_as_a_uniform_pressure_does() {
+    let soil = Slab::soil();
+    for thickness in [0.036_9, 0.017_14] {
+        let errors = [8, 12, 16].map(|count| {
+            let slab = Slab { side: 12.0, count, thickness, columns: vec![] };
+            let stiffness = soil.shear_modulus() * slab.side.powi(3);
+            let rigidity = slab.rigidity() / stiffness;
+            assert!((1e7 * rigidity - 10.0).abs() < 0.1 || (1e7 * rigidity - 1.0).abs() < 0.01);
+            let model = slab.model().unwrap();
+            let ground = ElasticGround::under(soil, &model, count).unwrap();
+            let simulation = Simulation::builder(0.01).structure(model).ground(ground);
+            let simulation = simulation.interface(Coulomb::new(0.5).unwrap()).build().unwrap();
+            let pressure = thickness * Slab::DENSITY * 9.806_65;
+            let found = -simulation.static_displacement()[slab.dof([count / 2; 2])];
+            let wanted = 1.1222 * pressure * slab.side * (1.0 - soil.poisson())
+                / (2.0 * soil.shear_modulus());
+            found / wanted - 1.0
+        });
+        println!("{thickness}: {errors:.4?}");
+        assert!(errors.iter().all(|error| error.abs() < 0.03), "{errors:?}");
+        assert!(errors.is_sorted_by(|one, other| other.abs() <= one.abs()), "{errors:?}");
+    }
+}

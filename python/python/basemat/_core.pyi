@@ -390,8 +390,9 @@ class Strip:
 
 @final
 class Plan:
-    """Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
+    """Square cells of contact under a mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
     cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
+    Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
     """
 
     def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
@@ -421,7 +422,7 @@ class Plan:
         ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
         """
     def without_overhang(self) -> Plan:
-        """The plan with cells that end where the faces do: for springs, and for given pressures."""
+        """The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces."""
     @property
     def pitch(self) -> list[float]:
         """Sides of a cell along x and y, m."""

@@ -10,8 +10,9 @@ use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;
 use crate::ticker::watched;
 
-/// Square cells of contact under a rigid mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
+/// Square cells of contact under a mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
 /// cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
+/// Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
 pub(crate) struct PyPlan(pub(super) Plan);
@@ -92,7 +93,7 @@ impl PyPlan {
         Ok(Self(self.0.clone().with_unions(&along, &across).or_raise()?))
     }
 
-    /// The plan with cells that end where the faces do: for springs, and for given pressures.
+    /// The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces.
     fn without_overhang(&self) -> PyResult<Self> {
         Ok(Self(self.0.clone().without_overhang().or_raise()?))
     }

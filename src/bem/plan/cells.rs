@@ -3,29 +3,31 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use super::faces::{Face, apart, mat_by_mat, owners};
+use super::faces::{Face, apart, mat_by_mat};
+use super::outline::{Cut, Grid, cut, error};
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
-use crate::geometry::{ContactElement, Lattice};
+use crate::geometry::{ContactElement, Lattice, circle, middle};
 use crate::history::PairClasses;
-use crate::structure::{Base, BaseNode, Structure};
 
 /// Overhang of outer cells beyond the outline, as a fraction of their side: see [`Plan`].
-const OVERHANG: f64 = 0.105;
-/// Largest fraction of the area that the cells may lack.
-const MISSING: f64 = 0.1;
-/// Largest number of cells to which the number under flexible faces is raised.
-const MOST_RAISED: f64 = 1000.0;
+pub(super) const OVERHANG: f64 = 0.105;
+/// Largest relative difference of the areas of faces and cells.
+const MISSING: f64 = 0.01;
 /// Memory for a cell, bytes.
 const CELL: f64 = 1000.0;
 /// Relative difference of sides that counts as rounding.
 const ROUNDING: f64 = 1e-12;
+/// Part of a union's rectangle beside its cells that counts as rounding.
+const FILLED: f64 = 1e-9;
 
-/// Cells of one lattice under one or several rigid mats.
+/// Cells of one lattice under one or several mats.
 ///
-/// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a mat with
-/// straight edges extend 0.105 of their side beyond its outline: piecewise constant tractions under a rigid base act
-/// like a mat whose edge lies this far inside. This removes at least 0.9 of the error, of first order in the cells.
+/// x points to the right, y away from the reader. Tractions are constant over each cell. Outer cells of a rigid mat
+/// with edges along x and y extend 0.105 of their side beyond its outline: piecewise constant tractions under a rigid
+/// base act like a mat whose edge lies this far inside. This removes at least 0.9 of the error, of first order in the
+/// cells. Other edges cut cells. The contact element of a cut cell is a rectangle with the area inside the outline
+/// about its centre of area, and a spring makes the soil under it softer as the area is smaller.
 ///
 /// ```
 /// use basemat::bem::plan::Plan;
@@ -47,7 +49,11 @@ pub struct Plan {
     /// Faces of the outline, and number of cells along its shorter side; empty for discs and masks.
     faces: (Vec<Face>, usize),
     /// Contact element of each cell; `None` if each cell is one.
-    owners: Option<Vec<usize>>,
+    pub(super) owners: Option<Vec<usize>>,
+    /// Each cell at the outline; empty if no cell is cut.
+    pub(super) cuts: Vec<Cut>,
+    /// Estimated relative error of a rigid mat's rocking stiffness by oblique edges.
+    error: f64,
 }
 
 impl Plan {
@@ -65,8 +71,7 @@ impl Plan {
     /// Cells under some faces, with `cells` along the shorter side of all.
     ///
     /// Faces are convex polygons, each given by its corners (m) in either order. Faces that share a corner, or have
-    /// one on the other's edge, form one mat; between mats there is at least one empty cell. Edges inside the bounding
-    /// rectangle, such as in an L, move to the nearest line between cells: see [`Plan::area_error`].
+    /// one on the other's edge, form one mat; between mats there is at least one empty cell.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
@@ -78,7 +83,7 @@ impl Plan {
         Self::covering(faces?, cells, OVERHANG)
     }
 
-    /// A disc of the cells of a `cells` × `cells` square whose centres lie on it, scaled to the same area.
+    /// A disc, as a polygon of the same area, with `cells` along its diameter.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells, or a centre or radius not finite and positive; [`Error::Memory`].
@@ -86,16 +91,8 @@ impl Plan {
         finite("x of the centre of a disc", center[0])?;
         finite("y of the centre of a disc", center[1])?;
         positive("radius of a disc", radius)?;
-        check_count(cells, [cells; 2])?;
-        let middle = 0.5 * cells as f64;
-        let from = |n: usize| n as f64 + 0.5 - middle;
-        let inside = |place: usize| {
-            from(place % cells).hypot(from(place / cells)) <= middle * (1.0 + ROUNDING)
-        };
-        let mask: Vec<bool> = (0..cells * cells).map(inside).collect();
-        let count = mask.iter().filter(|on| **on).count();
-        let side = radius * (std::f64::consts::PI / count as f64).sqrt();
-        Self::masked(center.map(|x| x - middle * side), [side; 2], cells, &mask)
+        let corners = circle(radius).map(|[x, y]| [center[0] + x, center[1] + y]);
+        Self::on_faces(&[corners.collect()], cells)
     }
 
     /// Cells with sides `pitch` (m) where `mask` is true.
@@ -130,16 +127,17 @@ impl Plan {
         let [Some([left, right]), Some([front, back])] = [0, 1].map(range) else {
             return Err(PlanError::NoCells { mat: 0, pitch }.into());
         };
-        let counts = [right + 1 - left, back + 1 - front];
         let area = pitch[0] * pitch[1] * cells.len() as f64;
         Ok(Self {
             corner: [corner[0] + pitch[0] * left as f64, corner[1] + pitch[1] * front as f64],
             cells: mat_by_mat(&cells).into_iter().map(|[i, j]| [i - left, j - front]).collect(),
-            lattice: Lattice { pitch, counts },
+            lattice: Lattice { pitch, counts: [right + 1 - left, back + 1 - front] },
             overhang: 0.0,
             area,
             faces: (vec![], 0),
             owners: None,
+            cuts: vec![],
+            error: 0.0,
         })
     }
 
@@ -158,15 +156,22 @@ impl Plan {
     ///
     /// # Errors
     /// [`Error::Size`] for numbers that do not sum up to the columns or rows; [`Error::Input`] for a rectangle that is
-    /// not wholly on the mat, and for outermost elements wider than a cell: the mat's edge would be theirs.
+    /// not wholly on the mat or that an oblique edge cuts, and for outermost elements wider than a cell: the mat's edge
+    /// would be theirs.
     pub fn with_unions(self, along: &[usize], across: &[usize]) -> Result<Self> {
         let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
-        Ok(Self { owners, ..self })
+        let plan = Self { owners, ..self };
+        for ([_, area], element) in plan.areas().into_iter().zip(plan.elements()) {
+            let [length, depth] = element.sides();
+            let ratio = area / (length * depth);
+            require("part of a union's rectangle in its cells", ratio, ratio > 1.0 - FILLED, "1")?;
+        }
+        Ok(plan)
     }
 
     /// Cuts the cells of the edge off at the outline.
     ///
-    /// Exact for given pressures and on springs; for a rigid mat on soil an error of first order. No effect on discs.
+    /// Exact for given pressures and on springs; for a rigid mat on soil an error of first order. No effect on masks.
     ///
     /// # Errors
     /// [`Error::Scene`] for a plan with unions, whose cells would change; as for [`Plan::on_faces`].
@@ -184,51 +189,7 @@ impl Plan {
         Self::covering(faces, cells, 0.0)
     }
 
-    /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
-    ///
-    /// Under flexible faces there are at least as many cells as faces (two triangles count as one), since between cells
-    /// only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more causes
-    /// an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
-    ///
-    /// # Errors
-    /// As for [`Plan::on_faces`].
-    pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
-        let Base::Faces(bodies) = structure.base() else {
-            return Self::on_faces(&[], cells);
-        };
-        let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
-        let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
-        let faces = corners.iter().enumerate().map(|(number, own)| Face::new(number, own));
-        let faces = faces.collect::<Result<Vec<_>>>()?;
-        check_faces(faces.len())?;
-        let mats = Face::mats(&faces);
-        let mut most = cells;
-        for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
-            let own = || (0..mats.len()).filter(|face| mats[*face] == mat);
-            let nodes: Vec<_> = own().flat_map(|face| bodies[face].iter().cloned()).collect();
-            if cells > 1 && !BaseNode::are_flat(&nodes) {
-                let pieces: f64 = own().map(|face| 0.5 * (corners[face].len() as f64 - 2.0)).sum();
-                let area = own().map(|face| faces[face].area()).sum::<f64>();
-                let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
-                let along = sides[0].min(sides[1]) * f64::sqrt(pieces / area);
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-                let along = (along * (1.0 - 1e-9)).ceil() as usize;
-                let ratio = sides[0].max(sides[1]) / sides[0].min(sides[1]);
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-                let limit = (MOST_RAISED / ratio).sqrt() as usize;
-                most = most.max(along.min(limit));
-            }
-        }
-        Self::covering(faces, most, OVERHANG)
-    }
-
-    /// Cells under the faces of a structure; `None` for a structure in the plane.
-    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
-        let is_in_plan = matches!(structure.base(), Base::Faces(_));
-        is_in_plan.then(|| Self::under(structure, cells)).transpose()
-    }
-
-    fn covering(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
+    pub(super) fn covering(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
         let shorter = sides[0].min(sides[1]);
@@ -248,17 +209,19 @@ impl Plan {
             middle - 0.5 * pitch[axis] * counts[axis] as f64
         });
         let mats = Face::mats(&faces);
-        let owners = owners(&faces, &mats, [corner, pitch], counts, overhang)?;
+        let (owners, mut found) = cut(&faces, &mats, Grid { corner, pitch, counts }, overhang);
         apart(&owners, counts[0], pitch)?;
-        for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
-            if !owners.contains(&Some(mat)) {
-                return Err(PlanError::NoCells { mat, pitch }.into());
-            }
+        if let Some(mat) = found.iter().position(|(cells, _)| cells.is_empty()) {
+            return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        let mask: Vec<bool> = owners.iter().map(Option::is_some).collect();
+        let error = if overhang > 0.0 { error(&faces, &mats, pitch) } else { 0.0 };
+        found.sort_by_key(|(cells, _)| cells.first().map(|[i, j]| [*j, *i]));
+        let (own, cuts): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         let area = faces.iter().map(Face::area).sum();
-        let plan = Self::masked(corner, pitch, counts[0], &mask)?;
-        let plan = Self { overhang, area, faces: (faces, cells), ..plan };
+        let (cells, cuts, faces) = (own.concat(), cuts.concat(), (faces, cells));
+        let lattice = Lattice { pitch, counts };
+        let plan =
+            Self { lattice, cells, corner, overhang, area, faces, owners: None, cuts, error };
         let found: f64 = plan.inside().iter().sum();
         if (found - area).abs() > MISSING * area {
             return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
@@ -282,9 +245,14 @@ impl Plan {
         [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
     }
 
-    /// Relative error of the area inside the outline, due to inner edges that lie between cell lines.
+    /// Relative error of the area inside the outline, due to faces that overlap.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
+    }
+
+    /// Estimated relative error of a rigid mat's rocking stiffness by an oblique outline.
+    pub(in crate::bem) fn outline_error(&self) -> f64 {
+        self.error
     }
 
     /// Pairs of the cells.
@@ -303,47 +271,66 @@ impl Plan {
         let Lattice { pitch, counts } = &self.lattice;
         let lattice = Lattice { pitch: pitch.map(|x| 0.5 * x), counts: counts.map(|n| 2 * n) };
         let owners = Some(owners);
-        Self { lattice, cells, overhang: 0.0, faces: (vec![], 0), owners, ..self.clone() }
+        let cuts = self.cuts.iter().flat_map(|cut| vec![cut.clone(); 4]).collect();
+        Self { lattice, cells, overhang: 0.0, faces: (vec![], 0), owners, cuts, ..self.clone() }
     }
 
-    /// Contact elements of several cells; `None` if each cell is one.
-    pub(in crate::bem) fn unions(&self) -> Option<Unions> {
-        self.owners.as_deref().map(Unions::new)
+    /// Ends of a cell's contact element along x and y, m.
+    pub(super) fn ends(&self, cell: usize) -> [[f64; 2]; 2] {
+        if let Some(cut) = self.cuts.get(cell) {
+            return cut.ends;
+        }
+        [0, 1].map(|axis| {
+            [0, 1].map(|end| {
+                self.corner[axis] + self.lattice.pitch[axis] * (self.cells[cell][axis] + end) as f64
+            })
+        })
+    }
+
+    /// Centre of a cell's contact element from the middle of the plan, m.
+    pub(super) fn arms(&self, cell: usize) -> [f64; 2] {
+        let (Lattice { pitch, counts }, place) = (&self.lattice, self.cells[cell]);
+        [0, 1].map(|axis| {
+            let whole = 2.0 * place[axis] as f64 + 1.0 - counts[axis] as f64;
+            let cut = self.cuts.get(cell).map(|cut| middle(cut.ends[axis]) - self.middle()[axis]);
+            cut.unwrap_or(0.5 * whole * pitch[axis])
+        })
+    }
+
+    /// Compliance in series with a cell, relative to the cell's own.
+    pub(super) fn softness(&self, cell: usize) -> f64 {
+        self.cuts.get(cell).map_or(0.0, |cut| cut.softness)
     }
 
     /// The contact elements.
     pub(in crate::bem) fn elements(&self) -> Vec<ContactElement> {
-        let ends = |axis: usize, cell: &[usize; 2]| {
-            [0, 1]
-                .map(|end| self.corner[axis] + self.lattice.pitch[axis] * (cell[axis] + end) as f64)
-        };
         let mut all: Vec<[[f64; 2]; 2]> = vec![];
-        for (number, cell) in self.cells.iter().enumerate() {
-            let own = [0, 1].map(|axis| ends(axis, cell));
+        for number in 0..self.count() {
+            let own = self.ends(number);
             // Cells of a mat come row by row, and the first cell of an element before its others.
             match all.get_mut(self.owner(number)) {
                 Some(sides) => (0..2).for_each(|k| sides[k][1] = sides[k][1].max(own[k][1])),
                 None => all.push(own),
             }
         }
-        let elements = all.into_iter().zip(self.fractions_inside());
-        let element = |([along, across], inside): ([[f64; 2]; 2], f64)| {
-            ContactElement::in_plan(along, across).with_fraction_inside(inside)
+        let elements = all.into_iter().zip(self.areas());
+        let element = |([along, across], [inside, all]): ([[f64; 2]; 2], [f64; 2])| {
+            ContactElement::in_plan(along, across).with_fraction_inside((inside / all).min(1.0))
         };
         elements.map(element).collect()
     }
 
-    /// Fraction of the area of each contact element that is inside the outline.
-    fn fractions_inside(&self) -> Vec<f64> {
+    /// Area of each contact element inside the outline, and of all its cells or parts of cells, m².
+    fn areas(&self) -> Vec<[f64; 2]> {
         let [a, b] = self.lattice.pitch;
         let mut sums: Vec<[f64; 2]> = vec![];
         for (number, inside) in self.inside().into_iter().enumerate() {
             let owner = self.owner(number);
             sums.resize(sums.len().max(owner + 1), [0.0; 2]);
             sums[owner][0] += inside;
-            sums[owner][1] += a * b;
+            sums[owner][1] += a * b * self.cuts.get(number).map_or(1.0, |cut| cut.size);
         }
-        sums.into_iter().map(|[inside, all]| inside / all).collect()
+        sums
     }
 
     /// Numbers that identify the lattice and its cells.
@@ -360,6 +347,9 @@ impl Plan {
         let places: HashSet<_> = self.cells.iter().copied().collect();
         let [a, b] = self.lattice.pitch;
         let d = self.overhang;
+        if !self.cuts.is_empty() {
+            return self.cuts.iter().map(|cut| a * b * cut.size * cut.inside).collect();
+        }
         let inside = |[i, j]: [usize; 2]| {
             let on = |right: usize, away: usize| {
                 let column = (i + right).checked_sub(1);
@@ -378,7 +368,7 @@ impl Plan {
 }
 
 /// Error for a mat without faces.
-fn check_faces(count: usize) -> Result<()> {
+pub(super) fn check_faces(count: usize) -> Result<()> {
     at_least("list of faces of a mat", count, 1)
 }
 

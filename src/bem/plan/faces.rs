@@ -7,6 +7,11 @@ use crate::linalg::Partition;
 
 /// Distance that counts as touching, relative to the size of a face.
 const TOUCHING: f64 = 1e-9;
+/// Points of an edge at which another face is looked for, and their distance from it, relative to its length.
+const POINTS: usize = 16;
+const BESIDE: f64 = 1e-6;
+/// Sine of the angle between two edges that count as one.
+const STRAIGHT: f64 = 1e-6;
 
 /// A convex polygon, counter-clockwise seen from above.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +66,58 @@ impl Face {
         self.corners.iter().zip(next).map(|(a, b)| [*a, *b])
     }
 
+    /// Corners, counter-clockwise, m.
+    pub(super) fn corners(&self) -> &[[f64; 2]] {
+        &self.corners
+    }
+
+    /// Corners of the polygon whose edges lie farther out by a distance (m) that depends on their unit normal.
+    ///
+    /// Sharp corners move by three times this distance at most.
+    pub(super) fn moved_outwards(&self, distance: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
+        let edges: Vec<_> = self.edges().collect();
+        let normals = edges.iter().map(|[a, b]| {
+            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+            let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
+            (normal, distance(normal))
+        });
+        let normals: Vec<_> = normals.collect();
+        let moved = |k: usize| {
+            let ((one, near), (other, far)) =
+                (normals[(k + normals.len() - 1) % normals.len()], normals[k]);
+            let turn = one[0] * other[1] - one[1] * other[0];
+            let mut step = other.map(|x| x * far);
+            if turn.abs() > STRAIGHT {
+                step = [near * other[1] - far * one[1], far * one[0] - near * other[0]];
+                step = step.map(|x| x / turn);
+            }
+            let most = 3.0 * near.max(far);
+            let ratio = (most / step[0].hypot(step[1])).min(1.0);
+            let ratio = if ratio.is_nan() { 1.0 } else { ratio };
+            [0, 1].map(|axis| edges[k][0][axis] + ratio * step[axis])
+        };
+        (0..edges.len()).map(moved).collect()
+    }
+
+    /// Length of the outer edges of a mat of some faces whose angle to x and y has a larger sine, m.
+    pub(super) fn oblique_edges(faces: &[&Self], sine: f64) -> f64 {
+        let outer = |[a, b]: [[f64; 2]; 2]| {
+            let step = [b[0] - a[0], b[1] - a[1]];
+            let length = step[0].hypot(step[1]);
+            // Beside points of an edge between two faces lies the other face.
+            let is_outer = |k: &usize| {
+                let along = (*k as f64 + 0.5) / POINTS as f64;
+                let beside = [step[1] * BESIDE, -step[0] * BESIDE];
+                let point = [0, 1].map(|axis| a[axis] + along * step[axis] + beside[axis]);
+                !faces.iter().any(|face| face.contains(point))
+            };
+            let is_oblique = step[0].abs().min(step[1].abs()) > sine * length;
+            let points = (0..POINTS).filter(|_| is_oblique).filter(is_outer);
+            length * points.count() as f64 / POINTS as f64
+        };
+        faces.iter().flat_map(|face| face.edges()).map(outer).sum()
+    }
+
     /// Area, m².
     pub(super) fn area(&self) -> f64 {
         let fan = self.corners.windows(2).map(|pair| side([pair[0], pair[1]], self.corners[0]));
@@ -110,38 +167,6 @@ impl Face {
 }
 
 // Cells of mats.
-
-/// Mat of each cell whose centre is within the overhang of a mat.
-pub(super) fn owners(
-    faces: &[Face],
-    mats: &[usize],
-    [corner, pitch]: [[f64; 2]; 2],
-    [columns, rows]: [usize; 2],
-    overhang: f64,
-) -> Result<Vec<Option<usize>>> {
-    let mut owners = vec![None; columns * rows];
-    for (place, owner) in owners.iter_mut().enumerate() {
-        let cell = [place % columns, place / columns];
-        let near = |face: &Face| {
-            (0..9).any(|point| {
-                let steps = [f64::from(point % 3) - 1.0, f64::from(point / 3) - 1.0];
-                face.contains([0, 1].map(|axis| {
-                    let place = cell[axis] as f64 + 0.5 + overhang * steps[axis];
-                    corner[axis] + pitch[axis] * place
-                }))
-            })
-        };
-        for (face, mat) in faces.iter().zip(mats) {
-            if *owner != Some(*mat)
-                && near(face)
-                && let Some(other) = owner.replace(*mat)
-            {
-                return Err(PlanError::TooClose { mats: [other, *mat], pitch }.into());
-            }
-        }
-    }
-    Ok(owners)
-}
 
 /// Error for cells of two mats side by side or corner to corner.
 pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {

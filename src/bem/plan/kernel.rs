@@ -4,9 +4,10 @@ use std::path::PathBuf;
 
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
+use super::unions::Unions;
 use crate::bem::layered::{Compliances, Quadrature, QuadratureWeights, Stages, on_circle};
 use crate::error::{Result, Watch, positive, same_length};
-use crate::geometry::{Lattice, SERIES};
+use crate::geometry::{Lattice, SERIES, SPACE};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -38,6 +39,37 @@ pub(in crate::bem) fn static_compliance(
     integrals.compliance(profile, s, &mut Workspace::default(), &mut values)?;
     classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
     Ok(())
+}
+
+/// Static compliance of one cell in its own directions, m/Pa.
+fn own_compliance(profile: &SoilProfile, pitch: [f64; 2], tolerance: f64) -> Result<[f64; SPACE]> {
+    let mut matrix = [0.0; SPACE * SPACE];
+    let cell = Plan::masked([0.0; 2], pitch, 1, &[true])?;
+    static_compliance(profile, &cell, tolerance, &mut matrix)?;
+    Ok([0, 1, 2].map(|k| matrix[k * (SPACE + 1)]))
+}
+
+impl Plan {
+    /// Contact elements that are not one whole cell each; `None` if all are.
+    ///
+    /// # Errors
+    /// As for [`static_compliance`].
+    pub(in crate::bem) fn unions(
+        &self,
+        profile: &SoilProfile,
+        tolerance: f64,
+    ) -> Result<Option<Unions>> {
+        if self.owners.is_none() && self.cuts.is_empty() {
+            return Ok(None);
+        }
+        let owners: Vec<_> = (0..self.count()).map(|cell| self.owner(cell)).collect();
+        let unions = Unions::new(&owners);
+        if self.cuts.is_empty() {
+            return Ok(Some(unions));
+        }
+        let own = own_compliance(profile, self.pitch(), tolerance)?;
+        Ok(Some(unions.with_cuts(self.cuts.iter().map(|cut| (cut.size, cut.softness)), own)))
+    }
 }
 
 /// Convolution weights of a layered ground under cells, with six series.

@@ -9,7 +9,8 @@
 //! | file | contents |
 //! |---|---|
 //! | unions | contact elements of several cells |
-//! | cells, faces | plan: cells on a lattice under faces, discs, masks |
+//! | cells, faces, outline | plan: cells on a lattice under faces, discs, masks; cells cut at the outline |
+//! | under | plan under the base of a structure |
 //! | forms, form_table | form factors, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
 //! | kernel | convolution weights by convolution quadrature |
@@ -22,7 +23,9 @@ mod forms;
 mod impedance;
 mod integrals;
 mod kernel;
+mod outline;
 mod sectors;
+mod under;
 mod unions;
 
 pub use cells::Plan;

@@ -19,6 +19,8 @@ use crate::linalg::{Complex, DenseFactor};
 pub(super) const MOTIONS: usize = 6;
 /// Components of a cell: down, along x, along y.
 const COMPONENTS: usize = 3;
+/// Relative difference of mirrored cells that counts as rounding.
+const MIRRORED: f64 = 1e-9;
 
 /// A reflection of a plan in x, in y, or in both.
 #[derive(Debug)]
@@ -37,7 +39,7 @@ pub(super) struct Sectors<'a> {
     /// Representative element of each orbit.
     elements: Vec<usize>,
     /// Cells of these, each with the place of its element among them.
-    cells: Vec<([usize; 2], usize)>,
+    cells: Vec<(usize, usize)>,
 }
 
 impl<'a> Sectors<'a> {
@@ -51,15 +53,26 @@ impl<'a> Sectors<'a> {
         let count = owners.iter().max().map_or(0, |last| last + 1);
         let counts = plan.lattice.counts;
         let mut on = vec![None; counts[0] * counts[1]];
-        for ([i, j], owner) in plan.cells.iter().zip(&owners) {
-            on[j * counts[0] + i] = Some(*owner);
+        for (cell, [i, j]) in plan.cells.iter().enumerate() {
+            on[j * counts[0] + i] = Some(cell);
         }
-        // Cells of an element must stay together.
+        let near = |one: f64, other: f64, size: f64| (one - other).abs() <= MIRRORED * size;
+        // Cells of an element must stay together, and cut cells must be mirrored.
         let reflection = |axes: &[bool; 2]| {
             let mut images = vec![None; count];
-            for (cell, owner) in plan.cells.iter().zip(&owners) {
-                let [i, j] = mirrored(*axes, *cell, counts);
-                let image = on[j * counts[0] + i]?;
+            for (cell, owner) in owners.iter().enumerate() {
+                let [i, j] = mirrored(*axes, plan.cells[cell], counts);
+                let other = on[j * counts[0] + i]?;
+                let [own, there] = [cell, other].map(|cell| plan.arms(cell));
+                let is_mirrored = (0..2).all(|k| {
+                    let sign = if axes[k] { -1.0 } else { 1.0 };
+                    near(own[k], sign * there[k], plan.lattice.pitch[k])
+                });
+                let softness = plan.softness(cell);
+                if !is_mirrored || !near(softness, plan.softness(other), 1.0 + softness) {
+                    return None;
+                }
+                let image = owners[other];
                 if *images[*owner].get_or_insert(image) != image {
                     return None;
                 }
@@ -74,8 +87,8 @@ impl<'a> Sectors<'a> {
         let is_first = |element: &usize| group.iter().all(|h| h.images[*element] >= *element);
         let elements: Vec<_> = (0..count).filter(is_first).collect();
         let place = |owner| elements.binary_search(owner).ok();
-        let each = plan.cells.iter().zip(&owners);
-        let cells = each.filter_map(|(cell, owner)| Some((*cell, place(owner)?))).collect();
+        let each = owners.iter().enumerate();
+        let cells = each.filter_map(|(cell, owner)| Some((cell, place(owner)?))).collect();
         Self { plan, group, elements, cells }
     }
 
@@ -125,9 +138,9 @@ impl<'a> Sectors<'a> {
         let mut loads = vec![Complex64::default(); order * MOTIONS];
         let (size, counts) = (self.group.len() as f64, self.plan.lattice.counts);
         for (receiver, element) in &self.cells {
-            let rows = places[*element];
+            let (rows, at) = (places[*element], self.plan.cells[*receiver]);
             for Reflection { axes, .. } in &self.group {
-                let resultants = self.resultants(mirrored(*axes, *receiver, counts));
+                let resultants = self.resultants(*axes, *receiver);
                 for (component, row) in rows.iter().enumerate() {
                     let Some(row) = row else { continue };
                     let loads = &mut loads[row * MOTIONS..(row + 1) * MOTIONS];
@@ -139,8 +152,12 @@ impl<'a> Sectors<'a> {
             for (source, element) in &self.cells {
                 let columns = places[*element];
                 for Reflection { axes, .. } in &self.group {
-                    let image = mirrored(*axes, *source, counts);
-                    let block = self.plan.lattice.block(values, offset(*receiver, image));
+                    let image = mirrored(*axes, self.plan.cells[*source], counts);
+                    let mut block = self.plan.lattice.block(values, offset(at, image));
+                    if image == at {
+                        let own = 1.0 + self.plan.softness(*receiver);
+                        (0..COMPONENTS).for_each(|k| block[k][k] = block[k][k].scale(own));
+                    }
                     for (row, block) in rows.iter().zip(block) {
                         let Some(row) = row else { continue };
                         for (component, column) in columns.iter().enumerate() {
@@ -179,14 +196,11 @@ impl<'a> Sectors<'a> {
         (places.collect(), order)
     }
 
-    /// For each component of a cell: the resultants of a unit traction in each rigid motion, N or N m.
-    fn resultants(&self, cell: [usize; 2]) -> [[f64; MOTIONS]; COMPONENTS] {
-        let lattice = &self.plan.lattice;
-        let area = lattice.pitch[0] * lattice.pitch[1];
-        let [x, y] = [0, 1].map(|axis| {
-            let steps = 2.0 * cell[axis] as f64 + 1.0 - lattice.counts[axis] as f64;
-            0.5 * steps * lattice.pitch[axis]
-        });
+    /// For each component of a reflected cell: the resultants of a unit traction in each rigid motion, N or N m.
+    fn resultants(&self, h: [bool; 2], cell: usize) -> [[f64; MOTIONS]; COMPONENTS] {
+        let ([a, b], arms) = (self.plan.lattice.pitch, self.plan.arms(cell));
+        let area = a * b;
+        let [x, y] = [0, 1].map(|axis| if h[axis] { -arms[axis] } else { arms[axis] });
         // u = θ × r, and down is −z.
         let down = [0.0, 0.0, -1.0, -y, x, 0.0];
         let along = [1.0, 0.0, 0.0, 0.0, 0.0, -y];
@@ -263,6 +277,10 @@ mod tests {
             let plan = Plan::masked([0.0; 2], [1.0, 0.8], cells, &vec![true; 4 * cells]).unwrap();
             plans.push((plan.with_unions(&along, &[1, 2, 1]).unwrap(), order));
         }
+        // Cut cells.
+        let triangle = vec![[0.0, 0.0], [2.0, 0.5], [1.0, 1.5]];
+        plans.push((Plan::disc([0.3, -0.1], 1.0, 6).unwrap(), 4));
+        plans.push((Plan::on_faces(&[triangle], 5).unwrap(), 1));
         let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
         for (plan, order) in plans {
             let s = Complex::new(0.1, 0.8);

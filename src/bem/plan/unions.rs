@@ -1,7 +1,8 @@
-//! Contact elements that are rectangles of cells.
+//! Contact elements that are rectangles of cells, or parts of a cell.
 //!
 //! All cells of an element have its traction, and the element's displacement is the mean of its cells. With the
-//! incidence P of cells and elements, integrals over elements are PᵀFP, so they are passive too.
+//! incidence P of cells and elements, integrals over elements are PᵀFP, so they are passive too. The traction of a part
+//! of a cell is spread over the cell, and the part has a spring in series.
 
 use crate::error::{Error, Result, memory, require, same_length};
 use crate::geometry::SPACE;
@@ -13,6 +14,10 @@ pub(in crate::bem) struct Unions {
     owners: Vec<usize>,
     /// Cells of each element.
     sizes: Vec<f64>,
+    /// Ratio of the element's area in each cell to the cell.
+    fractions: Vec<f64>,
+    /// Compliance of the spring under each element, component by component, m/Pa; empty without springs.
+    springs: Vec<f64>,
     /// A contact vector of cells.
     cells: Vec<f64>,
 }
@@ -102,7 +107,32 @@ impl Unions {
         for owner in owners {
             sizes[*owner] += 1.0;
         }
-        Self { cells: vec![0.0; SPACE * owners.len()], owners: owners.to_vec(), sizes }
+        Self {
+            cells: vec![0.0; SPACE * owners.len()],
+            owners: owners.to_vec(),
+            sizes,
+            fractions: vec![1.0; owners.len()],
+            springs: vec![],
+        }
+    }
+
+    /// Adds the ratio of each cell's element to the cell, and the compliance of a spring relative to the cell's `own`.
+    pub(super) fn with_cuts(
+        mut self,
+        cuts: impl Iterator<Item = (f64, f64)>,
+        own: [f64; SPACE],
+    ) -> Self {
+        let count = self.sizes.len();
+        self.springs = vec![0.0; SPACE * count];
+        for (cell, (fraction, softness)) in cuts.enumerate() {
+            let owner = self.owners[cell];
+            self.fractions[cell] = fraction;
+            for (component, own) in own.into_iter().enumerate() {
+                let spring = softness * own * fraction / self.sizes[owner];
+                self.springs[component * count + owner] += spring;
+            }
+        }
+        self
     }
 
     /// Calls `find` to fill a contact vector of cells, and overwrites the vector of elements.
@@ -111,7 +141,7 @@ impl Unions {
         elements: &mut [f64],
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
-        let Self { owners, sizes, cells } = self;
+        let Self { owners, sizes, cells, .. } = self;
         same_length("displacement of the history", elements.len(), SPACE * sizes.len())?;
         find(cells)?;
         elements.fill(0.0);
@@ -128,9 +158,9 @@ impl Unions {
     pub(in crate::bem) fn spread(&mut self, elements: &[f64]) -> &[f64] {
         let parts = self.cells.chunks_exact_mut(self.owners.len());
         for (component, cells) in parts.enumerate() {
-            for (owner, value) in self.owners.iter().zip(cells) {
+            for ((owner, fraction), value) in self.owners.iter().zip(&self.fractions).zip(cells) {
                 let place = component * self.sizes.len() + owner;
-                *value = elements.get(place).copied().unwrap_or(0.0);
+                *value = fraction * elements.get(place).copied().unwrap_or(0.0);
             }
         }
         &self.cells
@@ -157,8 +187,12 @@ impl Unions {
             let to = place(row);
             let share = 1.0 / self.sizes[to % self.sizes.len()];
             for (column, value) in values.iter().enumerate() {
+                let value = self.fractions[column % self.owners.len()] * value;
                 matrix[to * size + place(column)] += share * value;
             }
+        }
+        for (place, spring) in self.springs.iter().enumerate() {
+            matrix[place * (size + 1)] += spring;
         }
         Ok(())
     }

@@ -21,7 +21,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{axis_name, far_ends};
+use crate::geometry::{axis_name, far_ends, in_a_row};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Triplets};
 
@@ -179,11 +179,9 @@ fn count(base: &PlacedBase, foundation: usize) -> (Option<char>, usize) {
     let patch = base.elements();
     let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
     let along = |axis: usize| {
-        let mut ends: Vec<_> = patch[own.clone()].iter().map(|own| own.ends()[axis]).collect();
+        let ends: Vec<_> = patch[own.clone()].iter().map(|own| own.ends()[axis]).collect();
         let [least, most] = far_ends(ends.iter().copied());
-        ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        ends.dedup_by(|next, [start, end]| next[0] - *start < 0.5 * (*end - *start));
-        (most - least, ends.len())
+        (most - least, in_a_row(ends))
     };
     let sides: Vec<_> = patch.layout().axes().map(|axis| (along(axis), axis)).collect();
     let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));

@@ -7,7 +7,7 @@ use super::transformation::Weights;
 use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
-use crate::geometry::Patch;
+use crate::geometry::{ContactElement, Patch};
 use crate::structure::BaseNode;
 
 /// Distance of a Gauss point from the middle of an interval, relative to its length: 1/(2√3).
@@ -37,8 +37,10 @@ impl PlacedBase {
             foundations.push(Outline { nodes: own, elements, settlement, rotations, corners });
         }
         let mut weights = Vec::with_capacity(patch.len());
+        // Elements at an oblique outline are smaller than the others.
+        let widest = patch.iter().flat_map(ContactElement::sides).fold(0.0, f64::max);
         for e in 0..patch.len() {
-            let own = surface.mean_weights(e, patch)?;
+            let own = surface.mean_weights(e, patch, 0.5 * widest)?;
             let mut owners = own.iter().filter_map(|(node, _)| {
                 foundations.iter().position(|mat| mat.nodes.contains(node))
             });
@@ -116,10 +118,8 @@ impl<'a> Faces<'a> {
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points.
     ///
     /// A point outside all faces moves with the continued displacement of the nearest face. A point farther off
-    /// than half a side is an error.
-    fn mean_weights(&self, element: usize, patch: &Patch) -> Result<Vec<(usize, f64)>> {
-        let sides = patch[element].sides();
-        let reach = 0.5 * sides[0].max(sides[1]);
+    /// than `reach` (m) is an error.
+    fn mean_weights(&self, element: usize, patch: &Patch, reach: f64) -> Result<Vec<(usize, f64)>> {
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
             let (shares, value) = self.shares(point);
@@ -249,7 +249,6 @@ fn face_points(corners: usize) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::ContactElement;
 
     fn nodes(corners: &[Point]) -> Vec<BaseNode> {
         corners
@@ -265,7 +264,7 @@ mod tests {
         let patch = Patch::new(vec![cell]).unwrap();
         let (nodes, mut sum) = (nodes(corners), 0.0);
         let faces = Faces::new(&nodes, faces).unwrap();
-        for (node, weight) in faces.mean_weights(0, &patch).unwrap() {
+        for (node, weight) in faces.mean_weights(0, &patch, 1.0).unwrap() {
             sum += weight * field(corners[node]);
         }
         sum

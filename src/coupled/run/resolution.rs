@@ -50,7 +50,7 @@ use crate::bem::Ground;
 use crate::coupled::run::variation::{OWN, Sampler, Variation};
 use crate::coupled::run::warning::Warning;
 use crate::coupled::state::State;
-use crate::geometry::{SPACE, axis_name, far_ends};
+use crate::geometry::{SPACE, axis_name, far_ends, in_a_row};
 use crate::motion::FreeField;
 
 /// Largest r if the base shear follows the ground.
@@ -89,14 +89,16 @@ const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
 const ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
 /// Smallest number of elements of any foundation: a single element resists no moment and does not rock.
 const TWO: usize = 2;
+/// Distance of a ratio of sides from a whole number that counts as rounding.
+const WHOLE: f64 = 1e-6;
+
 /// Time step and elements that a run's base shear, ground and foundations require.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(Default))]
 pub(crate) struct Resolution {
     time_step: f64,
     in_plan: bool,
-    /// Length of the longest element, m. In plan the narrowest side along x or the narrowest along y, whichever is
-    /// longer.
+    /// Length of the longest element, m. In plan the longer side of a cell.
     longest: f64,
     shear_wave_speed: Option<f64>,
     /// Number of the foundation with the fewest elements, from 0.
@@ -134,11 +136,9 @@ struct Axis {
 
 impl Axis {
     /// Axis of elements with these `ends` along it.
-    fn new(mut ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
+    fn new(ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
         let [least, most] = far_ends(ends.iter().copied());
-        ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
-        ends.dedup_by_key(|[start, _]| *start);
-        Self { elements: ends.len(), width: most - least, static_moment, ..Self::default() }
+        Self { elements: in_a_row(ends), width: most - least, static_moment, ..Self::default() }
     }
 
     fn see(&mut self, shear: f64, moment: f64) {
@@ -174,9 +174,15 @@ impl Resolution {
         let elements = &state.context.elements;
         let in_plan = elements.is_plan();
         let sides = |axis: usize| elements.iter().map(move |own| own.sides()[axis]);
-        let narrowest = |axis: usize| sides(axis).fold(f64::INFINITY, f64::min);
-        let longest =
-            if in_plan { narrowest(0).max(narrowest(1)) } else { sides(0).fold(0.0, f64::max) };
+        let widest = |axis: usize| sides(axis).fold(0.0, f64::max);
+        // The narrowest of unions is a cell, and so is the widest where others are parts of a cell.
+        let cell = |axis: usize| {
+            let narrowest = sides(axis).fold(f64::INFINITY, f64::min);
+            let is_whole =
+                |side: f64| ((side / narrowest).round() - side / narrowest).abs() < WHOLE;
+            if sides(axis).all(is_whole) { narrowest } else { widest(axis) }
+        };
+        let longest = if in_plan { cell(0).max(cell(1)) } else { widest(0) };
         let foundations = state.foundations.iter().map(|own| {
             let ends = |axis: usize| {
                 elements[own.elements.clone()].iter().map(|own| own.ends()[axis]).collect()

@@ -3,10 +3,9 @@
 use std::f64::consts::TAU;
 
 use crate::error::{Result, at_least, finite, not_negative, positive, require};
+use crate::geometry::circle;
 use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
-/// Number of corners of the polygon that replaces a circular base; it has the same area.
-const CORNERS: usize = 32;
 /// Relative difference up to which mirrored entries of an inertia tensor count as equal.
 const SYMMETRIC: f64 = 1e-9;
 
@@ -73,13 +72,7 @@ impl RigidBody {
         let mass = 0.5 * TAU * square * height * density;
         let tilting = mass * (square / 4.0 + height * height / 12.0);
         let inertia = diagonal([tilting, tilting, 0.5 * mass * square]);
-        let angle = TAU / CORNERS as f64;
-        let reach = radius * (angle / angle.sin()).sqrt();
-        let corner = |k: usize| {
-            let (sin, cos) = ((k as f64 + 0.5) * angle).sin_cos();
-            [reach * cos, reach * sin]
-        };
-        let outline = (0..CORNERS).map(corner).collect();
+        let outline = circle(radius).collect();
         Self::from_mass(outline, mass, inertia, [0.0, 0.0, 0.5 * height])
     }
 
