@@ -177,6 +177,20 @@ pub enum Warning {
         /// All cells.
         cells: usize,
     },
+    /// Coarse cells at an outline oblique to them make the rocking stiffness of a mat wrong by more than 1 %.
+    ///
+    /// The error is estimated from the length of oblique edges, the area and the cells. The vertical stiffness has about
+    /// a fourth of it.
+    #[error(
+        "rocking stiffness off by about {:.1} %: outline oblique to the cells; take {factor:.1} times as many",
+        100.0 * error
+    )]
+    ObliqueOutline {
+        /// Estimated relative error of the rocking stiffness.
+        error: f64,
+        /// Multiple of the cells along a side with an error of 1 %.
+        factor: f64,
+    },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
     ///
     /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
@@ -309,7 +323,7 @@ pub enum Warning {
         "elements of {element_length:.2e} m for shear waves of {wavelength:.2e} m: take {needed:.1e} m"
     )]
     LongElements {
-        /// Length of the longest element, m; in plan the narrowest side along x or along y, whichever is longer.
+        /// Length of the longest element, m; in plan the longer side of a cell.
         element_length: f64,
         /// Wavelength at the root-mean-square frequency of the base shear, m.
         wavelength: f64,

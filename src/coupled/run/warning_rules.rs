@@ -102,6 +102,8 @@ impl Warning {
         warnings
     }
 
+    /// Error of the rocking stiffness by an oblique outline above which a run warns.
+    const OUTLINE_ERROR: f64 = 0.01;
     /// Smallest friction at which mirror images of scenes in plan were found to differ.
     const HIGH_FRICTION: f64 = 3.0;
 
@@ -112,7 +114,7 @@ impl Warning {
         motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let GroundDescription { soils, sampled_cells, .. } = ground.description();
+        let GroundDescription { soils, sampled_cells, outline_error, .. } = ground.description();
         let mut warnings: Vec<_> = Self::of_soils(&soils).collect();
         // A model not to scale has its own warning.
         if warnings.is_empty() && period > Self::LONGEST_PERIOD {
@@ -134,6 +136,10 @@ impl Warning {
         let sample =
             sampled_cells.map(|[checked, cells]| Self::SampledPassivity { checked, cells });
         warnings.extend(sample);
+        if outline_error > Self::OUTLINE_ERROR {
+            let factor = outline_error / Self::OUTLINE_ERROR;
+            warnings.push(Self::ObliqueOutline { error: outline_error, factor });
+        }
         warnings
     }
 
