@@ -1,5 +1,6 @@
 //! Blocks of finite elements in space: stiff ones against the rigid body, soft ones that lift off and slide.
 
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground};
 use basemat::fem::{Direction, Mesh};
 use basemat::interface::{Bonded, Coulomb, Mode};
@@ -77,7 +78,11 @@ fn a_stiff_block_is_the_rigid_body() {
     let soft = block(1.0e14);
     let bed = || Cells::under([SIDES[0], SIDES[1]], [0.0; 2], [7, 5], BED);
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap();
-    let half_space = |own: &dyn Structure| ElasticGround::under(soil, own, 8).unwrap();
+    // Cells of `under` would extend beyond the rigid base alone.
+    let half_space = |own: &dyn Structure| {
+        let plan = Plan::under(own, 8).unwrap().without_overhang().unwrap();
+        ElasticGround::in_plan(soil, plan).unwrap()
+    };
     let cases = [
         (at_rest(soft.clone(), bed()), at_rest(rigid(), bed())),
         (at_rest(soft.clone(), half_space(&soft)), at_rest(rigid(), half_space(&rigid()))),

@@ -1,5 +1,6 @@
 //! Mats and walls of shells: stiff ones against the rigid body, soft ones that lift off and slide.
 
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground};
 use basemat::fem::{Direction, Material, Mesh, Shell};
 use basemat::interface::{Bonded, Coulomb, Mode};
@@ -82,7 +83,11 @@ fn a_stiff_building_of_shells_is_the_rigid_body() {
     let stiff = building(1.0e16);
     let bed = || Cells::under(SIDES, [0.0; 2], [7, 5], BED);
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap();
-    let half_space = |own: &dyn Structure| ElasticGround::under(soil, own, 8).unwrap();
+    // Cells of `under` would extend beyond the rigid base alone.
+    let half_space = |own: &dyn Structure| {
+        let plan = Plan::under(own, 8).unwrap().without_overhang().unwrap();
+        ElasticGround::in_plan(soil, plan).unwrap()
+    };
     let cases = [
         (at_rest(stiff.clone(), bed()), at_rest(rigid(), bed())),
         (at_rest(stiff.clone(), half_space(&stiff)), at_rest(rigid(), half_space(&rigid()))),
