@@ -10,6 +10,7 @@
 use basemat::fem::{Element, Material, Mesh, Shell};
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
+use basemat::results::Extremes;
 use basemat::structure::{FemModel, RayleighDamping};
 
 /// Radius of the wall's middle surface and its height, m.
@@ -105,7 +106,7 @@ fn main() -> basemat::Result<()> {
         })?;
         let whole = &run.whole;
         let [shear, shear_across] =
-            [&whole.base_shear, &whole.shear_across].map(|own| own.magnitude());
+            [&whole.base_shear, &whole.shear_across].map(Extremes::magnitude);
         println!(
             "{name:<14} {:>16.1} {:>13.1} {:>10.2} {:>27.2} {:>14.1e}",
             1e-6 * shear.max(shear_across),

@@ -5,7 +5,7 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
-use basemat::coupled::Load;
+use basemat::coupled::{Load, SimulationBuilder};
 use basemat::fem::{Direction, Element, Material, Mesh, Shell};
 use basemat::interface::Coulomb;
 use basemat::structure::FemModel;
@@ -50,7 +50,7 @@ fn loaded(ground: impl Ground + 'static) -> [f64; 4] {
     let builder = Simulation::builder(0.01).structure(model.clone()).ground(ground).gravity(1e-6);
     // Smooth, and held down wherever the raft bends up.
     let law = Coulomb::new(0.0).unwrap().with_tensile_strength(1.0e9).unwrap();
-    let simulation = loads.fold(builder, |own, load| own.load(load)).interface(law).build();
+    let simulation = loads.fold(builder, SimulationBuilder::load).interface(law).build();
     let simulation = simulation.unwrap();
     let displacement = simulation.static_displacement();
     let half = 0.5 * SIDE;
