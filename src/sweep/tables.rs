@@ -36,7 +36,7 @@ impl Sweep<'_> {
     ///
     /// # Errors
     /// Errors of cases are not returned. [`Error::DuplicateName`](crate::Error::DuplicateName) if two columns
-    /// (parameters, `case` and `error` among them) have the same name, [`Error::Scene`] if
+    /// (parameters, `case` and `error` among them) have the same name, [`Error::Scene`](crate::Error::Scene) if
     /// one has no name.
     pub fn table<const N: usize, E: Display + Send>(
         &self,
@@ -55,8 +55,8 @@ impl Sweep<'_> {
     /// or the text of its error.
     ///
     /// # Errors
-    /// [`Error::Size`] if the number of outcomes differs from the number of cases, or the number of results
-    /// from the number of columns; the errors of [`Sweep::table`].
+    /// [`Error::Size`](crate::Error::Size) if the number of outcomes differs from the number of cases, or the number
+    /// of results from the number of columns; the errors of [`Sweep::table`].
     pub fn tabulate<S: AsRef<str>>(
         &self,
         columns: &[S],

@@ -34,9 +34,9 @@ impl FemModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`] for a node that does not exist, [`Error::Scene`] when the leader lacks one of a node's
-    /// degrees of freedom or follows another node, or a follower leads or follows already; after
-    /// [`with_p_delta`](FemModel::with_p_delta) also its errors.
+    /// [`Error::Index`](crate::Error::Index) for a node that does not exist; [`Error::Scene`](crate::Error::Scene)
+    /// when the leader lacks one of a node's degrees of freedom or follows another node, or a follower leads or
+    /// follows already. After [`with_p_delta`](FemModel::with_p_delta) also its errors.
     pub fn with_rigid_link(self, leader: usize, followers: &[usize]) -> Result<Self> {
         self.with_link(Link::Body, leader, followers)
     }
@@ -48,7 +48,7 @@ impl FemModel {
     ///
     /// # Errors
     /// As for [`FemModel::with_rigid_link`], except that the leader needs three degrees of freedom only;
-    /// [`Error::Scene`] for a mesh in the plane or for nodes at different heights.
+    /// [`Error::Scene`](crate::Error::Scene) for a mesh in the plane or for nodes at different heights.
     pub fn with_rigid_diaphragm(self, leader: usize, followers: &[usize]) -> Result<Self> {
         require_part("rigid diaphragm", self.mesh.has_depth(), "a mesh in space")?;
         self.with_link(Link::Floor, leader, followers)
