@@ -288,7 +288,7 @@ def test_a_run_says_that_nobody_hears_ctrl_c() -> None:
         import basemat as bm
         block = bm.RigidBlock(6.0, 9.0, 1000.0)
         ground = bm.SpringGround.under(block, 4, 1e8, 1e8)
-        simulation = bm.Simulation(block, ground, bm.Bonded(), 0.01)
+        simulation = bm.Simulation(0.01, block, ground, bm.Bonded())
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             simulation.run(10, observe=lambda state: time.sleep(0.02))

@@ -13,7 +13,8 @@ use crate::several::Several;
 
 /// A direction by its name: "x", "y" or "rotation".
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
-    name.parse().or_raise()
+    let all = [("x", Direction::X), ("y", Direction::Y), ("rotation", Direction::Rotation)];
+    choice("direction", name, &all)
 }
 
 /// Integration of four-node quadrilaterals by its name.
