@@ -283,11 +283,11 @@ class ElasticGround(Ground):
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-        structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base; an error says if they miss or
-        exceed a tenth of a round one: another count, or :meth:`Plan.disc`.
+        structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base, cut at an
+        outline that is oblique to them.
         A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
 
-        ``soil`` and the options are as in the class; no option is needed: ``history``,
+        ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
         ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
         """
