@@ -338,3 +338,11 @@ def test_structures_name_what_they_can(soil: bm.Soil, block: bm.RigidBlock) -> N
     ground = bm.ElasticGround.under(soil, group, 4)
     run = bm.Simulation(0.01, group, ground, bm.Bonded()).run(5, motion_every=1)
     assert [*run.motion_frame().columns] == [0, 1, 2]
+
+
+def test_contact_nodes_of_older_programs_are_base_nodes() -> None:
+    with pytest.warns(DeprecationWarning, match="called BaseNode"):
+        assert bm.ContactNode is bm.BaseNode  # type: ignore[attr-defined]
+    assert "ContactNode" not in bm.__all__
+    with pytest.raises(AttributeError, match="no attribute 'FaceNode'"):
+        bm.FaceNode  # type: ignore[attr-defined]  # noqa: B018

@@ -5,6 +5,8 @@ counter-clockwise; pressure is positive in compression, shear is what the struct
 soil. ``python -m basemat`` says what there is; the README of the package has a first program.
 """
 
+from typing import TYPE_CHECKING as _TYPE_CHECKING
+
 from . import _frames, _pickling as _pickling, _plots
 from ._core import *
 from ._core import __version__ as __version__
@@ -42,3 +44,14 @@ __all__ = sorted(
     for name, value in globals().items()
     if not name.startswith("_") and not hasattr(value, "__path__") and not hasattr(value, "__spec__")
 )
+
+if not _TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        # Programs of 0.2.0 define bases by this name.
+        if name == "ContactNode":
+            import warnings
+
+            warnings.warn("ContactNode is called BaseNode", DeprecationWarning, stacklevel=2)
+            return BaseNode
+        raise AttributeError(f"module 'basemat' has no attribute '{name}'")
