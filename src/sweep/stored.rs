@@ -12,8 +12,7 @@ use super::file::{Content, Ending, name, read};
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, FIRST, Row, first_lines, heading_sum};
 use super::tables::row;
-use crate::error::SweepError;
-use crate::error::{Error, FileFault, Result};
+use crate::error::{Error, FileFault, Result, SweepError};
 use crate::text::check_sum::CheckSum;
 use crate::text::file::{make_folder_of, replaced, unwritten};
 
@@ -37,8 +36,8 @@ impl Sweep<'_> {
     /// While cases run, their rows are in the file `path` with `.part` at its end. When all rows are there,
     /// `path` itself is written at once and the other file removed. Cases with a row in either file are not
     /// run again, nor are failed cases. To run a case again, delete its row and the check sum in the first line of
-    /// `path`. After a change of the computation itself, delete both files. Two processes must not use the same file. Progress
-    /// ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
+    /// `path`. After a change of the computation itself, delete both files. Two processes must not use the same
+    /// file. Progress ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
     /// As for [`Sweep::table`]; [`Error::File`] if the file of rows cannot be opened.

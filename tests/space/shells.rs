@@ -1,13 +1,9 @@
 //! Mats and walls of shells: stiff ones against the rigid body, soft ones that lift off and slide.
 
-use basemat::bem::plan::Plan;
-use basemat::bem::{ElasticGround, Ground};
-use basemat::fem::{Direction, Material, Mesh, Shell};
-use basemat::interface::{Bonded, Coulomb, Mode};
-use basemat::structure::{FemModel, RigidBody, Structure};
-use basemat::{Simulation, Soil};
+use basemat::fem::{Material, Mesh, Shell};
+use basemat::structure::{FemModel, RigidBody};
 
-use super::cells::{BED, Cells, Waves};
+use super::finite_elements::{assert_lifts_off_and_slides, assert_moves_rigidly};
 
 /// Sides of the mat, m, and its thickness.
 const SIDES: [f64; 2] = [6.0, 4.0];
@@ -66,68 +62,14 @@ fn rigid() -> RigidBody {
     RigidBody::from_mass(outline, mass, inertia, [wall / mass, 0.0, height]).unwrap()
 }
 
-/// Displacement of a structure at rest on a ground.
-fn at_rest(structure: impl Structure + 'static, ground: impl Ground + 'static) -> Vec<f64> {
-    let simulation = Simulation::builder(0.01)
-        .structure(structure)
-        .ground(ground)
-        .interface(Bonded)
-        .build()
-        .unwrap();
-    simulation.static_displacement().to_vec()
-}
-
-/// On springs, and on a half-space, which couples the cells.
 #[test]
 fn a_stiff_building_of_shells_is_the_rigid_body() {
-    let stiff = building(1.0e16);
-    let bed = || Cells::under(SIDES, [0.0; 2], [7, 5], BED);
-    let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap();
-    // Cells of `under` would extend beyond the rigid base alone.
-    let half_space = |own: &dyn Structure| {
-        let plan = Plan::under(own, 8).unwrap().without_overhang().unwrap();
-        ElasticGround::in_plan(soil, plan).unwrap()
-    };
-    let cases = [
-        (at_rest(stiff.clone(), bed()), at_rest(rigid(), bed())),
-        (at_rest(stiff.clone(), half_space(&stiff)), at_rest(rigid(), half_space(&rigid()))),
-    ];
-    for (found, exact) in cases {
-        let size = exact[2].abs();
-        assert!(size > 1e-5 && exact[4].abs() > 1e-2 * size, "{exact:?}");
-        let base = stiff.base();
-        for node in base.nodes() {
-            let own = [&node.horizontal, &node.across, &node.vertical].map(|row| row.value(&found));
-            let rows = rigid().displacement_at([node.x, node.y, 0.0]);
-            for (own, row) in own.into_iter().zip(rows) {
-                let exact = row.value(&exact);
-                assert!((own - exact).abs() < 1e-6 * size, "{own} {exact} of {size}");
-            }
-        }
+    for exact in assert_moves_rigidly(&building(1.0e16), rigid, SIDES) {
+        assert!(exact[4].abs() > 1e-2 * exact[2].abs(), "{exact:?}");
     }
 }
 
-/// Waves from three sides: cells open and slide under a soft building, and no energy is lost.
 #[test]
 fn a_soft_building_of_shells_lifts_off_and_slides() {
-    let model = building(2.0e8);
-    let top = model.mesh().node_at_point([1.0, 2.0, 13.0]).unwrap();
-    let drift = model.row(top, Direction::X).unwrap();
-    let mut simulation = Simulation::builder(2e-3)
-        .structure(model)
-        .ground(Cells::under(SIDES, [0.0; 2], [7, 5], BED))
-        .interface(Coulomb::new(1.0).unwrap())
-        .motion(Waves { quarters: 0 })
-        .gravity(0.5)
-        .build()
-        .unwrap();
-    let (mut open, mut sliding, mut sway) = (0, 0, 0.0_f64);
-    let run = simulation.run(600, |state| {
-        open = open.max(state.modes.iter().filter(|mode| **mode == Mode::Open).count());
-        sliding = sliding.max(state.modes.iter().filter(|mode| **mode == Mode::Slip).count());
-        sway = sway.max(drift.value(state.displacement()).abs());
-    });
-    let run = run.unwrap();
-    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
-    assert!(open > 3 && sliding > 3 && sway > 1e-4, "{open} {sliding} {sway}");
+    assert_lifts_off_and_slides(building(2.0e8), [1.0, 2.0, 13.0], SIDES, 1.0, 0.5);
 }

@@ -12,16 +12,19 @@ impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
     /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]): a soft plate would sink with soil
-    /// beyond its edge. There are at least as many cells as flexible faces (two triangles count as one), since between
-    /// cells only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more causes
-    /// an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
+    /// beyond its edge. The plan has at least one cell for each flexible face (two triangles count as one): between
+    /// cells only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more
+    /// causes an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
     pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
-        let Base::Faces(bodies) = structure.base() else {
-            return Self::on_faces(&[], cells);
-        };
+        Self::of_base(structure, cells)?.map_or_else(|| Self::on_faces(&[], cells), Ok)
+    }
+
+    /// Cells under the faces of a structure; `None` for a structure in the plane.
+    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
+        let Base::Faces(bodies) = structure.base() else { return Ok(None) };
         let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
         let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
         let faces = corners.iter().enumerate().map(|(number, own)| Face::new(number, own));
@@ -46,12 +49,6 @@ impl Plan {
                 most = most.max(along.min(limit));
             }
         }
-        Self::covering(faces, most, overhang)
-    }
-
-    /// Cells under the faces of a structure; `None` for a structure in the plane.
-    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
-        let is_in_plan = matches!(structure.base(), Base::Faces(_));
-        is_in_plan.then(|| Self::under(structure, cells)).transpose()
+        Self::covering(faces, most, overhang).map(Some)
     }
 }

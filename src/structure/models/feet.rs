@@ -62,11 +62,11 @@ pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot
     faces.iter().map(foot).collect()
 }
 
-/// Faces of a mesh in space at its lowest height: sides of solids and shells.
+/// Feet of all faces of a mesh in space at its lowest height: sides of solids, and shells.
 ///
 /// # Errors
-/// [`Error::Scene`](crate::Error::Scene) if there are none.
-pub(super) fn lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
+/// [`Error::Scene`](crate::Error::Scene) if the mesh has no such face.
+pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
     let highest = mesh.lowest() + mesh.tolerance();
     let low = |face: &ElementFace| {
         face.corners().iter().all(|&node| mesh.nodes()[node][mesh.up()] <= highest)
@@ -75,7 +75,11 @@ pub(super) fn lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<usize>>> {
     let needed = "shells or sides of solids at the lowest height of the mesh";
     require_part("base of a mesh in space", !faces.is_empty(), needed)?;
     faces.sort_by(|a, b| a.corners().cmp(b.corners()));
-    Ok(faces.into_iter().map(|face| face.corners().to_vec()).collect())
+    let feet = |face: &ElementFace| {
+        let depth = 0.5 * face.thickness();
+        face.corners().iter().map(|&node| Foot { node, depth }).collect()
+    };
+    Ok(faces.iter().map(feet).collect())
 }
 
 /// Faces of elements that `keep` selects, by their sorted corners; of several the thickest.

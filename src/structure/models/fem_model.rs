@@ -182,8 +182,8 @@ impl FemModel {
     /// lowest height.
     pub fn on_base(mesh: Mesh) -> Result<Self> {
         if mesh.has_depth() {
-            let faces = feet::lowest_faces(&mesh)?;
-            return Self::on_faces(mesh, &faces);
+            let feet = feet::of_lowest_faces(&mesh)?;
+            return Self::standing(mesh, feet);
         }
         let contact = mesh.nodes_at_height(mesh.lowest(), mesh.tolerance())?;
         Self::new(mesh, &contact)
