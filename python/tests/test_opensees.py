@@ -143,7 +143,7 @@ def test_nodes_of_a_flexible_base_and_what_is_held() -> None:
 
 
 def test_models_that_are_none_are_refused() -> None:
-    for dimensions, needed in (((3, 6), "3 coordinates and 6 degrees"), ((2, 2), "2 coordinates and 2 degrees")):
+    for dimensions, needed in (((3, 4), "3 coordinates and 4 degrees"), ((2, 2), "2 coordinates and 2 degrees")):
         ops.wipe()
         ops.model("basic", "-ndm", dimensions[0], "-ndf", dimensions[1])
         ops.node(4, *[0.0] * dimensions[0])

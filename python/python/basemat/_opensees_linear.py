@@ -13,17 +13,32 @@ _ELEMENTS = {
     "ElasticBeam2d", "ElasticTimoshenkoBeam2d", "ModElasticBeam2d", "ElasticForceBeamColumn2d", "DispBeamColumn2d",
     "ForceBeamColumn2d", "ForceBeamColumnCBDI2d", "TimoshenkoBeamColumn2d", "ComponentElement2d", "Truss",
     "TrussSection", "ZeroLength", "ZeroLengthSection", "CoupledZeroLength", "TwoNodeLink", "InertiaTruss",
+    "ElasticBeam3d", "ElasticTimoshenkoBeam3d", "ModElasticBeam3d", "ElasticForceBeamColumn3d", "DispBeamColumn3d",
+    "ForceBeamColumn3d", "ForceBeamColumnCBDI3d", "TimoshenkoBeamColumn3d",
 }  # fmt: skip
-_SECTIONS = {"ElasticSection2d", "ElasticShearSection2d", "SectionAggregator", "FiberSection2d"}
+_SHELLS = {"ShellMITC4", "ShellMITC9", "ShellDKGQ", "ShellDKGT", "ASDShellQ4", "ASDShellT3"}
+_SOLIDS = {"Brick", "BbarBrick", "SSPbrick", "FourNodeTetrahedron", "TenNodeTetrahedron", "Twenty_Node_Brick"}
+_SECTIONS = {
+    "ElasticSection2d", "ElasticShearSection2d", "SectionAggregator", "FiberSection2d", "ElasticSection3d",
+    "ElasticShearSection3d", "FiberSection3d", "ElasticMembranePlateSection",
+}  # fmt: skip
+# Sections through the thickness of a shell, of materials in several directions.
+_LAYERED = {"PlateFiber", "LayeredShellFiberSection"}
 _MATERIALS = {
     "ElasticMaterial", "ParallelMaterial", "SeriesMaterial", "InitStrainMaterial", "InitStressMaterial",
     "ViscousMaterial",
 }  # fmt: skip
-_TRANSFORMATIONS = {"LinearCrdTransf2d"}
+_SOLID_MATERIALS = {"ElasticIsotropicMaterial", "ElasticOrthotropicMaterial", "PlateFiberMaterial"}
+_TRANSFORMATIONS = {"LinearCrdTransf2d", "LinearCrdTransf3d"}
 
 # Materials with one tangent to one side of the state at rest, and another or none to the other side.
 _ONE_SIDED = {"ENTMaterial", "EPPGap", "HookGap", "HyperbolicGapMaterial", "ImpactMaterial", "ViscoelasticGap"}
-_PLACES = {"uniaxialMaterials": "material", "sections": "section", "crdTransformations": "crdTransformation"}
+_PLACES = {
+    "uniaxialMaterials": "material",
+    "ndMaterials": "ndMaterial",
+    "sections": "section",
+    "crdTransformations": "crdTransformation",
+}
 
 
 class Part(NamedTuple):
@@ -67,7 +82,7 @@ class Elements:
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
             reasons = list(dict.fromkeys(self._reasons(tag)))
-            if reasons or self._type(tag) not in _ELEMENTS:
+            if reasons or self._type(tag) not in _ELEMENTS | _SHELLS | _SOLIDS:
                 found.setdefault(", ".join([self._type(tag), *reasons]), []).append(int(tag))
         return found
 
@@ -75,10 +90,22 @@ class Elements:
         """Tags of the elements that have no tangent at rest, by their type and what makes them so."""
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
-            text = self._part("elements", tag).text
+            text = self._part("elements", tag).text if self._type(tag) not in _SOLIDS else ""
             reasons = [self._name("material", own) for own in self._uses("material", text) if self._one_sided(own)]
             if reasons or "Contact" in self._type(tag):
                 found.setdefault(", ".join([self._type(tag), *dict.fromkeys(reasons)]), []).append(int(tag))
+        return found
+
+    def shells(self) -> dict[int, tuple[list[int], float | None]]:
+        """Nodes and thickness (m; None where it is not printed) of the shells, by their tags."""
+        found: dict[int, tuple[list[int], float | None]] = {}
+        for tag in self._ops.getEleTags():
+            if "Shell" not in self._type(tag):
+                continue
+            [name] = self._uses("section", self._part("elements", tag).text) or [""]
+            printed = re.search(r'"(?:t|totalT)hickness": "?([^",}]+)', self._part("section", name).text)
+            nodes = [int(own) for own in self._ops.eleNodes(tag)]
+            found[int(tag)] = nodes, float(printed[1]) if printed else None
         return found
 
     def _type(self, tag: int) -> str:
@@ -90,10 +117,10 @@ class Elements:
     def _name(self, kind: str, name: str) -> str:
         """Kind, tag and type for people."""
         found = self._part(kind, name).type
-        if not found and kind != "crdTransformation":
+        if not found and kind in ("material", "section"):
             command = "uniaxialMaterial" if kind == "material" else kind
             found = str(self._ops.classType(command, int(name)))
-        return f"{kind} {name} {found}" if kind != "crdTransformation" else found or f"geomTransf {name}"
+        return f"{kind} {name} {found}".rstrip() if kind != "crdTransformation" else found or f"geomTransf {name}"
 
     @staticmethod
     def _uses(kind: str, text: str) -> list[str]:
@@ -110,9 +137,21 @@ class Elements:
         for name in self._uses("crdTransformation", text):
             if self._part("crdTransformation", name).type not in _TRANSFORMATIONS:
                 yield self._name("crdTransformation", name)
-        yield from self._inside(text)
-        if not text and self._type(tag) in _ELEMENTS:
+        if self._type(tag) in _SOLIDS:
+            yield from self._solid(text)
+        else:
+            yield from self._inside(text)
+        if not text and self._type(tag) in _ELEMENTS | _SHELLS | _SOLIDS:
             yield "unknown properties"
+
+    def _solid(self, text: str) -> Iterator[str]:
+        """Materials of a text, in several directions, that are not linear."""
+        for name in self._uses("material", text):
+            part = self._part("ndMaterial", name)
+            if part.type in _SOLID_MATERIALS:
+                yield from self._solid(part.text)
+            else:
+                yield self._name("ndMaterial", name)
 
     def _inside(self, text: str) -> Iterator[str]:
         """Materials and sections of a text that are not linear."""
@@ -124,8 +163,8 @@ class Elements:
                 yield from self._inside(part.text)
         for name in self._uses("section", text):
             part = self._part("section", name)
-            if part.type in _SECTIONS:
-                inside = list(self._inside(part.text))
+            if part.type in _SECTIONS | _LAYERED:
+                inside = list((self._solid if part.type in _LAYERED else self._inside)(part.text))
                 yield from [f"section {name} {part.type}", *inside] if inside else []
             elif name != "0" or part.type:
                 # Section 0 is the elastic one that a beam with hinges makes between them.

@@ -13,22 +13,20 @@ _REPEATED = 1e-13
 #: Constraints that a message names.
 _MOST = 8
 
-DIRECTIONS = ("x", "y", "rotation")
-
-
 class Ties:
     """Displacements of all nodes as weighted sums of the degrees of freedom that are left.
 
     Args:
         ops: the module ``openseespy.opensees``.
-        places: numbers of the three degrees of freedom of each node (its tag), in rows of ``penalty``.
-        penalty: Σ GᵀG (n × n) of the rows G of all constraints, G u = 0. It comes from OpenSees itself,
-            whichever command made the constraints.
+        places: numbers of the degrees of freedom of each node (its tag), in rows of ``penalty``.
+        directions: names of a node's degrees of freedom, translations first; a node may have the first ones only.
+        penalty: Σ GᵀG (n × n, dense or sparse) of the rows G of all constraints, G u = 0. It comes from OpenSees
+            itself, whichever command made the constraints.
     """
 
-    def __init__(self, ops: Any, places: dict[int, list[int]], penalty: Any) -> None:
-        self._places = places
-        self._near = {int(own): np.flatnonzero(penalty[own]).tolist() for own in np.flatnonzero(penalty.diagonal())}
+    def __init__(self, ops: Any, places: dict[int, list[int]], directions: tuple[str, ...], penalty: Any) -> None:
+        self._places, self.directions = places, directions
+        self._near = {int(own): _nonzero(penalty, int(own)) for own in np.flatnonzero(penalty.diagonal())}
         self._fixed = {int(tag): [int(own) - 1 for own in ops.getFixedDOFs(tag)] for tag in ops.getFixedNodes()}
         #: Nodes that follow, the nodes that they follow, and the directions.
         self._pairs = {
@@ -36,17 +34,54 @@ class Ties:
             for tag in ops.getConstrainedNodes()
             for master in ops.getRetainedNodes(tag)
         }
+        # Sparse matrices leave out what a fixed degree of freedom is tied to.
+        for tag, master in self._pairs:
+            retained = ops.getRetainedDOFs(master, tag)
+            for k, j in zip(self._pairs[tag, master], retained):
+                ends = places[tag][k], places[master][int(j) - 1]
+                for one, other in (ends, ends[::-1]):
+                    if other not in self._near.setdefault(one, [one]):
+                        self._near[one] = sorted([*self._near[one], other])
         followed: dict[int, set[int]] = {}
-        for (tag, _), directions in self._pairs.items():
-            followed.setdefault(tag, set()).update(directions)
+        for (tag, _), held in self._pairs.items():
+            followed.setdefault(tag, set()).update(held)
         #: Ties in a chain: a node that follows a second one, which follows a third.
         self.chains = [
             pair
             for pair in self._pairs
             if followed.get(pair[1], set()).intersection(int(own) - 1 for own in ops.getRetainedDOFs(pair[1], pair[0]))
         ]
-        left, diagonal, sums = penalty.copy(), penalty.diagonal().copy(), np.eye(len(penalty))
-        for pivot in self._order():
+        #: Displacements of constrained places as (places, weights) of such as are left.
+        self._followed: dict[int, tuple[Any, Any]] = {}
+        for part in self._parts():
+            self._eliminate(part, penalty)
+        order = penalty.shape[0]
+        #: Places of the degrees of freedom that are left, ascending.
+        self.kept = np.array([k for k in range(order) if k not in self._followed or k in self._followed[k][0]], dtype=int)
+        self._number = {int(place): k for k, place in enumerate(self.kept)}
+        #: Displacements of all nodes by those (n × kept), dense or sparse like ``penalty``.
+        self.sums = self._summed(order, not isinstance(penalty, np.ndarray))
+
+    def _parts(self) -> list[list[int]]:
+        """Constrained places, a list for all that hang together, each in the order of their elimination."""
+        part: dict[int, int] = {}
+        for first in self._near:
+            edge = [first] if first not in part else []
+            while edge:
+                part.update(dict.fromkeys(edge, first))
+                edge = list({own for far in edge for own in self._near[far] if own not in part})
+        found: dict[int, list[int]] = {}
+        for place in self._order():
+            found.setdefault(part[place], []).append(place)
+        return list(found.values())
+
+    def _eliminate(self, part: list[int], penalty: Any) -> None:
+        """Expresses places that hang together by such of them as are left."""
+        places = np.sort(part)
+        left = penalty[np.ix_(places, places)]
+        left = left if isinstance(left, np.ndarray) else left.toarray()
+        diagonal, sums = left.diagonal().copy(), np.eye(len(places))
+        for pivot in np.searchsorted(places, part):
             if left[pivot, pivot] <= _REPEATED * diagonal[pivot]:
                 continue
             # The constraint u[pivot] = −Σ row[j] u[j] goes into all that follows u[pivot].
@@ -58,10 +93,19 @@ class Ties:
             sums[:, pivot] = left[:, pivot] = left[pivot, :] = 0.0
         # Weights that cancel leave their rounding.
         sums[np.abs(sums) < 1e-14 * np.abs(sums).max(axis=1, initial=1.0, keepdims=True)] = 0.0
-        #: Places of the degrees of freedom that are left, ascending.
-        self.kept = np.flatnonzero(np.diagonal(sums))
-        #: Displacements of all nodes by those (n × kept).
-        self.sums = sums[:, self.kept]
+        for place, own in zip(places.tolist(), sums):
+            self._followed[place] = places[np.flatnonzero(own)], own[own != 0.0]
+
+    def _summed(self, order: int, is_sparse: bool) -> Any:
+        terms = [(place, *term) for place in range(order) for term in self.terms(place)]
+        row, column, weights = np.array(terms).reshape(-1, 3).T
+        if is_sparse:
+            from scipy import sparse
+
+            return sparse.csr_matrix((weights, (row.astype(int), column.astype(int))), shape=(order, len(self.kept)))
+        sums = np.zeros((order, len(self.kept)))
+        sums[row.astype(int), column.astype(int)] = weights
+        return sums
 
     def _order(self) -> list[int]:
         """Places of constrained degrees of freedom: a node before the ones that it follows."""
@@ -77,8 +121,8 @@ class Ties:
 
     def terms(self, place: int) -> list[tuple[int, float]]:
         """Pairs (number of a degree of freedom that is left, weight) that move the one at ``place``."""
-        row = self.sums[place]
-        return [(int(own), float(row[own])) for own in np.flatnonzero(row)]
+        places, weights = self._followed.get(place, ((place,), (1.0,)))
+        return [(self._number[int(own)], float(weight)) for own, weight in zip(places, weights)]
 
     def about(self, place: int) -> str:
         """The constraints of the degree of freedom at ``place`` and of all that are tied to it, for people."""
@@ -86,29 +130,37 @@ class Ties:
         while edge:
             edge = [own for far in edge for own in self._near.get(far, ()) if own not in seen]
             seen.update(edge)
-        nodes = {tag: [k for k in range(3) if own[k] in seen] for tag, own in self._places.items() if seen & set(own)}
+        nodes = {tag: [k for k in range(len(own)) if own[k] in seen] for tag, own in self._places.items() if seen & set(own)}
         found = []
         for tag, directions in nodes.items():
             if held := [k for k in directions if k in self._fixed.get(tag, ())]:
-                found.append(f"fix of node {tag} ({_listed(held)})")
+                found.append(f"fix of node {tag} ({self._listed(held)})")
         found += [self.named(pair, nodes[pair[0]]) for pair in self._pairs if pair[0] in nodes]
         found = [own for own in found if own]
         more = [f"{len(found) - _MOST} more"] if len(found) > _MOST else []
         return ", ".join(found[:_MOST] + more) or "a constraint"
 
-    def named(self, pair: tuple[int, int], directions: Sequence[int] = (0, 1, 2)) -> str:
-        """A tie for people, as far as it is one of these directions."""
-        held = [k for k in self._pairs[pair] if k in directions]
-        return f"{self._command(*pair, held)} of node {pair[0]} ({_listed(held)}) to node {pair[1]}" if held else ""
+    def named(self, pair: tuple[int, int], directions: Sequence[int] | None = None) -> str:
+        """A tie for people, as far as it is one of these directions; all of them unless given."""
+        held = [k for k in self._pairs[pair] if directions is None or k in directions]
+        return f"{self._command(*pair, held)} of node {pair[0]} ({self._listed(held)}) to node {pair[1]}" if held else ""
 
     def _command(self, tag: int, master: int, held: list[int]) -> str:
         """The commands that make such a tie."""
         own, other = self._places[tag], self._places[master]
-        turned = [(k, j) for k in held for j in range(3) if j != k and other[j] in self._near[own[k]]]
+        lines = len(self.directions) // 2 + len(self.directions) % 2  # translations
+        turned = [(k, j) for k in held for j in range(len(other)) if j != k and other[j] in self._near[own[k]]]
         if not turned:
             return "equalDOF, rigidLink 'bar' or rigidDiaphragm"
-        return "rigidLink 'beam' or rigidDiaphragm" if all(k < 2 and j == 2 for k, j in turned) else "equalDOF_Mixed"
+        is_rigid = all(k < lines <= j for k, j in turned)
+        return "rigidLink 'beam' or rigidDiaphragm" if is_rigid else "equalDOF_Mixed"
+
+    def _listed(self, held: list[int]) -> str:
+        return ", ".join(self.directions[k] for k in dict.fromkeys(held))
 
 
-def _listed(directions: list[int]) -> str:
-    return ", ".join(DIRECTIONS[k] for k in dict.fromkeys(directions))
+def _nonzero(matrix: Any, row: int) -> list[int]:
+    """Columns of the entries of a row that are not zero, ascending."""
+    if isinstance(matrix, np.ndarray):
+        return [int(own) for own in np.flatnonzero(matrix[row])]
+    return sorted(matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]].tolist())

@@ -1,6 +1,6 @@
 """Linear structures of OpenSeesPy on basemat's grounds.
 
-A two-dimensional model gives its matrices at its initial tangent; its base is free of supports, as the
+A model in the plane or in space gives its matrices at its initial tangent; its base is free of supports, as the
 ground holds it up.
 """
 
@@ -12,63 +12,87 @@ from typing import Any, Literal
 
 import numpy as np
 
-from . import BasematWarning, BaseNode, DofCombination, InputError, MatrixModel
+from . import BaseFaces, BasematWarning, BaseNode, DofCombination, InputError, MatrixModel
+from ._opensees_base import Up, faces_of, line_of, moves
 from ._opensees_linear import Elements
-from ._opensees_ties import DIRECTIONS, Ties
+from ._opensees_matrices import largest_entries, matrices
+from ._opensees_rows import Rows
+from ._opensees_ties import Ties
+
+_Direction = Literal["x", "y", "z", "rx", "ry", "rz", "rotation"]
 
 
 class OpenSeesModel:
     """A structure from OpenSees with the names of its nodes; what :func:`structure` returns.
 
     It is a structure like any other, for a ground, a simulation or a reduction. Its degrees of freedom
-    are called "4 x", "4 y" and "4 rotation" by the node's tag, in frames and in errors, too. A degree of
-    freedom that a tie or a fix of OpenSees takes away is none of them; :meth:`row` knows it all the same.
+    are called "4 x", "4 y" and "4 rotation" by the node's tag, in space "4 x", "4 y", "4 z", "4 rx", "4 ry" and "4 rz",
+    in frames and in errors, too. A degree of freedom that a tie or a fix of OpenSees takes away is none of them;
+    :meth:`row` knows it all the same. Matrices of more than 2400 degrees of freedom are those of ``scipy.sparse``
+    where SciPy is installed.
     """
 
-    def __init__(self, model: MatrixModel, places: dict[int, list[int]], ties: Ties) -> None:
-        self._places, self._ties = places, ties
+    def __init__(self, model: MatrixModel, rows: Rows, sparse: tuple[Any, Any, Any] | None) -> None:
+        self._rows = rows
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
-        self.mass = model.mass
-        self.stiffness = model.stiffness
-        self.damping = model.damping
+        self.mass, self.stiffness, self.damping = model.mass, model.stiffness, model.damping
+        if sparse:
+            self.mass, self.stiffness, self.damping = (own.copy for own in sparse)
 
     def __repr__(self) -> str:
-        return f"OpenSeesModel({len(self._places)} nodes, {self.dofs} degrees of freedom)"
+        return f"OpenSeesModel({len(self.nodes)} nodes, {self.dofs} degrees of freedom)"
 
-    def row(self, node: int, direction: Literal["x", "y", "rotation"] = "x") -> DofCombination:
-        """The :class:`DofCombination` of a ``node`` (its tag) in a ``direction``, "x" by default.
+    def row(self, node: int, direction: _Direction = "x") -> DofCombination:
+        """The :class:`DofCombination` of a ``node`` (its tag) in a ``direction`` of OpenSees, "x" by default.
 
-        For probes and loads. The row of a tied node is the sum of the degrees of freedom that it follows.
+        For probes and loads. Directions are "x", "y" and "rotation"; in space "x", "y", "z" and, about these axes, "rx",
+        "ry" and "rz". The row of a tied node is the sum of the degrees of freedom that it follows.
         """
-        return _row(self._places, self._ties, node, direction)
+        return self._rows.row(node, direction)
 
     @property
     def nodes(self) -> list[int]:
         """Tags of the nodes."""
-        return list(self._places)
+        return list(self._rows.places)
 
 
 def structure(
     ops: Any,
-    base_nodes: Sequence[int],
+    base_nodes: Sequence[int] | None = None,
     *,
     width: float | None = None,
+    outline: Sequence[Any] | None = None,
+    faces: Sequence[int | Sequence[int]] | None = None,
+    below: float | None = None,
+    up: Up = "z",
     tangent: Literal["initial", "present"] = "initial",
 ) -> OpenSeesModel:
     """The linear structure that the current model of OpenSees is: its stiffness is the initial tangent.
 
     Args:
-        ops: the module ``openseespy.opensees``, with a model of ``-ndm 2 -ndf 3``. Its elements give
-            stiffness, mass and damping per metre of thickness in SI units. Every ``fix``, ``equalDOF``,
+        ops: the module ``openseespy.opensees``, with a model of ``-ndm 2 -ndf 3`` or, in space, ``-ndm 3 -ndf 6``
+            (nodes of solids may have 3). Its elements give stiffness, mass and damping in SI units, per metre of
+            thickness in the plane, of the whole body in space. Every ``fix``, ``equalDOF``,
             ``rigidLink`` and other constraint holds exactly, whatever constraint handler and numberer
             are set; ties in chains, too, with a :class:`BasematWarning`, as not every handler of OpenSees
             holds them. The analysis that is set up there is wiped; recorders
-            write the present state twice more.
-        base_nodes: tags of the nodes on the ground at one height, free of supports, two or more; or
-            a single one with a ``width``. They may be tied.
-        width: length of a rigid base that a single node is the middle of, m; None for several.
+            write the present state twice more, of large models more often.
+        base_nodes: tags of the nodes on the ground at one height, free of supports. In the plane two or more, or
+            a single one with a ``width``. In space a single one with the ``outline`` of the rigid mat
+            that it moves, or several with an outline each. They may be tied.
+        width: length of a rigid base in the plane that a single node is the middle of, m; None for several.
+        outline: corners of a rigid base in space, convex: list of their coordinates in plan, (x, y) of the model or, with
+            ``up="y"``, (x, −z), m; for several base nodes a list of such lists. Columns on the mat hang on the
+            base node by ``rigidLink("beam", …)``.
+        faces: a flexible base in space: list of shell elements (their tags), or of the tags of the three
+            or four nodes around a face, free of supports and at one height. A shell touches the ground with its
+            underside, half its thickness below its nodes.
+        below: distance of the ground's surface below the base nodes or those of the faces, m. Unless given, zero
+            under an outline, half the thickness of its section under a shell.
+        up: axis of the model in space that points up, "z" or "y". The ground's and the motion's x, y and z are the
+            model's x, y and z, or with "y" its x, −z and y. Weight acts downwards. In the plane y points up.
         tangent: "initial" takes the stiffness of the elements before any load: yield, gaps, P-Delta and
             other large displacements do not happen in a run. "present" takes the stiffness at the state
             that analyses have left, such as the P-Delta of a gravity analysis.
@@ -79,26 +103,28 @@ def structure(
 
     Elements that are not linear, or are not known to be, give a :class:`BasematWarning` with their tags
     and types. Elements without a tangent at rest are an error: contact, gaps, springs that only push,
-    dashpots of a power of the velocity.
+    dashpots of a power of the velocity. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
+    ``-corotational``: it counts as linear.
+
+    Beyond 2400 degrees of freedom, SciPy makes the matrices sparse: nodes are fixed for a while to assemble window by
+    window (10 000 take about a minute). Without SciPy they are dense, with all n² numbers.
 
     To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
     than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
     """
     if tangent not in ("initial", "present"):
         raise InputError(f"tangent is '{tangent}', but must be 'initial' or 'present'")
-    _check(ops)
-    (penalty,), places = _assembled(ops, 1.0, np.zeros((1, 4)))
-    (mass, damping, present, initial), _ = _assembled(ops, 0.0, np.eye(4))
-    ops.wipeAnalysis()
+    directions = _directions(ops)
+    mass, damping, present, initial, penalty, places = matrices(ops)
     elements = Elements(ops)
     if (none := elements.without_tangent()) and tangent == "initial":
         raise InputError(
             f"{_named(none)} without a tangent at rest, which a linear structure needs: leave them out, or "
             "replace them by linear ones"
         )
-    if not initial.any():
+    if not (largest := abs(initial).max()):
         raise InputError("the elements of the model of OpenSees have no stiffness")
-    change = np.abs(present - initial).max() / np.abs(initial).max()
+    change = abs(present - initial).max() / largest
     if tangent == "initial" and change > 1e-6:
         raise InputError(
             f"analyses have changed the stiffness of the model of OpenSees, by {change:.2g} of its largest entry: "
@@ -111,7 +137,7 @@ def structure(
             BasematWarning,
             stacklevel=2,
         )
-    ties = Ties(ops, places, penalty)
+    ties = Ties(ops, places, directions, penalty)
     if ties.chains:
         chains = ", ".join(ties.named(pair) for pair in ties.chains)
         warnings.warn(
@@ -121,110 +147,43 @@ def structure(
             stacklevel=2,
         )
     stiffness = initial if tangent == "initial" else present
-    base = _base(ops, places, ties, base_nodes, width)
-    _moves(ops, places, ties, np.abs(stiffness).max(axis=1) + np.abs(mass).max(axis=1) > 0.0)
-    names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, DIRECTIONS)}
+    rows = Rows({tag: tuple(ops.nodeCoord(tag)) for tag in places}, places, ties)
+    base: list[BaseNode] | BaseFaces
+    if directions[-1] == "rotation":
+        if outline is not None or faces is not None or below is not None:
+            raise InputError("an outline, faces and below are for a model in space: give base_nodes in the plane")
+        base = line_of(rows, () if base_nodes is None else base_nodes, width)
+    else:
+        if width is not None:
+            raise InputError("a width is for a model in the plane: give an outline or faces in space")
+        base = faces_of(rows, elements, base_nodes, outline, faces, below, up)
+    if held := moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0):
+        warnings.warn(held, BasematWarning, stacklevel=2)
+    names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, directions)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
-    kept = [ties.sums.T @ _symmetric(own, names) @ ties.sums for own in (mass, stiffness, damping)]
-    if np.abs(damping).max() > 1e-12 * np.abs(stiffness).max():
-        options["damping"] = _clean(kept[2])
-    return OpenSeesModel(MatrixModel(_clean(kept[0]), _clean(kept[1]), base, **options), places, ties)
+    kept = [_clean(ties.sums.T @ _symmetric(own, names) @ ties.sums) for own in (mass, stiffness, damping)]
+    if abs(damping).max() > 1e-12 * abs(stiffness).max():
+        options["damping"] = kept[2]
+    model = MatrixModel(kept[0], kept[1], base, **options)
+    return OpenSeesModel(model, rows, None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2]))
 
 
-def _check(ops: Any) -> None:
-    """Refuses a model that is none of the plane, or has no elements."""
+def _directions(ops: Any) -> tuple[str, ...]:
+    """Names of a node's degrees of freedom; an error for a model of another kind, or without elements."""
+    sizes = {len(ops.nodeCoord(tag)) for tag in ops.getNodeTags()}
+    known = {2: (3,), 3: (3, 6)}.get(min(sizes, default=2), ())
     for tag in ops.getNodeTags():
         found = len(ops.nodeCoord(tag)), len(ops.nodeDisp(tag))
-        if found != (2, 3):
+        if len(sizes) > 1 or found[1] not in known:
             counts = "{} coordinates and {} degrees of freedom".format(*found)
             raise InputError(
-                f"node {tag} has {counts}, but must have 2 and 3: -ndm 2 -ndf 3. Any other linear model is a "
-                "MatrixModel by its matrices (integrator GimmeMCK, then printA), with a base of BaseNode, in "
-                "three dimensions of BaseFaces"
+                f"node {tag} has {counts}, but must have 2 and 3: -ndm 2 -ndf 3, or 3 and 6: -ndm 3 -ndf 6. Any other "
+                "linear model is a MatrixModel by its matrices (integrator GimmeMCK, then printA), with a base of "
+                "BaseNode, in three dimensions of BaseFaces"
             )
     if not ops.getEleTags():
         raise InputError("the model of OpenSees has no elements")
-
-
-def _assembled(ops: Any, penalty: float, factors: Any) -> tuple[list[Any], dict[int, list[int]]]:
-    """Sums of mass, damping, present and initial stiffness by ``factors``, and each node's numbers in them.
-
-    Nothing is solved: a free structure has no static solution. The penalty method keeps all degrees of
-    freedom, in the order of the nodes' directions, and adds ``penalty`` GᵀG for constraints G u = 0.
-    """
-    ops.wipeAnalysis()
-    ops.constraints("Penalty", penalty, penalty)
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.algorithm("Linear")
-    ops.integrator("GimmeMCK", 0.0, 0.0, 0.0, 0.0)
-    ops.analysis("Transient")
-    ops.initialize()
-    order = ops.systemSize()
-    found = []
-    for own in factors:
-        ops.integrator("GimmeMCK", *own.tolist())
-        found.append(np.array(ops.printA("-ret")).reshape(order, order))
-    return found, {int(tag): [int(own) for own in ops.nodeDOFs(tag)] for tag in ops.getNodeTags()}
-
-
-def _base(
-    ops: Any, places: dict[int, list[int]], ties: Ties, base_nodes: Sequence[int], width: float | None
-) -> list[BaseNode]:
-    """Nodes of the base."""
-    at = {tag: ops.nodeCoord(tag) for tag in base_nodes if tag in places}
-    x = {tag: float(own[0]) for tag, own in at.items()}
-    rows = {}
-    for tag in base_nodes:
-        for name in DIRECTIONS if width is not None else DIRECTIONS[:2]:
-            rows[tag, name] = _row(places, ties, tag, name, ": it must be free, as the ground holds the structure up")
-    heights = sorted({float(own[1]) for own in at.values()})
-    if len(heights) > 1:
-        raise InputError(f"base nodes are at heights of {heights[0]} to {heights[-1]} m, but must be at one")
-    if len(x) < 2 and width is None or len(x) != 1 and width is not None:
-        raise InputError(f"{len(x)} base nodes: give several, or a single one with a width")
-    if width is None:
-        return [BaseNode(x[tag], rows[tag, "x"], rows[tag, "y"]) for tag in sorted(x, key=lambda tag: x[tag])]
-    [tag] = x
-    ends = (-0.5 * width, 0.5 * width)
-    return [
-        BaseNode(x[tag] + own, rows[tag, "x"], rows[tag, "y"] + rows[tag, "rotation"] * own) for own in ends
-    ]
-
-
-def _moves(ops: Any, places: dict[int, list[int]], ties: Ties, used: Any) -> None:
-    """Refuses constraints that stop a translation of the structure, and warns of those that stop its rotation."""
-    at = {tag: ops.nodeCoord(tag) for tag in places}
-    size = np.ptp(list(at.values()), axis=0).max()
-    for name in DIRECTIONS:
-        moved = np.zeros(len(ties.sums))
-        for tag, own in places.items():
-            x, y = at[tag]
-            moved[own] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0)}.get(name, (-y, x, 1.0))
-        missed = used & (np.abs(ties.sums @ moved[ties.kept] - moved) > 1e-6 * max(size, 1.0))
-        for tag, own in places.items():
-            for place, direction in zip(own, DIRECTIONS):
-                if not missed[place]:
-                    continue
-                by = f"node {tag} ({direction}) does not follow, by {ties.about(place)}"
-                if name != "rotation":
-                    raise InputError(f"the structure must translate freely in {name}, as the ground holds it up: {by}")
-                text = f"the structure does not rotate freely, as if something beside the ground held it: {by}"
-                warnings.warn(text, BasematWarning, stacklevel=3)
-                return
-
-
-def _row(places: dict[int, list[int]], ties: Ties, node: int, direction: str, need: str = "") -> DofCombination:
-    """The row of a node's displacement; ``need`` ends the message where constraints hold it at zero."""
-    if node not in places:
-        raise InputError(f"there is no node {node} in the model of OpenSees")
-    if direction not in DIRECTIONS:
-        raise InputError(f"there is no direction '{direction}', only {', '.join(DIRECTIONS)}")
-    place = places[node][DIRECTIONS.index(direction)]
-    terms = ties.terms(place)
-    if not terms:
-        raise InputError(f"node {node} is held in the direction {direction}{need} (it is held by {ties.about(place)})")
-    return DofCombination(terms)
+    return ("x", "y", "rotation") if sizes == {2} else ("x", "y", "z", "rx", "ry", "rz")
 
 
 def _named(found: dict[str, list[int]], most: int = 20) -> str:
@@ -238,9 +197,9 @@ def _named(found: dict[str, list[int]], most: int = 20) -> str:
 
 def _symmetric(matrix: Any, names: dict[int, str]) -> Any:
     """The matrix, which must be symmetric but for rounding."""
-    odd = np.abs(matrix - matrix.T)
-    row, column = np.unravel_index(odd.argmax(), odd.shape)
-    if odd[row, column] > 1e-9 * np.abs(matrix).max(initial=0.0):
+    odd = abs(matrix - matrix.T)
+    row, column = np.unravel_index(int(odd.argmax()), odd.shape)
+    if odd[row, column] > 1e-9 * abs(matrix).max():
         pair = f"'{names[int(row)]}' and '{names[int(column)]}'"
         raise InputError(f"a matrix of the model of OpenSees is not symmetric between {pair}: a linear structure must be")
     return matrix
@@ -249,5 +208,8 @@ def _symmetric(matrix: Any, names: dict[int, str]) -> Any:
 def _clean(matrix: Any) -> Any:
     """Symmetric, without what rounding left of zeros."""
     matrix = 0.5 * (matrix + matrix.T)
-    matrix[np.abs(matrix) < 1e-14 * np.abs(matrix).max()] = 0.0
+    values = matrix if isinstance(matrix, np.ndarray) else matrix.data
+    values[abs(values) < 1e-14 * abs(values).max(initial=0.0)] = 0.0
+    if values is not matrix:
+        matrix.eliminate_zeros()
     return matrix
