@@ -193,3 +193,19 @@ def moves(rows: Rows, used: Any) -> str:
                     raise InputError(f"the structure must translate freely in {name}, as the ground holds it up: {by}")
                 return f"the structure does not rotate freely, as if something beside the ground held it: {by}"
     return ""
+
+
+def masses(rows: Rows, mass: Any, up: str) -> str:
+    """Words for masses that differ by direction; the one up makes the weight."""
+    names = [name for name in rows.directions if name in ("x", "y", "z")]
+    found = {}
+    for name in names:
+        moved = np.zeros(mass.shape[0])
+        for tag, own in rows.places.items():
+            moved[own] = rows.rigid(name, tag)
+        found[name] = float(moved @ (mass @ moved))
+    if max(found.values()) - min(found.values()) <= 1e-3 * max(found.values()):
+        return ""
+    up = up if len(names) == 3 else "y"
+    listed = ", ".join(f"{own:.4g} {'kg' if len(names) == 3 else 'kg/m'} along {name}" for name, own in found.items())
+    return f"the model of OpenSees has masses of {listed}: the ground carries the weight of those along {up}, the axis up"

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import numpy as np
 
 from . import BaseFaces, BasematWarning, BaseNode, DofCombination, InputError, MatrixModel
-from ._opensees_base import Up, faces_of, line_of, moves
+from ._opensees_base import Up, faces_of, line_of, masses, moves
 from ._opensees_linear import Elements
 from ._opensees_matrices import largest_entries, matrices
 from ._opensees_rows import Rows
@@ -103,7 +103,8 @@ def structure(
 
     Elements that are not linear, or are not known to be, give a :class:`BasematWarning` with their tags
     and types. Elements without a tangent at rest are an error: contact, gaps, springs that only push,
-    dashpots of a power of the velocity. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
+    dashpots of a power of the velocity. Masses in total that differ by direction give a :class:`BasematWarning`: floors
+    whose mass acts along x and y only have no weight. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
     ``-corotational``: it counts as linear.
 
     Beyond 2400 degrees of freedom, SciPy makes the matrices sparse: nodes are fixed for a while to assemble window by
@@ -126,10 +127,14 @@ def structure(
         raise InputError("the elements of the model of OpenSees have no stiffness")
     change = abs(present - initial).max() / largest
     if tangent == "initial" and change > 1e-6:
-        raise InputError(
-            f"analyses have changed the stiffness of the model of OpenSees, by {change:.2g} of its largest entry: "
-            "call ops.reset() before for the initial tangent, or give tangent='present'"
-        )
+        if any(any(ops.nodeDisp(tag)) for tag in places):
+            raise InputError(
+                f"analyses have changed the stiffness of the model of OpenSees, by {change:.2g} of its largest entry: "
+                "call ops.reset() before for the initial tangent, or give tangent='present'"
+            )
+        # At rest, the present tangent is the initial one. OpenSees 3.7.1 gives another initial stiffness of ShellDKGT
+        # and ShellNLDKGT, which resists rigid rotations.
+        initial = present
     if found := elements.not_linear():
         warnings.warn(
             f"the model of OpenSees is not linear: {_named(found)}. Their {tangent} tangent is taken, and stays in "
@@ -159,6 +164,8 @@ def structure(
         base = faces_of(rows, elements, base_nodes, outline, faces, below, up)
     if held := moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0):
         warnings.warn(held, BasematWarning, stacklevel=2)
+    if uneven := masses(rows, mass, up):
+        warnings.warn(uneven, BasematWarning, stacklevel=2)
     names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, directions)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
     kept = [_clean(ties.sums.T @ _symmetric(own, names) @ ties.sums) for own in (mass, stiffness, damping)]
