@@ -1,12 +1,14 @@
 //! Grids of nodes on surfaces, in rows.
 
+use super::material::Material;
 use super::mesh::Mesh;
+use super::shell::Shell;
 use crate::error::{Error, Result, at_least, finite, not_negative, require};
 
 /// Nodes of a surface, row by row, and the cells between them.
 ///
 /// ```
-/// use basemat::fem::{Material, Mesh, Shell};
+/// use basemat::fem::{Material, Mesh};
 ///
 /// // A tank: a flat bottom of radius 5 m from its middle, then a wall of 6 m, by 24 sectors.
 /// let steel = Material::new(210.0e9, 0.3, 7850.0)?;
@@ -14,8 +16,8 @@ use crate::error::{Error, Result, at_least, finite, not_negative, require};
 /// let radii = [0.0, 2.5, 5.0].map(|radius| [radius, 0.0]);
 /// let heights = [2.0, 4.0, 6.0].map(|height| [5.0, height]);
 /// let tank = mesh.revolve([0.0, 0.0], &[&radii[..], &heights].concat(), 24)?;
-/// for (row, cell) in tank.cells() {
-///     mesh.add(Shell::new(cell, steel, if row < 2 { 0.012 } else { 0.008 })?)?;
+/// for shell in tank.shells(steel, |row| if row < 2 { 0.012 } else { 0.008 })? {
+///     mesh.add(shell)?;
 /// }
 /// assert_eq!(mesh.nodes().len(), 1 + 5 * 24);
 /// assert_eq!(mesh.elements().len(), 5 * 24);
@@ -65,6 +67,23 @@ impl Grid {
             };
             (0..count).map(corners)
         })
+    }
+
+    /// Shells of all cells, in the order of [`cells`](Grid::cells); `thickness` of each row of cells in m.
+    ///
+    /// Triangles at a pole are matched to the quadrilaterals beside them ([`Shell::match_sides`]).
+    ///
+    /// # Errors
+    /// As for [`Shell::new`].
+    pub fn shells(
+        &self,
+        material: Material,
+        thickness: impl Fn(usize) -> f64,
+    ) -> Result<Vec<Shell>> {
+        let shells = self.cells().map(|(row, cell)| Shell::new(cell, material, thickness(row)));
+        let mut shells = shells.collect::<Result<Vec<_>>>()?;
+        Shell::match_sides(&mut shells);
+        Ok(shells)
     }
 
     /// Adds nodes above the grid and returns the bricks between them, for [`Hex8`](super::Hex8).

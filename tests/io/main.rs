@@ -2,5 +2,6 @@
 
 mod gmsh;
 mod gmsh_files;
+mod gmsh_space;
 mod matrix_market;
 mod vtk;

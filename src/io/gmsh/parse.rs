@@ -1,10 +1,13 @@
 //! The sections of a `.msh` file, version 4.1 (Gmsh reference manual, "MSH file format").
 
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::io::Read;
+use std::path::Path;
 use std::str::FromStr;
 
-use crate::error::FileFault;
+use super::kind::{Accepted, Kind};
+use crate::error::{Error, FileFault};
 use crate::text::bounded_line::Lines;
 use crate::text::decimal::{excerpt, finite, quoted};
 
@@ -19,10 +22,9 @@ pub(super) struct Point {
 }
 
 /// An element of the file by its tags, with its line.
-///
-/// A line has 2 or 3 nodes, a quadrilateral 4 or 8.
 #[derive(Debug)]
 pub(super) struct RawCell {
+    pub(super) kind: Kind,
     /// Dimension and tag of its entity.
     entity: (u8, i64),
     pub(super) tag: u64,
@@ -42,13 +44,12 @@ pub(super) struct Raw {
     names: BTreeMap<(u8, i64), String>,
 }
 
-impl RawCell {
-    pub(super) fn is_quadrilateral(&self) -> bool {
-        self.nodes.len() > 3
-    }
-}
-
 impl Raw {
+    /// Whether `cell` is in a physical group.
+    pub(super) fn is_in_a_group(&self, cell: &RawCell) -> bool {
+        self.groups.get(&cell.entity).is_some_and(|groups| !groups.is_empty())
+    }
+
     /// Names of the physical groups of `cell`, sorted; for a group without a name, its number.
     ///
     /// A cell without a group has one empty name.
@@ -69,7 +70,17 @@ impl Raw {
     }
 }
 
-pub(super) fn read(source: impl Read) -> Reason<Raw> {
+/// The file at `path` and its name.
+pub(super) fn open(path: &Path) -> Result<(String, File), Error> {
+    let name = path.display().to_string();
+    match File::open(path) {
+        Ok(file) => Ok((name, file)),
+        Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
+    }
+}
+
+/// Reads a file whose elements are of the `accepted` kinds.
+pub(super) fn read(source: impl Read, accepted: &Accepted) -> Reason<Raw> {
     let mut fields = Words::new(source);
     let mut raw = Raw::default();
     let mut seen = Vec::new();
@@ -83,7 +94,7 @@ pub(super) fn read(source: impl Read) -> Reason<Raw> {
             "Entities" => entities(&mut fields, &mut raw, false)?,
             "PartitionedEntities" => partitioned_entities(&mut fields, &mut raw)?,
             "Nodes" => nodes(&mut fields, &mut raw)?,
-            "Elements" => elements(&mut fields, &mut raw)?,
+            "Elements" => elements(&mut fields, &mut raw, accepted)?,
             _ => {
                 fields.pass_over(&section)?;
                 continue;
@@ -218,43 +229,23 @@ fn counts(fields: &mut Words<impl Read>, what: &'static str) -> Reason<(u64, u64
     Ok(counts)
 }
 
-/// Number of nodes of an element of this Gmsh type.
-fn size_of(kind: u32) -> Result<usize, FileFault> {
-    let remedy = match kind {
-        15 => return Ok(1),
-        1 => return Ok(2),
-        8 => return Ok(3),
-        3 => return Ok(4),
-        16 => return Ok(8),
-        2 | 9 => ": let Gmsh recombine triangles (Mesh.RecombineAll = 1)",
-        10 => ": Mesh.SecondOrderIncomplete = 1 leaves out the ninth node",
-        _ => "",
-    };
-    let needed = format!("lines and quadrilaterals of the first or second order{remedy}");
-    Err(FileFault::format(format!("elements of type {kind}"), needed))
-}
-
-fn elements(fields: &mut Words<impl Read>, raw: &mut Raw) -> Reason<()> {
+fn elements(fields: &mut Words<impl Read>, raw: &mut Raw, accepted: &Accepted) -> Reason<()> {
     let (blocks, announced) = counts(fields, "number of elements")?;
-    let mut found = 0;
     for _ in 0..blocks {
         let entity = (fields.next("dimension of an entity")?, fields.next("tag of an entity")?);
-        let kind: u32 = fields.next("type of elements")?;
+        let number: u32 = fields.next("type of elements")?;
         let count: usize = fields.next("number of elements")?;
-        let size = size_of(kind).map_err(|reason| fields.refuse(reason))?;
+        let kind = accepted.kind(number, count).map_err(|reason| fields.refuse(reason))?;
         for _ in 0..count {
             let tag = fields.next("tag of an element")?;
-            let mut nodes = Vec::with_capacity(size);
-            for _ in 0..size {
+            let mut nodes = Vec::with_capacity(kind.nodes());
+            for _ in 0..kind.nodes() {
                 nodes.push(fields.next("tag of a node")?);
             }
-            found += 1;
-            if size > 1 {
-                raw.cells.push(RawCell { entity, tag, nodes, line: fields.line });
-            }
+            raw.cells.push(RawCell { kind, entity, tag, nodes, line: fields.line });
         }
     }
-    fields.agree("elements", found, announced)
+    fields.agree("elements", raw.cells.len(), announced)
 }
 
 /// Fault of an item that may be there once.

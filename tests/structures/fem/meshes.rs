@@ -1,9 +1,11 @@
 //! GOAL: layered blocks, their contact line, and the look-up of nodes.
-//! SCENE: blocks of one to three layers, uniform and graded; bars and masses.
+//! SCENE: blocks of one to three layers, uniform and graded; bars and masses; a surface of revolution.
 //! REFERENCE: coordinates and numbers written down here.
 
 use basemat::Error;
-use basemat::fem::{Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Truss};
+use basemat::fem::{
+    Direction, Layer, LumpedMass, Material, Mesh, Quad4, QuadFormulation, Shell, Truss,
+};
 use basemat::structure::{DofCombination, FemModel, Structure};
 
 fn soft() -> Material {
@@ -104,4 +106,23 @@ fn only_used_directions_are_numbered() {
     mesh.add(LumpedMass::new(3, 2.0).unwrap().with_rotary_inertia(1.0).unwrap()).unwrap();
     // node 2 has no element, node 3 a rotation
     assert_eq!(FemModel::new(mesh, &[0, 1]).unwrap().dofs(), 7);
+}
+
+/// The triangles at the pole of a surface of revolution are matched to the ring of quadrilaterals.
+#[test]
+fn shells_of_a_grid_are_matched() {
+    let concrete = Material::new(30.0e9, 0.2, 2500.0).unwrap();
+    let mut mesh = Mesh::in_space();
+    let meridian = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]];
+    let grid = mesh.revolve([0.0; 2], &meridian, 6).unwrap();
+    let thickness = |row: usize| if row < 2 { 0.5 } else { 0.2 };
+    let shells = grid.shells(concrete, thickness).unwrap();
+    let mut by_hand: Vec<Shell> = grid
+        .cells()
+        .map(|(row, cell)| Shell::new(cell, concrete, thickness(row)).unwrap())
+        .collect();
+    assert!(shells.len() == 18 && shells[..6].iter().zip(&by_hand).all(|(a, b)| a != b));
+    Shell::match_sides(&mut by_hand);
+    assert_eq!(shells, by_hand);
+    assert!(grid.shells(concrete, |_| 0.0).is_err());
 }

@@ -1,0 +1,140 @@
+//! Kinds of elements in a `.msh` file, by their numbers (Gmsh reference manual, "Low order elements").
+
+use crate::error::FileFault;
+
+/// Kind of an element that a reader accepts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Point,
+    Line,
+    /// Line with a node in its middle.
+    SecondOrderLine,
+    Triangle,
+    Quadrilateral,
+    /// Quadrilateral with a node in the middle of each side.
+    SecondOrderQuadrilateral,
+    Brick,
+}
+
+impl Kind {
+    /// Name of one element.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Line | Self::SecondOrderLine => "line",
+            Self::Triangle => "triangle",
+            Self::Quadrilateral | Self::SecondOrderQuadrilateral => "quadrilateral",
+            Self::Brick => "brick",
+        }
+    }
+
+    /// Number of corners; nodes between corners follow them.
+    pub(super) fn corners(self) -> usize {
+        match self {
+            Self::SecondOrderLine => 2,
+            Self::SecondOrderQuadrilateral => 4,
+            _ => self.nodes(),
+        }
+    }
+
+    /// Number of nodes.
+    pub(super) fn nodes(self) -> usize {
+        match self {
+            Self::Point => 1,
+            Self::Line => 2,
+            Self::SecondOrderLine | Self::Triangle => 3,
+            Self::Quadrilateral => 4,
+            Self::SecondOrderQuadrilateral | Self::Brick => 8,
+        }
+    }
+
+    /// Dimension of the element: 0 for a point, 3 for a solid in space.
+    pub(super) fn dimension(self) -> usize {
+        match self {
+            Self::Point => 0,
+            Self::Line | Self::SecondOrderLine => 1,
+            Self::Triangle | Self::Quadrilateral | Self::SecondOrderQuadrilateral => 2,
+            Self::Brick => 3,
+        }
+    }
+}
+
+/// Kinds of elements that a reader accepts.
+#[derive(Debug)]
+pub(super) struct Accepted {
+    /// Number of the kind in the format, and the kind.
+    kinds: &'static [(u32, Kind)],
+    /// The same in words.
+    needed: &'static str,
+    /// Settings of Gmsh that avoid kinds that are not accepted, by the numbers of these kinds.
+    remedies: &'static [(&'static [u32], &'static str)],
+}
+
+/// Kinds of a mesh in the plane.
+pub(super) const IN_PLANE: Accepted = Accepted {
+    kinds: &[
+        (15, Kind::Point),
+        (1, Kind::Line),
+        (8, Kind::SecondOrderLine),
+        (3, Kind::Quadrilateral),
+        (16, Kind::SecondOrderQuadrilateral),
+    ],
+    needed: "lines and quadrilaterals of the first or second order",
+    remedies: &[
+        (&[2, 9], "let Gmsh recombine triangles (Mesh.RecombineAll = 1)"),
+        (&[10], "Mesh.SecondOrderIncomplete = 1 leaves out the ninth node"),
+    ],
+};
+
+/// Kinds of a mesh in space.
+pub(super) const IN_SPACE: Accepted = Accepted {
+    kinds: &[
+        (15, Kind::Point),
+        (1, Kind::Line),
+        (2, Kind::Triangle),
+        (3, Kind::Quadrilateral),
+        (5, Kind::Brick),
+    ],
+    needed: "points, lines, triangles, quadrilaterals and bricks of the first order",
+    remedies: &[
+        (&[4, 6, 7], "let Gmsh make bricks (transfinite volumes, or extruded layers, recombined)"),
+        (&[8, 9, 10, 11, 12, 13, 14, 16, 17, 18, 19], "Mesh.ElementOrder = 1"),
+    ],
+};
+
+/// Names of the kinds 1 to 19.
+const NAMES: [&str; 19] = [
+    "lines",
+    "triangles",
+    "quadrilaterals",
+    "tetrahedra",
+    "bricks",
+    "prisms",
+    "pyramids",
+    "lines of 3 nodes",
+    "triangles of 6 nodes",
+    "quadrilaterals of 9 nodes",
+    "tetrahedra of 10 nodes",
+    "bricks of 27 nodes",
+    "prisms of 18 nodes",
+    "pyramids of 14 nodes",
+    "points",
+    "quadrilaterals of 8 nodes",
+    "bricks of 20 nodes",
+    "prisms of 15 nodes",
+    "pyramids of 13 nodes",
+];
+
+impl Accepted {
+    /// Kind with this `number` in the format; the fault names the `count` of elements that are not accepted.
+    pub(super) fn kind(&self, number: u32, count: usize) -> Result<Kind, FileFault> {
+        if let Some((_, kind)) = self.kinds.iter().find(|(own, _)| *own == number) {
+            return Ok(*kind);
+        }
+        let name = (1..).zip(NAMES).find(|(own, _)| *own == number).map(|(_, name)| name);
+        let found = format!("{count} {} (type {number})", name.unwrap_or("elements"));
+        let remedy = self.remedies.iter().find(|(numbers, _)| numbers.contains(&number));
+        let remedy = remedy.map_or(String::new(), |(_, remedy)| format!(": {remedy}"));
+        Err(FileFault::format(found, format!("{}{remedy}", self.needed)))
+    }
+}

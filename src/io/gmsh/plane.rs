@@ -1,0 +1,254 @@
+//! Meshes of quadrilaterals in the plane.
+
+use std::collections::BTreeSet;
+use std::io::Read;
+use std::path::Path;
+
+use super::cell::{self, Cell, group_names};
+use super::kind::{IN_PLANE, Kind};
+use super::parse::{self, twice};
+use crate::error::{Error, FileFault, Result};
+use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
+
+/// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
+///
+/// [`GmshSpaceMesh`](super::GmshSpaceMesh) reads meshes in space.
+///
+/// The names of physical groups define the material of quadrilaterals and the meaning of lines. An element
+/// belongs to all of its groups; an element in no group has the name "". A quadrilateral must have exactly one
+/// group with a material. Points, and lines that the caller does not use, are ignored. Triangles and nodes
+/// outside the plane z = 0 are an error. Clockwise quadrilaterals are reversed. Elements of the second order
+/// have eight nodes (`Mesh.SecondOrderIncomplete = 1`) and become [`Quad8`]s.
+///
+/// ```
+/// use basemat::fem::Material;
+/// use basemat::io::GmshMesh;
+/// use basemat::structure::{FemModel, Structure};
+///
+/// // The example of Gmsh's manual: two squares side by side; here with a named line below.
+/// let text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n\
+///     $PhysicalNames\n2\n1 7 \"base\"\n2 9 \"wall\"\n$EndPhysicalNames\n\
+///     $Entities\n0 1 1 0\n1 0 0 0 2 0 0 1 7 0\n1 0 0 0 2 1 0 1 9 0\n$EndEntities\n\
+///     $Nodes\n1 6 1 6\n2 1 0 6\n1\n2\n3\n4\n5\n6\n\
+///     0. 0. 0.\n1. 0. 0.\n1. 1. 0.\n0. 1. 0.\n2. 0. 0.\n2. 1. 0.\n$EndNodes\n\
+///     $Elements\n2 4 1 4\n1 1 1 2\n1 1 2\n2 2 5\n2 1 3 2\n3 1 2 3 4\n4 2 5 6 3\n$EndElements\n";
+/// let gmsh = GmshMesh::from_reader("wall.msh", text.as_bytes())?;
+/// assert_eq!(gmsh.surfaces(), ["wall"]);
+/// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+/// let mesh = gmsh.mesh(&[("wall", concrete)])?;
+/// let model = FemModel::new(mesh, &gmsh.line("base")?)?;
+/// assert_eq!((model.dofs(), model.base().nodes().count()), (12, 3));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct GmshMesh {
+    file: String,
+    /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
+    nodes: Vec<[f64; 2]>,
+    quads: Vec<Cell>,
+    lines: Vec<Cell>,
+}
+
+/// Distance from the plane z = 0 that counts as rounding, relative to the size of the mesh.
+const FLAT: f64 = 1e-9;
+
+impl GmshMesh {
+    /// Reads a `.msh` file.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the line and the reason.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self> {
+        let (name, file) = parse::open(path.as_ref())?;
+        Self::from_reader(&name, file)
+    }
+
+    /// Reads the same from any source of bytes; errors use `name` for the source.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the line and the reason.
+    pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
+        let refuse = |(line, fault): (usize, FileFault)| fault.of(name, line);
+        let raw = parse::read(source, &IN_PLANE).map_err(refuse)?;
+        let is_quad = |kind: Kind| kind.dimension() == 2;
+        // Lines of the geometry that touch no quadrilateral are ignored.
+        let numbered = cell::number(&raw, |cell| is_quad(cell.kind)).map_err(refuse)?;
+        let size = numbered.points.iter().fold(0.0_f64, |most, point| {
+            let [x, y, _] = point.values;
+            most.max(x.abs()).max(y.abs())
+        });
+        let off = |point: &&parse::Point| point.values[2].abs() > FLAT * size;
+        if let Some(point) = numbered.points.iter().copied().find(off) {
+            let fault = FileFault::value("z of a node", point.values[2].to_string(), "0");
+            return Err(refuse((point.line, fault)));
+        }
+        let nodes =
+            numbered.points.iter().map(|point| [point.values[0], point.values[1]]).collect();
+        let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
+        for mut cell in numbered.cells {
+            if is_quad(cell.kind) {
+                mesh.turn_counter_clockwise(&mut cell.nodes);
+                mesh.quads.push(cell);
+            } else if cell.kind != Kind::Point {
+                mesh.lines.push(cell);
+            }
+        }
+        Ok(mesh)
+    }
+
+    /// Coordinates of the nodes of quadrilaterals, m.
+    pub fn nodes(&self) -> &[[f64; 2]] {
+        &self.nodes
+    }
+
+    /// Names of the groups of quadrilaterals, sorted.
+    pub fn surfaces(&self) -> Vec<&str> {
+        group_names(self.quads.iter())
+    }
+
+    /// Names of the groups of lines, sorted.
+    pub fn lines(&self) -> Vec<&str> {
+        group_names(self.lines.iter())
+    }
+
+    /// The quadrilaterals, each with the material of its group; more elements can be added.
+    ///
+    /// Nodes keep their indices.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a quadrilateral without a material or with two materials, a material without a
+    /// group, and quadrilaterals without area or with a reflex corner, with their line.
+    pub fn mesh(&self, materials: &[(&str, Material)]) -> Result<Mesh> {
+        self.mesh_of(materials, QuadFormulation::default())
+    }
+
+    /// [`GmshMesh::mesh`] with another formulation of the quadrilaterals of four nodes.
+    ///
+    /// # Errors
+    /// As for [`GmshMesh::mesh`].
+    pub fn mesh_of(
+        &self,
+        materials: &[(&str, Material)],
+        formulation: QuadFormulation,
+    ) -> Result<Mesh> {
+        let surfaces = self.surfaces();
+        if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
+            return Err(self.missing(format!("surface '{name}'")));
+        }
+        for (k, (name, _)) in materials.iter().enumerate() {
+            if materials[..k].iter().any(|(other, _)| other == name) {
+                return Err(self.refuse(twice(format!("material of surface '{name}'"))));
+            }
+        }
+        let mut mesh = Mesh::new();
+        for &[x, y] in &self.nodes {
+            mesh.add_node(x, y)?;
+        }
+        for quad in &self.quads {
+            let material = self.material(quad, materials)?;
+            let added = match *quad.nodes {
+                [a, b, c, d] => mesh.add(Quad4::new([a, b, c, d], material, formulation)),
+                [a, b, c, d, ab, bc, cd, da] => {
+                    mesh.add(Quad8::new([a, b, c, d, ab, bc, cd, da], material))
+                }
+                _ => continue,
+            };
+            added.map_err(|error| {
+                let error = error.within(format!("element {}", quad.tag));
+                FileFault::Unusable(Box::new(error)).of(&self.file, quad.line)
+            })?;
+        }
+        Ok(mesh)
+    }
+
+    /// The one material of a quadrilateral.
+    fn material(&self, quad: &Cell, materials: &[(&str, Material)]) -> Result<Material> {
+        let own = |(name, _): &&(&str, Material)| quad.is_in(name);
+        let mut found = materials.iter().filter(own);
+        match (found.next(), found.next()) {
+            (Some((_, material)), None) => Ok(*material),
+            (Some((one, _)), Some((other, _))) => {
+                let what = format!(
+                    "material of element {}, which is in the surfaces '{one}' and '{other}',",
+                    quad.tag
+                );
+                Err(twice(what).of(&self.file, quad.line))
+            }
+            (None, _) => {
+                let surfaces = quad.groups.join("' or '");
+                Err(self.missing(format!("material for its surface '{surfaces}'")))
+            }
+        }
+    }
+
+    /// Nodes of the lines of group `name`, from left to right: the contact nodes of a base.
+    ///
+    /// # Errors
+    /// [`Error::File`] if there is no such group, or its lines have a gap; [`GmshMesh::foundations`]
+    /// returns the pieces between gaps.
+    pub fn line(&self, name: &str) -> Result<Vec<usize>> {
+        let mut pieces = self.foundations(name)?;
+        match (pieces.pop(), pieces.len()) {
+            (Some(line), 0) => Ok(line),
+            (_, others) => {
+                let needed = "1 (`GmshMesh::foundations` gives the pieces)";
+                let items = format!("pieces of line '{name}'");
+                Err(self.refuse(FileFault::count(&items, others + 1, needed)))
+            }
+        }
+    }
+
+    /// Nodes of the lines of group `name`, for each connected piece, from left to right.
+    ///
+    /// These are the contact nodes of separate footings, for [`FemModel::on_foundations`]. If footings have
+    /// their own names, read each by [`line`](GmshMesh::line).
+    ///
+    /// [`FemModel::on_foundations`]: crate::structure::FemModel::on_foundations
+    ///
+    /// # Errors
+    /// [`Error::File`] if there is no such group.
+    pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
+        let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
+        for line in self.lines.iter().filter(|line| line.is_in(name)) {
+            let mut joined: BTreeSet<usize> = line.nodes.iter().copied().collect();
+            pieces.retain_mut(|piece| {
+                let apart = line.nodes.iter().all(|node| !piece.contains(node));
+                if !apart {
+                    joined.append(piece);
+                }
+                apart
+            });
+            pieces.push(joined);
+        }
+        if pieces.is_empty() {
+            return Err(self.missing(format!("line '{name}'")));
+        }
+        let x = |node: usize| self.nodes[node][0];
+        let from_the_left = |piece: BTreeSet<usize>| {
+            let mut nodes: Vec<usize> = piece.into_iter().collect();
+            nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
+            nodes
+        };
+        let mut pieces: Vec<Vec<usize>> = pieces.into_iter().map(from_the_left).collect();
+        pieces.sort_by(|a, b| x(a[0]).total_cmp(&x(b[0])));
+        Ok(pieces)
+    }
+
+    fn missing(&self, what: String) -> Error {
+        self.refuse(FileFault::missing(what))
+    }
+
+    fn refuse(&self, fault: FileFault) -> Error {
+        fault.of(&self.file, 0)
+    }
+
+    /// Reverses clockwise nodes. Corners come first, then the nodes between them, in Gmsh as in [`Quad8`].
+    fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
+        let place = |k: usize| self.nodes[nodes[k]];
+        let [a, b, c, d] = [place(0), place(1), place(2), place(3)];
+        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+        if area < 0.0 {
+            nodes[1..4].reverse();
+            nodes[4..].reverse();
+        }
+    }
+}

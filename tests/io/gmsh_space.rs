@@ -1,0 +1,370 @@
+//! GOAL: meshes in space from Gmsh become the beams, shells and bricks that their groups stand for, or are an error.
+//! SCENE: a file that Gmsh 4.15 wrote (`tests/data/gmsh/space.py`): a block of bricks, a wall of quadrilaterals around
+//! triangles, a column and a beam; a brick, a shell and a line by hand; damaged files.
+//! REFERENCE: volumes and lengths, uniform strains of solids and plates, bending of a column; typed errors.
+
+use basemat::fem::{BeamSection, Element, MassKind, Material, Mesh};
+use basemat::io::{GmshPart, GmshSpaceMesh};
+use basemat::{Error, FileError, FileFault};
+use basemat_problems::faults::value;
+use proptest::prelude::*;
+
+fn concrete() -> Material {
+    Material::new(30.0e9, 0.2, 2500.0).unwrap()
+}
+
+/// I_z, about the axis across the orientation, is twice I_y.
+fn section() -> BeamSection {
+    BeamSection::new(0.2, [0.002, 0.004], 0.003).unwrap()
+}
+
+fn soft() -> Material {
+    Material::new(1.0e9, 0.3, 2000.0).unwrap()
+}
+
+const UP: [f64; 3] = [0.0, 0.0, 1.0];
+const ALONG: [f64; 3] = [1.0, 0.0, 0.0];
+
+fn parts() -> [(&'static str, GmshPart); 4] {
+    [
+        ("block", GmshPart::Solid(soft())),
+        ("wall", GmshPart::Shell(concrete(), 0.25)),
+        ("column", GmshPart::Beam(concrete(), section(), ALONG)),
+        ("beam", GmshPart::Beam(concrete(), section(), UP)),
+    ]
+}
+
+fn file() -> GmshSpaceMesh {
+    GmshSpaceMesh::read(basemat_problems::data_path("gmsh/space.msh")).unwrap()
+}
+
+/// Elements of as many nodes, of one kind in the file.
+fn elements<'a>(mesh: &'a Mesh, nodes: &'a [usize]) -> impl Iterator<Item = &'a dyn Element> {
+    mesh.elements().filter(|element| nodes.contains(&element.nodes().len()))
+}
+
+/// Forces and moments at all nodes by `displacement` of a point, and their work on it.
+fn forces<'a>(
+    mesh: &Mesh,
+    elements: impl Iterator<Item = &'a dyn Element>,
+    displacement: impl Fn([f64; 3]) -> [f64; 6],
+) -> (Vec<[f64; 6]>, f64) {
+    let mut sum = vec![[0.0; 6]; mesh.nodes().len()];
+    let mut work = 0.0;
+    for element in elements {
+        let points: Vec<_> = element.nodes().iter().map(|&node| mesh.nodes()[node]).collect();
+        let own = element.directions().len();
+        let moved: Vec<f64> =
+            points.iter().flat_map(|&point| displacement(point)[..own].to_vec()).collect();
+        let mut matrix = vec![0.0; moved.len() * moved.len()];
+        element.stiffness(&points, &mut matrix);
+        for (k, row) in matrix.chunks(moved.len()).enumerate() {
+            let force: f64 = row.iter().zip(&moved).map(|(a, b)| a * b).sum();
+            sum[element.nodes()[k / own]][k % own] += force;
+            work += force * moved[k];
+        }
+    }
+    (sum, work)
+}
+
+#[test]
+fn groups_are_those_of_the_file() {
+    let gmsh = file();
+    let names = [0, 1, 2, 3].map(|dimension| gmsh.groups(dimension));
+    let wanted =
+        [&["head"][..], &["beam", "column", "edge"][..], &["base", "wall"][..], &["block"][..]];
+    assert_eq!(names, wanted);
+    let head = gmsh.cells(0, "head").unwrap();
+    assert_eq!(gmsh.nodes()[head[0][0]], [4.0, 0.0, 3.0]);
+    let base = gmsh.cells(2, "base").unwrap();
+    let at_base = |face: &Vec<usize>| face.iter().all(|&node| gmsh.nodes()[node][2] == -0.8);
+    assert!(base.len() == 16 && base.iter().all(at_base));
+    let mesh = gmsh.mesh(&parts()).unwrap();
+    assert_eq!(mesh.nodes(), gmsh.nodes());
+    let counts = [2, 3, 4, 8].map(|nodes| elements(&mesh, &[nodes]).count());
+    assert_eq!(counts, [5, 32, 32, 32]);
+    // The base is the lower side of the bricks.
+    let sides: Vec<Vec<usize>> = mesh
+        .elements()
+        .flat_map(Element::faces)
+        .map(|face| {
+            let mut corners = face.corners().to_vec();
+            corners.sort_unstable();
+            corners
+        })
+        .collect();
+    for mut face in base {
+        face.sort_unstable();
+        assert!(sides.contains(&face));
+    }
+}
+
+#[test]
+fn masses_are_volumes_times_densities() {
+    let mesh = file().mesh(&parts()).unwrap();
+    for (nodes, wanted) in [
+        (&[8][..], 2000.0 * 4.0 * 3.0 * 0.8),
+        (&[3, 4], 2500.0 * 3.0 * 3.0 * 0.25),
+        (&[2], 2500.0 * 0.2 * (3.0 + 4.0)),
+    ] {
+        let mut found = 0.0;
+        for element in elements(&mesh, nodes) {
+            let points: Vec<_> = element.nodes().iter().map(|&node| mesh.nodes()[node]).collect();
+            let order = element.order();
+            let mut matrix = vec![0.0; order * order];
+            element.mass(&points, MassKind::Lumped, &mut matrix);
+            let own = element.directions().len();
+            found += (0..points.len()).map(|k| matrix[(k * own) * (order + 1)]).sum::<f64>();
+        }
+        assert!((found / wanted - 1.0).abs() < 1e-12, "{nodes:?}: {found}, not {wanted}");
+    }
+}
+
+/// A uniform strain of the block of unstructured bricks: exact energy, and no force inside.
+#[test]
+fn bricks_pass_the_patch_test() {
+    let mesh = file().mesh(&parts()).unwrap();
+    let (sum, work) =
+        forces(&mesh, elements(&mesh, &[8]), |[x, ..]| [1e-3 * x, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let modulus = 1.0e9 * 0.7 / (1.3 * 0.4);
+    let wanted = modulus * 1e-6 * 4.0 * 3.0 * 0.8;
+    assert!((work / wanted - 1.0).abs() < 1e-12, "{work} {wanted}");
+    let inside = |[x, y, z]: [f64; 3]| {
+        x > 0.01 && x < 3.99 && y > 0.01 && y < 2.99 && z > -0.79 && z < -0.01
+    };
+    let mut count = 0;
+    for (_, force) in mesh.nodes().iter().zip(&sum).filter(|(point, _)| inside(**point)) {
+        count += 1;
+        assert!(force.iter().all(|force| force.abs() < 1e-9 * modulus * 1e-3), "{force:?}");
+    }
+    assert!(count >= 4, "{count}");
+}
+
+/// A uniform membrane strain of the wall: triangles are matched to the quadrilaterals around them, or a quarter of the
+/// stress would be lost in moments at the corners of the panel.
+#[test]
+fn triangles_and_quadrilaterals_of_a_wall_pass_the_patch_test_together() {
+    let mesh = file().mesh(&parts()).unwrap();
+    // The rotation of the wall about x is ½(∂u_z/∂y − ∂u_y/∂z).
+    let strain = |[_, y, z]: [f64; 3]| {
+        [0.0, 1e-3 * y + 4e-4 * z, -2e-4 * y + 5e-4 * z, 0.5 * (-2e-4 - 4e-4), 0.0, 0.0]
+    };
+    let (sum, work) = forces(&mesh, elements(&mesh, &[3, 4]), strain);
+    let (e, nu) = (30.0e9, 0.2);
+    let (a, b, shear): (f64, f64, f64) = (1e-3, 5e-4, 4e-4 - 2e-4);
+    let density =
+        e / (1.0 - nu * nu) * (a * a + b * b + 2.0 * nu * a * b + 0.5 * (1.0 - nu) * shear * shear);
+    let wanted = density * 9.0 * 0.25;
+    assert!((work / wanted - 1.0).abs() < 1e-12, "{work} {wanted}");
+    let scale = e * 1e-3 * 0.25;
+    for (_, force) in mesh
+        .nodes()
+        .iter()
+        .zip(&sum)
+        .filter(|([x, y, z], _)| *x == 0.0 && *y > 0.01 && *y < 2.99 && *z > 0.01 && *z < 2.99)
+    {
+        assert!(force.iter().all(|force| force.abs() < 1e-9 * scale), "{force:?}");
+    }
+}
+
+/// The column, bent like a cantilever, has the stiffness 3EI/L³ of its section across and along the orientation.
+#[test]
+fn beams_have_their_section_and_orientation() {
+    let gmsh = file();
+    let column = gmsh.cells(1, "column").unwrap();
+    let mesh = gmsh.mesh(&parts()).unwrap();
+    let own =
+        || mesh.elements().filter(|element| column.iter().any(|line| line == element.nodes()));
+    assert_eq!(own().count(), 3);
+    let shape = |z: f64| (z * z * (9.0 - z) / 54.0, z * (6.0 - z) / 18.0);
+    for (axis, moment) in [(0, 0.004), (1, 0.002)] {
+        let (_, work) = forces(&mesh, own(), |[_, _, z]| {
+            let (deflection, slope) = shape(z);
+            let mut all = [0.0; 6];
+            all[axis] = deflection;
+            all[4 - axis] = if axis == 0 { slope } else { -slope };
+            all
+        });
+        let wanted = 3.0 * 30.0e9 * moment / 27.0;
+        assert!((work / wanted - 1.0).abs() < 1e-12, "{axis}: {work} {wanted}");
+    }
+}
+
+/// A brick, a shell on its upper face, a line over it, and a line of the geometry on an edge.
+const BRICK: &str = "$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+4
+1 1 \"mast\"
+1 2 \"edge\"
+2 3 \"slab\"
+3 4 \"block\"
+$EndPhysicalNames
+$Entities
+0 2 1 1
+1 0 0 1 0 0 3 1 1 0
+2 0 0 0 2 0 0 1 2 0
+1 0 0 1 2 2 1 1 3 0
+1 0 0 0 2 2 1 1 4 0
+$EndEntities
+$Nodes
+1 9 1 9
+3 1 0 9
+1
+2
+3
+4
+5
+6
+7
+8
+9
+0 0 0
+2 0 0
+2 2 0
+0 2 0
+0 0 1
+2 0 1
+2 2 1
+0 2 1
+0 0 3
+$EndNodes
+$Elements
+4 4 1 4
+1 1 1 1
+1 5 9
+1 2 1 1
+2 1 2
+2 1 3 1
+3 5 6 7 8
+3 1 5 1
+4 1 2 3 4 5 6 7 8
+$EndElements
+";
+
+fn small() -> [(&'static str, GmshPart); 3] {
+    [
+        ("mast", GmshPart::Beam(concrete(), section(), ALONG)),
+        ("slab", GmshPart::Shell(concrete(), 0.2)),
+        ("block", GmshPart::Solid(concrete())),
+    ]
+}
+
+fn read(text: &str) -> basemat::Result<GmshSpaceMesh> {
+    GmshSpaceMesh::from_reader("test.msh", text.as_bytes())
+}
+
+fn fault<T: std::fmt::Debug>(result: basemat::Result<T>) -> (usize, FileFault) {
+    match result {
+        Err(Error::File(FileError { file, line, fault })) if file == "test.msh" => (line, fault),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Line and fault of a mesh with these parts.
+fn refusal(text: &str, parts: &[(&str, GmshPart)]) -> (usize, String) {
+    let (line, fault) = fault(read(text).unwrap().mesh(parts));
+    (line, fault.to_string())
+}
+
+#[test]
+fn bricks_are_turned_right_side_out() {
+    let mesh = read(BRICK).unwrap().mesh(&small()).unwrap();
+    let turned = BRICK.replacen("4 1 2 3 4 5 6 7 8", "4 5 6 7 8 1 2 3 4", 1);
+    let back = read(&turned).unwrap().mesh(&small()).unwrap();
+    let nodes = |mesh: &Mesh| mesh.elements().last().unwrap().nodes().to_vec();
+    assert_eq!(nodes(&mesh), [0, 1, 2, 3, 4, 5, 6, 7]);
+    assert_eq!(nodes(&back), nodes(&mesh));
+}
+
+#[test]
+fn every_element_has_one_part_or_is_a_side() {
+    // The line on the edge needs none.
+    assert_eq!(read(BRICK).unwrap().mesh(&small()).unwrap().elements().len(), 3);
+    let (line, text) = refusal(BRICK, &small()[1..]);
+    assert!(line == 43 && text.contains("part for line 1 of the group 'mast'"), "{line} {text}");
+    let left_out = [&small()[1..], &[("mast", GmshPart::LeftOut)]].concat();
+    assert_eq!(read(BRICK).unwrap().mesh(&left_out).unwrap().elements().len(), 2);
+    // The slab is a face of the brick.
+    let without_slab = [small()[0], small()[2]];
+    assert_eq!(read(BRICK).unwrap().mesh(&without_slab).unwrap().elements().len(), 2);
+    let (line, text) = refusal(BRICK, &small()[..2]);
+    assert!(line == 49 && text.contains("brick 4 of the group 'block'"), "{line} {text}");
+    let two_groups = BRICK.replacen("2 2 1 1 3 0", "2 2 1 2 3 9 0", 1);
+    let two = [&small()[..], &[("9", GmshPart::Shell(soft(), 0.1))]].concat();
+    let (line, text) = refusal(&two_groups, &two);
+    assert!(line == 47 && text.contains("quadrilateral 3, in 'slab' and '9',"), "{text}");
+    let (_, text) = refusal(BRICK, &[&small()[..], &small()[..1]].concat());
+    assert!(text.contains("part of group 'mast' is given twice"), "{text}");
+    let (_, text) = refusal(BRICK, &[("mast", GmshPart::Shell(concrete(), 0.2))]);
+    assert!(text.contains("there is no surface 'mast'"), "{text}");
+    assert!(fault(read(BRICK).unwrap().cells(3, "slab")).1.to_string().contains("volume 'slab'"));
+}
+
+#[test]
+fn elements_that_cannot_be_right_are_named_with_their_line() {
+    let along = [small()[1], small()[2], ("mast", GmshPart::Beam(concrete(), section(), UP))];
+    let (line, text) = refusal(BRICK, &along);
+    assert!(line == 43 && text.starts_with("element 1: beam between nodes 4 and 8"), "{text}");
+    let crossed = BRICK.replacen("3 5 6 7 8", "3 5 7 6 8", 1);
+    let (line, text) = refusal(&crossed, &small());
+    assert!(line == 47 && text.starts_with("element 3: shell"), "{text}");
+    let flat = BRICK.replacen("0 0 1\n", "0 0 -1\n", 1);
+    let (line, text) = refusal(&flat, &small());
+    assert!(line == 49 && text.starts_with("element 4: brick"), "{text}");
+    let thin = [small()[0], small()[2], ("slab", GmshPart::Shell(concrete(), 0.0))];
+    let (line, text) = refusal(BRICK, &thin);
+    assert!(line == 47 && text.contains("thickness of a shell is 0"), "{text}");
+    let twice = BRICK.replacen("2 1 3 1\n3 5 6 7 8", "2 1 3 2\n3 5 6 7 8\n9 7 8 5 6", 1);
+    let given = value("quadrilateral of nodes 7 8 5 6", "given twice", "given once");
+    assert_eq!(fault(read(&twice.replacen("4 4 1 4", "4 5 1 9", 1))), (48, given));
+}
+
+#[test]
+fn elements_that_are_not_read_are_named_and_counted() {
+    let kinds = [
+        (4, "12 tetrahedra (type 4)", "extruded layers, recombined)"),
+        (7, "12 pyramids (type 7)", "extruded layers, recombined)"),
+        (9, "12 triangles of 6 nodes (type 9)", "Mesh.ElementOrder = 1"),
+        (17, "12 bricks of 20 nodes (type 17)", "Mesh.ElementOrder = 1"),
+        (92, "12 elements (type 92)", "of the first order"),
+    ];
+    for (kind, name, remedy) in kinds {
+        let text = BRICK.replacen("3 1 5 1\n", &format!("3 1 {kind} 12\n"), 1);
+        let (line, FileFault::Format { found, needed }) = fault(read(&text)) else { panic!() };
+        assert_eq!((line, &found[..]), (48, name));
+        assert!(needed.ends_with(remedy), "{needed}");
+    }
+}
+
+/// Points without a group, such as centres of arcs, are left out; points of a group are nodes.
+#[test]
+fn points_of_groups_are_nodes() {
+    let with = |groups: &str| {
+        let text = BRICK.replacen("0 2 1 1\n", &format!("1 2 1 1\n1 0 0 -9 {groups}\n"), 1);
+        let text = text.replacen("1 9 1 9\n3 1 0 9", "1 10 1 10\n3 1 0 10\n99", 1);
+        let text = text.replacen("0 0 0\n", "0 0 -9\n0 0 0\n", 1);
+        read(&text.replacen("4 4 1 4\n", "5 5 1 5\n0 1 15 1\n5 99\n", 1)).unwrap()
+    };
+    assert_eq!(with("0").nodes(), read(BRICK).unwrap().nodes());
+    let named = with("1 6");
+    assert_eq!(named.nodes()[named.cells(0, "6").unwrap()[0][0]], [0.0, 0.0, -9.0]);
+    assert!(named.mesh(&small()).is_ok());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_damage_is_an_error_or_a_mesh(place in 0..BRICK.len(), byte: u8, keep in 0..BRICK.len()) {
+        let mut bytes = BRICK.as_bytes().to_vec();
+        bytes[place] = byte;
+        for bytes in [&bytes[..], &bytes[..keep]] {
+            if let Ok(gmsh) = GmshSpaceMesh::from_reader("damaged", bytes) {
+                let _ = gmsh.mesh(&small());
+                let _ = gmsh.cells(2, "slab");
+            }
+        }
+    }
+}
