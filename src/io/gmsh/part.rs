@@ -12,6 +12,8 @@ pub enum GmshPart {
     /// group.
     Beam(Material, BeamSection, [f64; 3]),
     /// Triangles and quadrilaterals become [`Shell`](crate::fem::Shell)s of this material and thickness (m).
+    ///
+    /// Let Gmsh recombine curved shells: triangles are too stiff there.
     Shell(Material, f64),
     /// Hexahedra become [`Hex8`](crate::fem::Hex8) bricks of this material.
     Solid(Material),
