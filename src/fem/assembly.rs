@@ -57,21 +57,17 @@ pub(crate) fn assemble(
 
 /// Replaces elements of `mesh` by their versions in the static state, with its axial forces.
 ///
-/// `displacement` (m, rad) holds the degrees of freedom of `numbering`; `gravity` is in m/s².
+/// `displacements` (m, rad): degrees of freedom of each element; `gravity` is in m/s².
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) for an element whose new version has other nodes or directions.
 pub(crate) fn set_static_state(
     mesh: &mut Mesh,
-    numbering: &Numbering,
-    displacement: &[f64],
+    displacements: Vec<Vec<f64>>,
     gravity: f64,
 ) -> Result<()> {
-    let mut indices = Vec::new();
+    let mut displacements = displacements.into_iter();
     mesh.replace_elements(|element, points| {
-        numbering.of_element(element, &mut indices);
-        let value = |&index: &usize| displacement.get(index).copied().unwrap_or(0.0);
-        let own: Vec<f64> = indices.iter().map(value).collect();
-        element.in_static_state(points, &own, gravity)
+        element.in_static_state(points, &displacements.next()?, gravity)
     })
 }

@@ -1,5 +1,7 @@
 //! Finite elements: the trait, and the kinds of mass matrices.
 
+use std::any::Any;
+
 use super::element_face::ElementFace;
 use crate::error::Result;
 use crate::geometry::Direction;
@@ -32,6 +34,8 @@ words! { pub(crate) MassKind, "kind of mass", {
 /// nodes; in the plane y points up and z is zero.
 /// Every matrix is **added to** the buffer; for the matrix alone the caller passes a zeroed buffer.
 ///
+/// Every element is [`Any`], so that an element of a mesh leads back to its own type.
+///
 /// ```
 /// use basemat::fem::{Direction, Element, MassKind, Mesh};
 ///
@@ -56,7 +60,7 @@ words! { pub(crate) MassKind, "kind of mass", {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[auto_impl::auto_impl(Box)]
-pub trait Element: Send + Sync {
+pub trait Element: Any + Send + Sync {
     /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 

@@ -50,7 +50,7 @@ pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiff
 pub use modal_damping::{ModalDamping, WithModalDamping};
 pub use models::{
     FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section,
-    ShearBuilding, Storey, StoreyBuilding, StructureGroup,
+    ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding, StructureGroup,
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{

@@ -17,6 +17,7 @@ mod raft;
 mod random;
 mod refused;
 mod results;
+mod sections;
 mod several;
 mod shells;
 mod slabs;

@@ -18,25 +18,22 @@ const LOAD: f64 = 4.0e6;
 /// Elements along a side.
 const COUNT: usize = 16;
 
-/// The raft, and its shells.
-fn raft() -> (FemModel, Vec<Shell>) {
+fn raft() -> FemModel {
     let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
     let mut mesh = Mesh::in_space();
     let place = |k: usize| SIDE * (k as f64 / COUNT as f64 - 0.5);
     let grid = mesh
         .add_grid(COUNT + 1, COUNT + 1, |row, column| [place(column), place(row), 0.0])
         .unwrap();
-    let shells: Vec<Shell> =
-        grid.cells().map(|(_, cell)| Shell::new(cell, concrete, THICKNESS).unwrap()).collect();
-    for shell in &shells {
-        mesh.add(shell.clone()).unwrap();
+    for (_, cell) in grid.cells() {
+        mesh.add(Shell::new(cell, concrete, THICKNESS).unwrap()).unwrap();
     }
-    (FemModel::on_base(mesh).unwrap(), shells)
+    FemModel::on_base(mesh).unwrap()
 }
 
 /// Settlements of the middle, the middle of a side and a corner, mm, and the moment m_x in the middle, kNm/m.
 fn loaded(ground: impl Ground + 'static) -> [f64; 4] {
-    let (model, shells) = raft();
+    let model = raft();
     let node = |x: f64, y: f64| model.mesh().node_at_point([x, y, 0.0]).unwrap();
     let cell = SIDE / COUNT as f64;
     // The load in the middles of two elements by two, by their shape functions.
@@ -58,24 +55,14 @@ fn loaded(ground: impl Ground + 'static) -> [f64; 4] {
         let row = model.row(node(x, y), Direction::Z).unwrap();
         -1e3 * row.value(displacement)
     });
-    let (center, model) = (node(0.0, 0.0), &model);
-    let moments: Vec<f64> = shells
-        .iter()
-        .filter_map(|shell| {
-            let place = shell.nodes().iter().position(|&own| own == center)?;
-            let corners = shell.nodes().iter().map(|&own| model.mesh().nodes()[own]);
-            let values = shell.nodes().iter().flat_map(|&own| {
-                let dof = move |&direction: &Direction| model.dof(own, direction).unwrap();
-                shell.directions().iter().map(dof).map(|dof| displacement[dof])
-            });
-            let (corners, values) = (corners.collect::<Vec<_>>(), values.collect::<Vec<_>>());
-            let all = shell.resultants(&corners, &values).unwrap();
-            let own = all[place].in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0]).unwrap();
-            Some(1e-3 * own.moments[0])
-        })
-        .collect();
-    assert_eq!(moments.len(), 4);
-    [middle, side, corner, moments.iter().sum::<f64>() / 4.0]
+    let center = node(0.0, 0.0);
+    let around = |(_, element): &(usize, &dyn Element)| element.nodes().contains(&center);
+    let around: Vec<usize> =
+        model.mesh().elements().enumerate().filter(around).map(|(index, _)| index).collect();
+    assert_eq!(around.len(), 4);
+    let rows = model.shell_rows(&around, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]).unwrap();
+    let own = rows.iter().find(|own| own.node == center).unwrap();
+    [middle, side, corner, 1e-3 * own.value(displacement).moments[0]]
 }
 
 fn plan() -> Plan {

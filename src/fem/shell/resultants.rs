@@ -26,6 +26,28 @@ pub struct ShellResultants {
 }
 
 impl ShellResultants {
+    /// Larger and smaller principal moment, Nm/m.
+    pub fn principal_moments(&self) -> [f64; 2] {
+        let [first, second, twist] = self.moments;
+        let (mean, radius) = (0.5 * (first + second), (0.5 * (first - second)).hypot(twist));
+        [mean + radius, mean - radius]
+    }
+
+    /// Membrane forces, moments and shear forces in a row.
+    pub(crate) fn values(&self) -> [f64; 8] {
+        let [first, second, shear] = self.membrane;
+        let [about, across, twist] = self.moments;
+        let [along, aside] = self.shears;
+        [first, second, shear, about, across, twist, along, aside]
+    }
+
+    /// Axes in the middle between axes of elements that meet, from the sums of their unit vectors.
+    pub(crate) fn mean_axes([first, _, normal]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        let (_, normal) = direction(normal);
+        let (_, first) = direction(add(first, -dot(first, normal), normal));
+        [first, cross(normal, first), normal]
+    }
+
     /// The same forces and moments in other axes.
     ///
     /// The new e1 is the part of `along` in the plane of the element. The new n is the normal on the side of

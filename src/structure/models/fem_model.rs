@@ -3,8 +3,8 @@
 use super::dof_names::describe;
 use super::feet::{self, Foot};
 use super::rigid_links::RigidLinks;
-use crate::error::{Error, Result, at_least, in_bounds};
-use crate::fem::{Direction, MassKind, MatrixKind, Mesh, Numbering, assemble};
+use crate::error::{Error, Result, at_least, in_bounds, same_length};
+use crate::fem::{Direction, Element, MassKind, MatrixKind, Mesh, Numbering, assemble};
 use crate::structure::{Base, BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
 
 /// Finite-element structure on a flat base, in the plane or in space.
@@ -252,17 +252,48 @@ impl FemModel {
     /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node that no element moves in this
     /// direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
+        let own = [(self.mesh_dof(node, direction)?, 1.0)];
+        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
+    }
+
+    /// Number of a degree of freedom before nodes follow others.
+    fn mesh_dof(&self, node: usize, direction: Direction) -> Result<usize> {
         in_bounds("node", node, self.mesh.nodes().len())?;
-        let dof = self.numbering.dof(node, direction);
-        let dof = dof.ok_or_else(|| {
+        self.numbering.dof(node, direction).ok_or_else(|| {
             let reason = format!(
                 "it has no degree of freedom in direction {}: no element needs one there",
                 direction.word()
             );
             Error::part(format!("node {node}"), reason)
-        })?;
-        let own = [(dof, 1.0)];
-        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
+        })
+    }
+
+    /// Displacements of an element's degrees of freedom, in the order of its matrices.
+    ///
+    /// For [`Shell::resultants`](crate::fem::Shell::resultants), or the forces of an element of your own.
+    /// `displacement` holds all degrees of freedom of the model, such as
+    /// [`State::displacement`](crate::coupled::State::displacement). A follower of a rigid link or a diaphragm moves
+    /// with its leader. The element need not belong to the mesh.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a displacement of another length; as for [`row`](FemModel::row).
+    pub fn element_displacements(
+        &self,
+        element: &dyn Element,
+        displacement: &[f64],
+    ) -> Result<Vec<f64>> {
+        same_length("displacement of the model", displacement.len(), self.dofs())?;
+        let mut own = Vec::with_capacity(element.order());
+        for &node in element.nodes() {
+            for &direction in element.directions() {
+                let dof = self.mesh_dof(node, direction)?;
+                let links = self.links.as_ref();
+                own.push(
+                    links.map_or_else(|| displacement[dof], |links| links.value(dof, displacement)),
+                );
+            }
+        }
+        Ok(own)
     }
 
     /// Values of all degrees of freedom in a unit rigid motion.

@@ -38,7 +38,8 @@ impl FemModel {
     /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
     /// that does not exist, [`Error::Input`](crate::Error::Input) for two successive nodes at one place,
     /// [`Error::Part`](crate::Error::Part) for a node that no element moves in a direction of the pressure,
-    /// [`Error::Scene`](crate::Error::Scene) for a mesh in space.
+    /// [`Error::Scene`](crate::Error::Scene) for a mesh in space, where pressures act on faces:
+    /// [`Shell::pressure_forces`](crate::fem::Shell::pressure_forces) times the rows of the nodes.
     pub fn pressure_row(&self, nodes: &[usize]) -> Result<DofCombination> {
         require_part("pressure along a line", !self.mesh().has_depth(), "a mesh in the plane")?;
         let mut row = DofCombination::default();

@@ -1,5 +1,6 @@
 //! Structures that come with the crate.
 
+mod cut;
 mod dof_names;
 mod feet;
 mod fem_model;
@@ -13,8 +14,11 @@ mod rigid_body;
 mod rigid_links;
 mod section;
 mod shear_building;
+mod shell_rows;
+mod space_section;
 mod storey_building;
 mod storey_laws;
+mod storey_section;
 
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
@@ -23,5 +27,7 @@ pub use rigid_block::RigidBlock;
 pub use rigid_body::RigidBody;
 pub use section::Section;
 pub use shear_building::{ShearBuilding, Storey};
+pub use shell_rows::ShellRows;
+pub use space_section::SpaceSection;
 pub use storey_building::{PlanStorey, StoreyBuilding};
 pub use storey_laws::IsolationLevel;

@@ -62,11 +62,9 @@ impl FemModel {
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
         let displacement = self.under_weight(gravity)?;
-        let displacement = match &self.links {
-            Some(links) => links.all(&displacement),
-            None => displacement,
-        };
-        set_static_state(&mut self.mesh, &self.numbering, &displacement, gravity)?;
+        let of_element = |element| self.element_displacements(element, &displacement);
+        let displacements = self.mesh.elements().map(of_element).collect::<Result<_>>()?;
+        set_static_state(&mut self.mesh, displacements, gravity)?;
         self.p_delta = Some(gravity);
         let held = HeldStructure::new(&self)?;
         if held.stands(1.0)? {

@@ -154,10 +154,29 @@ impl RigidLinks {
         sums
     }
 
-    /// Values of the mesh's degrees of freedom from the remaining ones.
-    pub(super) fn all(&self, remaining: &[f64]) -> Vec<f64> {
-        let sum = |row: &Vec<(usize, f64)>| row.iter().map(|&(j, w)| w * remaining[j]).sum();
-        self.rows.iter().map(sum).collect()
+    /// Value of a mesh's degree of freedom from the values of the remaining ones.
+    pub(super) fn value(&self, dof: usize, remaining: &[f64]) -> f64 {
+        let row = self.rows.get(dof).into_iter().flatten();
+        row.map(|&(index, weight)| weight * remaining[index]).sum()
+    }
+
+    /// Marks all nodes of each rigid body of which one node is marked.
+    pub(super) fn mark_bodies(&self, marks: &mut [bool]) {
+        let body = |node: usize| match self.leader[node] {
+            Some((Link::Body, leader)) => Some(leader),
+            _ => None,
+        };
+        // From the followers to their leaders, then back.
+        for node in 0..marks.len() {
+            if let Some(leader) = body(node) {
+                marks[leader] |= marks[node];
+            }
+        }
+        for node in 0..marks.len() {
+            if let Some(leader) = body(node) {
+                marks[node] |= marks[leader];
+            }
+        }
     }
 
     /// Adds Lᵀ A L, where u = L q and q are the remaining degrees of freedom.

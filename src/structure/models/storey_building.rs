@@ -5,7 +5,7 @@ use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
 use crate::structure::hysteresis::{Hysteresis, Springs};
-use crate::structure::{Base, DofCombination, NonlinearForce, SectionRows, Structure, Triplets};
+use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
@@ -78,8 +78,8 @@ impl PlanStorey {
 /// ```
 #[derive(Clone)]
 pub struct StoreyBuilding {
-    mat: RigidBody,
-    storeys: Vec<PlanStorey>,
+    pub(super) mat: RigidBody,
+    pub(super) storeys: Vec<PlanStorey>,
     /// Whether a law replaces a storey's stiffness, by direction.
     has_law: Vec<[bool; 3]>,
     springs: Springs,
@@ -226,34 +226,6 @@ impl StoreyBuilding {
         [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
     }
 
-    /// Forces along x and y (N) of the floor on `storey`, and their torque.
-    ///
-    /// They act on the part below: for storey 0, on the mat. The torque (N m) is about the centre of stiffness.
-    /// They are computed from the inertia of the floors above, which is exact for any law; with the midpoint rule
-    /// they are the mean over the step.
-    ///
-    /// # Errors
-    /// [`Error::Index`] when there is no such storey.
-    pub fn shear(&self, storey: usize) -> Result<[SectionRows; 3]> {
-        self.floor(storey, [0.0; 2])?;
-        let about = self.storeys[storey].stiffness_center;
-        let mut sums: [DofCombination; 3] = Default::default();
-        for (index, floor) in self.storeys.iter().enumerate().skip(storey) {
-            let [x, y] = [0, 1].map(|k| floor.mass_center[k] - about[k]);
-            let [along, across, twist] = level(index + 1, floor.mass_center);
-            sums[2] -= floor.mass * (x * across.clone() - y * along.clone());
-            sums[2] -= floor.inertia[2] * twist;
-            sums[0] -= floor.mass * along;
-            sums[1] -= floor.mass * across;
-        }
-        let mut units = ["N", "N", "N·m"].into_iter();
-        Ok(sums.map(|acceleration| SectionRows {
-            unit: units.next().unwrap_or_default(),
-            acceleration,
-            ..SectionRows::default()
-        }))
-    }
-
     /// Adds lᵀl of each storey's deformations times a factor.
     fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> [f64; 3]) -> Result<()> {
         for storey in 0..self.storeys.len() {
@@ -266,12 +238,12 @@ impl StoreyBuilding {
 }
 
 /// Degree of freedom of the mat: rotation about x.
-const ABOUT_X: usize = 3;
+pub(super) const ABOUT_X: usize = 3;
 /// Degree of freedom of the mat: rotation about y.
-const ABOUT_Y: usize = 4;
+pub(super) const ABOUT_Y: usize = 4;
 
 /// Motion of a level at a place: the mat's base 0, floors from 1.
-fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
+pub(super) fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     let first = 3 * level + 3;
     let [along, across, twist] = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
     let point = |own: usize, lever: f64| {

@@ -134,6 +134,23 @@ fn rigid_motions_in_space_meet_no_force() {
     let floor = linked.with_rigid_diaphragm(3, &[2, 0, 1]).unwrap();
     assert_eq!(floor.dofs(), 27);
     assert_free(&floor);
+    // The elements get the motion of all their nodes, followers included.
+    let motion = floor.rigid_motion(Direction::RotationY, [0.0; 3]);
+    for element in floor.mesh().elements() {
+        let exact = element.nodes().iter().flat_map(|&node| {
+            let [x, _, z] = floor.mesh().nodes()[node];
+            [z, 0.0, -x, 0.0, 1.0, 0.0]
+        });
+        let found = floor.element_displacements(element, &motion).unwrap();
+        assert_eq!(found.len(), element.order());
+        for (found, exact) in found.into_iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-14, "{found} {exact}");
+        }
+        assert!(matches!(
+            floor.element_displacements(element, &motion[1..]),
+            Err(Error::Size { found: 26, needed: 27, .. })
+        ));
+    }
 }
 
 /// The ground meets a shell's underside: u + r × (0, 0, −0.25).

@@ -22,3 +22,4 @@ mod rigid_motion;
 mod section;
 mod shear_building;
 mod shells;
+mod space_section;

@@ -8,6 +8,7 @@ mod matrices;
 mod patch;
 mod plates;
 mod resultants;
+mod rows;
 mod single;
 mod surface;
 

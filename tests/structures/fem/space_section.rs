@@ -1,0 +1,189 @@
+//! GOAL: six resultants across a cut in space.
+//! SCENE: a column on a rigid pedestal, bricks in any motion, floors in plan.
+//! REFERENCE: statics by hand, and momenta of the part above from the matrices of models of its own.
+
+use basemat::Error;
+use basemat::fem::{
+    BeamSection, Dashpot, Direction, Hex8, LumpedMass, Material, Mesh, Shell, SpaceBeam,
+};
+use basemat::structure::{
+    FemModel, PlanStorey, RayleighDamping, RigidBody, SectionRows, SpaceSection, StoreyBuilding,
+    Structure,
+};
+use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
+
+const DIRECTIONS: [Direction; 6] = [
+    Direction::X,
+    Direction::Y,
+    Direction::Z,
+    Direction::RotationX,
+    Direction::RotationY,
+    Direction::RotationZ,
+];
+
+/// Forces and moments along the six directions; the compression acts downwards.
+fn rows(section: &SpaceSection) -> [(&SectionRows, f64); 6] {
+    let [along, across] = &section.shear;
+    let [about_x, about_y] = &section.moments;
+    [
+        (along, 1.0),
+        (across, 1.0),
+        (&section.compression, -1.0),
+        (about_x, 1.0),
+        (about_y, 1.0),
+        (&section.torque, 1.0),
+    ]
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// A column from 1 m to 5 m over a corner of a mat, on a rigid pedestal, with a rigid arm to a mass at its top.
+/// Every section passes on the load of the mass, also the one below the pedestal.
+#[test]
+fn static_load_passes_through_every_section() {
+    let concrete = Material::new(3.0e8, 0.2, 0.0).unwrap();
+    let mut mesh = Mesh::in_space();
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]];
+    let mat = corners.map(|[x, y]| mesh.add_node_at([x, y, 0.0]).unwrap());
+    let head = [2.0, -1.0, 5.5];
+    let [foot, middle, top, mass] = [[0.5, 0.5, 1.0], [0.5, 0.5, 3.0], [0.5, 0.5, 5.0], head]
+        .map(|p| mesh.add_node_at(p).unwrap());
+    mesh.add(Shell::new(mat, concrete, 0.5).unwrap()).unwrap();
+    let section = BeamSection::new(0.2, [4.0e-3, 2.0e-3], 5.0e-3).unwrap();
+    for ends in [[foot, middle], [middle, top]] {
+        mesh.add(SpaceBeam::new(ends, concrete, section, [1.0, 0.5, 0.0]).unwrap()).unwrap();
+    }
+    mesh.add(LumpedMass::in_space(mass, 10.0, [1.0; 3]).unwrap()).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    let model = model.with_rigid_link(mat[0], &[foot]).unwrap();
+    let model = model.with_rigid_link(top, &[mass]).unwrap();
+    assert_eq!(model.dofs(), 36);
+
+    let (force, moment) = ([700.0, -400.0, -300.0], [50.0, -80.0, 120.0]);
+    let mut load = vec![0.0; 36];
+    for (direction, value) in DIRECTIONS.into_iter().zip(force.into_iter().chain(moment)) {
+        for &(dof, weight) in &model.row(mass, direction).unwrap() {
+            load[dof] += weight * value;
+        }
+    }
+    let held: Vec<(usize, f64)> = (0..24).map(|dof| (dof, 0.0)).collect();
+    let u = solve_held(&stiffness(&model), &load, &held);
+    for height in [0.0, 1.0, 3.0] {
+        let section = model.section_in_space(height, [0.3, -0.2]).unwrap();
+        let turning = cross([head[0] - 0.3, head[1] + 0.2, head[2] - height], force);
+        let exact = force.into_iter().chain([0, 1, 2].map(|axis| turning[axis] + moment[axis]));
+        for ((rows, sign), exact) in rows(&section).into_iter().zip(exact) {
+            let found = sign * rows.value(&u, &[], &[]);
+            assert!((found - exact).abs() < 1e-6, "{height} {found} {exact}");
+        }
+        assert_eq!(rows(&section).map(|(rows, _)| rows.unit), ["N", "N", "N", "N·m", "N·m", "N·m"]);
+    }
+    let fault = |height: f64, place: f64| model.section_in_space(height, [0.0, place]).unwrap_err();
+    // No nodes, within a beam, nothing above.
+    for (height, place) in [(0.5, 0.0), (2.0, 0.0), (5.5, 0.0), (f64::NAN, 0.0), (0.0, f64::NAN)] {
+        assert!(matches!(fault(height, place), Error::Input { .. }), "{height} {place}");
+    }
+    assert!(matches!(model.section(1.0, 0.0), Err(Error::Scene { .. })));
+}
+
+/// Levels of bricks, the lowest at this place of the list.
+fn pier(lowest: usize) -> FemModel {
+    let levels = [0.0, 1.5, 3.0, 4.0];
+    let concrete = Material::new(2.0e8, 0.2, 2400.0).unwrap();
+    let mut mesh = Mesh::in_space();
+    let plan = [[[0.0, 0.0], [2.0, 0.1]], [[0.2, 1.5], [2.1, 1.8]]];
+    let place = |row: usize, column: usize| {
+        let [x, y]: [f64; 2] = plan[row][column];
+        [x, y, levels[lowest]]
+    };
+    let foot = mesh.add_grid(2, 2, place).unwrap();
+    for brick in foot.extrude(&mut mesh, &levels[lowest + 1..]).unwrap() {
+        mesh.add(Hex8::new(brick, concrete)).unwrap();
+    }
+    let last = mesh.nodes().len() - 1;
+    mesh.add(Dashpot::axial_in_space([last, last - 7], 6.0e4).unwrap()).unwrap();
+    let model = FemModel::on_base(mesh).unwrap();
+    model.with_rayleigh(RayleighDamping::new(0.0, 0.003).unwrap())
+}
+
+/// Any motion: the force on the nodes above less the rate of momentum of the upper part is what the section passes on.
+#[test]
+fn moving_structure_keeps_the_balance_of_its_upper_part() {
+    let (model, upper) = (pier(0), pier(1));
+    let n = model.dofs();
+    let skip = n - upper.dofs();
+    assert_eq!(skip, 12);
+    let [u, v, a] = [1, 2, 3].map(|seed| noise(n, seed));
+    let terms = [(stiffness(&model), &u), (damping(&model), &v), (mass(&model), &a)]
+        .map(|(matrix, motion)| multiply(&matrix, motion));
+    let mut on_upper: Vec<f64> =
+        (skip..n).map(|k| terms.iter().map(|term| term[k]).sum()).collect();
+    // The lowest nodes of the upper part are the cut.
+    on_upper[..12].fill(0.0);
+    let section = model.section_in_space(1.5, [0.3, 0.7]).unwrap();
+    let inertia = mass(&upper);
+    for ((rows, sign), direction) in rows(&section).into_iter().zip(DIRECTIONS) {
+        let motion = upper.rigid_motion(direction, [0.3, 0.7, 1.5]);
+        let balance = dot(&motion, &on_upper) - form(&motion, &inertia, &a[skip..]);
+        let found = sign * rows.value(&u, &v, &a);
+        assert!((found - balance).abs() < 1e-11 * 2.0e8, "{direction:?} {found} {balance}");
+        assert!(found.abs() > 1e3, "the balance is not an empty one");
+    }
+}
+
+/// Floors above a storey's foot: the momentum of the building less the momentum of the part below.
+#[test]
+fn floors_pass_on_their_inertia() {
+    let mat = RigidBody::cuboid([18.0, 12.0, 1.0], 2500.0).unwrap();
+    let storeys: Vec<PlanStorey> = [3.0, 4.0, 2.5]
+        .into_iter()
+        .zip([[1.0, -2.0], [0.5, 1.5], [-1.0, 0.0]])
+        .map(|(height, mass_center)| PlanStorey {
+            mass_center,
+            ..PlanStorey::new(height, 1.0e5 * height, [18.0, 12.0], [4.0e8, 3.0e8, 2.0e10])
+        })
+        .collect();
+    let building = StoreyBuilding::new(mat.clone(), &storeys).unwrap();
+    let acceleration = noise(building.dofs(), 5);
+    let reference = [0.7, -1.2];
+    for storey in 0..3 {
+        let height: f64 = storeys[..storey].iter().map(|own| own.height).sum();
+        let below: Box<dyn Structure> = match storey {
+            0 => Box::new(mat.clone()),
+            _ => Box::new(StoreyBuilding::new(mat.clone(), &storeys[..storey]).unwrap()),
+        };
+        let section = building.section(storey, reference).unwrap();
+        assert_eq!(section.height, height);
+        for (axis, (rows, sign)) in rows(&section).into_iter().enumerate() {
+            let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
+            if axis < 3 {
+                shift[axis] = 1.0
+            } else {
+                turn[axis - 3] = 1.0
+            }
+            let at = |z: f64| {
+                let turned = cross(turn, [-reference[0], -reference[1], z - height]);
+                [0, 1, 2].map(|k| shift[k] + turned[k])
+            };
+            let mut motion = [at(0.0), turn].concat();
+            let mut level = 0.0;
+            for own in &storeys {
+                level += own.height;
+                let [x, y, _] = at(level);
+                motion.extend([x, y, turn[2]]);
+            }
+            let momentum = |part: &dyn Structure| {
+                let count = part.dofs();
+                form(&motion[..count], &mass(part), &acceleration[..count])
+            };
+            let exact = momentum(below.as_ref()) - momentum(&building);
+            let found = sign * rows.value(&[], &[], &acceleration);
+            assert!((found - exact).abs() < 1e-9 * 1.0e8, "{storey} {axis} {found} {exact}");
+            assert!(found.abs() > 1e3, "the balance is not an empty one");
+        }
+    }
+    assert!(matches!(building.section(3, reference), Err(Error::Index { .. })));
+    assert!(matches!(building.section(0, [0.0, f64::NAN]), Err(Error::Input { .. })));
+}
