@@ -99,7 +99,8 @@ fn pier(lowest: usize) -> FemModel {
         [x, y, levels[lowest]]
     };
     let foot = mesh.add_grid(2, 2, place).unwrap();
-    for brick in foot.extrude(&mut mesh, &levels[lowest + 1..]).unwrap() {
+    let above: Vec<f64> = levels[lowest + 1..].iter().map(|z| z - levels[lowest]).collect();
+    for brick in foot.extrude(&mut mesh, &above).unwrap() {
         mesh.add(Hex8::new(brick, concrete)).unwrap();
     }
     let last = mesh.nodes().len() - 1;

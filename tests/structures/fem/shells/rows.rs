@@ -5,7 +5,7 @@
 use super::{ALL, Assembly, Pattern, X, Z, material};
 use basemat::Error;
 use basemat::fem::{LumpedMass, ShellResultants};
-use basemat::structure::{FemModel, ShellRows};
+use basemat::structure::{FemModel, ShellRows, Structure};
 use basemat_problems::dense::{solve_held, stiffness};
 use basemat_problems::table::close;
 
