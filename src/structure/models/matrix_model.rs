@@ -3,7 +3,7 @@
 use crate::error::{Result, at_least, same_length};
 use crate::linalg::SparseMatrix;
 use crate::structure::matrix_checks::{check_damping, check_mass};
-use crate::structure::{Base, RayleighDamping, Structure, Triplets};
+use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Structure, Triplets};
 
 const DAMPING: &str = "damping matrix";
 
@@ -82,6 +82,51 @@ impl MatrixModel {
         let (base, damping) = (base.into(), Triplets::new(order));
         base.check(order)?;
         Ok(Self { mass, damping, stiffness, base, active: false, active_stiffness: false })
+    }
+
+    /// Force or moment that a part of the structure exerts on the rest, from its inertia.
+    ///
+    /// `motion`: a rigid motion of the part by one unit, as (degree of freedom, displacement) terms. A translation
+    /// gives the force along it, a rotation about a point the moment about this point. The rows are −motionᵀ M: exact
+    /// for a part without loads and without damping of its own against the ground, and with the midpoint rule the mean
+    /// over the step. To include the weight, add the acceleration of gravity to the vertical accelerations. The unit
+    /// is the unit of a force.
+    ///
+    /// ```
+    /// use basemat::structure::{BaseNode, MatrixModel, Triplets};
+    ///
+    /// // A rigid base [u_x, u_y, θ] with masses on springs, 4 m and 8 m up.
+    /// let masses = [2.0e4, 4.0e4, 6.0e4, 1.0e4, 1.5e4];
+    /// let mass = Triplets::from_entries(5, masses.into_iter().enumerate().map(|(k, m)| (k, k, m)));
+    /// let mut stiffness = Triplets::new(5);
+    /// stiffness.add_outer([(3, 1.0), (0, -1.0), (2, 4.0)], 4.0e6);
+    /// stiffness.add_outer([(4, 1.0), (3, -1.0), (2, 4.0)], 4.0e6);
+    /// let model = MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2]))?;
+    /// let shear = model.section([(3, 1.0), (4, 1.0)])?;
+    /// // Turning by 1 rad about the foot moves the masses to the left.
+    /// let moment = model.section([(3, -4.0), (4, -8.0)])?;
+    /// let acceleration = [0.0, 0.0, 0.0, 1.0, 2.0];
+    /// assert_eq!(shear.value(&[], &[], &acceleration), -1.0e4 - 3.0e4);
+    /// assert_eq!(moment.value(&[], &[], &acceleration), 4.0e4 + 24.0e4);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that does not exist,
+    /// [`Error::Input`](crate::Error::Input) for a displacement that is not finite.
+    pub fn section(&self, motion: impl Into<DofCombination>) -> Result<SectionRows> {
+        let motion = motion.into();
+        motion.check("degree of freedom of the part", self.dofs())?;
+        let mut displacement = vec![0.0; self.dofs()];
+        for &(dof, value) in &motion {
+            displacement[dof] += value;
+        }
+        let mut force = vec![0.0; self.dofs()];
+        let mass = SparseMatrix::new("mass matrix", &self.mass)?;
+        mass.multiply_add(-1.0, &displacement, &mut force);
+        let terms = force.into_iter().enumerate().filter(|(_, force)| *force != 0.0);
+        let unit = if matches!(self.base, Base::Faces(_)) { "N" } else { "N/m" };
+        Ok(SectionRows { unit, acceleration: terms.collect(), ..SectionRows::default() })
     }
 
     /// Replaces the damping by a damping matrix (N s/m per metre).

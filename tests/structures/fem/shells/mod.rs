@@ -15,14 +15,7 @@ mod surface;
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Shell};
 use basemat_problems::dense::{self, Matrix};
 
-pub(super) const X: Direction = Direction::X;
-pub(super) const Y: Direction = Direction::Y;
-pub(super) const Z: Direction = Direction::Z;
-pub(super) const RX: Direction = Direction::RotationX;
-pub(super) const RY: Direction = Direction::RotationY;
-pub(super) const RZ: Direction = Direction::RotationZ;
-/// The six directions of a node in their order.
-pub(super) const ALL: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
+pub(super) use crate::space_support::{CLAMPED as ALL, RX, RY, RZ, X, Y, Z};
 
 /// Shells in space with supports and loads at their nodes.
 pub(super) struct Assembly {
