@@ -23,6 +23,15 @@ impl Edge {
         pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
     }
 
+    /// Edges of a base: of its outline, or without one its two ends along x.
+    pub(crate) fn of_base(outline: &[[f64; 2]], [left, right]: [f64; 2]) -> Vec<Self> {
+        if outline.is_empty() {
+            let end = |x, along| Self { start: [x, 0.0], normal: [along, 0.0] };
+            return vec![end(left, -1.0), end(right, 1.0)];
+        }
+        Self::all(outline).collect()
+    }
+
     /// Component of a vector along the normal, times the length of the edge.
     pub(crate) fn outward(&self, vector: [f64; 2]) -> f64 {
         self.normal[0] * vector[0] + self.normal[1] * vector[1]
@@ -61,31 +70,26 @@ impl Footing {
         outline: &[[f64; 2]],
         origin: [f64; 2],
     ) -> Self {
-        let (ends, center, edges);
+        let mut ends = [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])));
         if outline.is_empty() {
-            let [left, right] = far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0]));
-            (ends, center) = ([[left, right], [0.0; 2]], [middle([left, right]), 0.0]);
-            let edge = |x, normal| (Edge { start: [x, 0.0], normal }, 0.5 * (right - left));
-            edges = [vec![edge(left, [-1.0, 0.0]), edge(right, [1.0, 0.0])], vec![]];
-        } else {
-            ends = [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])));
-            center = ends.map(middle);
-            edges = [0, 1].map(|axis| {
-                let faces =
-                    |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
-                let with_reach = |edge: Edge| {
-                    let reach = edge.reach(center);
-                    (edge, reach)
-                };
-                Edge::all(outline).filter(faces).map(with_reach).collect()
-            });
+            ends = [far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0])), [0.0; 2]];
         }
+        let center = ends.map(middle);
+        let edges = [0, 1].map(|axis| {
+            let faces =
+                |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
+            let with_reach = |edge: Edge| {
+                let reach = edge.reach(center);
+                (edge, reach)
+            };
+            Edge::of_base(outline, ends[0]).into_iter().filter(faces).map(with_reach).collect()
+        });
         let arm = |own: &ContactElement| {
             let [x, y, z] = own.center();
             [x - center[0], y - center[1], z]
         };
         let arms = patch[elements].iter().map(arm).collect();
-        let turn = if outline.is_empty() { -1.0 } else { 1.0 };
+        let turn = patch.layout().turn();
         let center = [0, 1].map(|axis| center[axis] - origin[axis]);
         Self { ends, center, arms, turn, edges }
     }

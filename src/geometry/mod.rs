@@ -54,6 +54,13 @@ impl ContactLayout {
         0..self.components - 1
     }
 
+    /// Base moment and rotation over those about y by the right-hand rule: 1 in plan.
+    ///
+    /// −1 in the plane, where they count counter-clockwise.
+    pub(crate) const fn turn(self) -> f64 {
+        [-1.0, 1.0][self.is_plan() as usize]
+    }
+
     /// Number of elements Q.
     pub(crate) const fn elements(self) -> usize {
         self.elements

@@ -182,25 +182,19 @@ impl Run {
                 "  most of the base opens: not every digit of a peak may hold (`sensitivity` counts them)"
             )?;
         }
-        let (sliding, mean) = (&self.whole.sliding, self.whole.mean_slip.largest());
+        let sliding = &self.whole.sliding;
         writeln!(f, "Sliding")?;
-        writeln!(
-            f,
-            "  mean slip up to {} mm at {:.3} s, {} mm at the end; any element {} mm",
-            number(1e3 * mean.value),
-            mean.time,
-            number(1e3 * self.whole.residual_slip),
-            number(1e3 * self.whole.largest_slip.highest.value)
-        )?;
-        if self.in_plan {
-            let (across, end) =
-                (self.whole.mean_slip_across.largest(), self.whole.residual_slip_across);
-            let [value, end] = [across.value, end].map(|slip| number(1e3 * slip));
-            writeln!(
-                f,
-                "  mean slip across up to {value} mm at {:.3} s, {end} mm at the end",
-                across.time
-            )?;
+        for axis in self.axes() {
+            let mean = [&self.whole.mean_slip, &self.whole.mean_slip_across][axis].largest();
+            let end = [self.whole.residual_slip, self.whole.residual_slip_across][axis];
+            let name = ["mean slip", "mean slip across"][axis];
+            let [value, end] = [mean.value, end].map(|slip| number(1e3 * slip));
+            write!(f, "  {name} up to {value} mm at {:.3} s, {end} mm at the end", mean.time)?;
+            if axis == 0 {
+                let largest = self.whole.largest_slip.highest.value;
+                write!(f, "; any element {} mm", number(1e3 * largest))?;
+            }
+            writeln!(f)?;
         }
         let base =
             if self.foundations.len() > 1 { "all foundations as one" } else { "the whole base" };

@@ -77,12 +77,11 @@ const LEAST_STEPS: usize = 8;
 const ROUNDING: f64 = 1e-9;
 /// Second difference of the free field that counts as rounding, relative to the largest free field so far.
 const AT_REST: f64 = 16.0 * f64::EPSILON;
-/// Elements per wavelength of the shear wave: smallest and recommended number.
-const PER_WAVELENGTH: [f64; 2] = [4.0, 8.0];
-/// Elements per wavelength of the shear wave in plan: smallest and recommended number.
-const CELLS_PER_WAVELENGTH: [f64; 2] = [12.0, 12.0];
-/// Steps in which waves cross a base in plan: smallest and recommended number.
-const CROSSING_STEPS: [f64; 2] = [4.0, 8.0];
+/// Fineness of strips, and of cells in plan.
+const STRIPS: Fineness =
+    Fineness { per_wavelength: [4.0, 8.0], without_running: false, crossing_steps: [0.0; 2] };
+const CELLS: Fineness =
+    Fineness { per_wavelength: [12.0, 12.0], without_running: true, crossing_steps: [4.0, 8.0] };
 /// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
 ///
 /// Below the last limit rocking does not matter.
@@ -92,12 +91,24 @@ const TWO: usize = 2;
 /// Distance of a ratio of sides from a whole number that counts as rounding.
 const WHOLE: f64 = 1e-6;
 
+/// Numbers of elements and steps that resolve waves: the smallest, and the recommended ones.
+#[derive(Debug, Clone, Copy, Default)]
+struct Fineness {
+    /// Elements per wavelength of the shear wave.
+    per_wavelength: [f64; 2],
+    /// Whether they are needed also if no wave runs along the base.
+    without_running: bool,
+    /// Steps in which waves cross a base; zero without a limit.
+    crossing_steps: [f64; 2],
+}
+
 /// Time step and elements that a run's base shear, ground and foundations require.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(Default))]
 pub(crate) struct Resolution {
     time_step: f64,
     in_plan: bool,
+    fineness: Fineness,
     /// Length of the longest element, m. In plan the longer side of a cell.
     longest: f64,
     shear_wave_speed: Option<f64>,
@@ -182,7 +193,8 @@ impl Resolution {
                 |side: f64| ((side / narrowest).round() - side / narrowest).abs() < WHOLE;
             if sides(axis).all(is_whole) { narrowest } else { widest(axis) }
         };
-        let longest = if in_plan { cell(0).max(cell(1)) } else { widest(0) };
+        let (longest, fineness) =
+            if in_plan { (cell(0).max(cell(1)), CELLS) } else { (widest(0), STRIPS) };
         let foundations = state.foundations.iter().map(|own| {
             let ends = |axis: usize| {
                 elements[own.elements.clone()].iter().map(|own| own.ends()[axis]).collect()
@@ -201,6 +213,7 @@ impl Resolution {
         Self {
             time_step,
             in_plan,
+            fineness,
             longest,
             shear_wave_speed,
             foundation,
@@ -306,14 +319,9 @@ impl Resolution {
         (self.has_response() && ratio <= FOLLOWING).then_some(wavelength)
     }
 
-    /// Elements per wavelength: smallest and recommended number.
-    fn per_wavelength(&self) -> [f64; 2] {
-        if self.in_plan { CELLS_PER_WAVELENGTH } else { PER_WAVELENGTH }
-    }
-
     /// Wavelength of the base shear if elements are too long for it, m.
     fn short_waves(&self) -> Option<f64> {
-        self.wavelength().filter(|length| *length < self.per_wavelength()[0] * self.longest)
+        self.wavelength().filter(|length| *length < self.fineness.per_wavelength[0] * self.longest)
     }
 
     /// Adds warnings of motion that time step and elements do not resolve.
@@ -344,8 +352,9 @@ impl Resolution {
         }
         let width = self.axes[0].width.min(self.axes[1].width);
         let crossing = self.shear_wave_speed.map_or(f64::INFINITY, |speed| width / speed);
-        if self.in_plan && !self.follows() && crossing < CROSSING_STEPS[0] * time_step {
-            let needed = crossing / CROSSING_STEPS[1];
+        let [fewest, recommended] = self.fineness.crossing_steps;
+        if crossing < fewest * time_step && !self.follows() {
+            let needed = crossing / recommended;
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
         // A foundation on springs needs two elements at most.
@@ -356,9 +365,10 @@ impl Resolution {
             let axis = axis_name(self.in_plan, found);
             warnings.push(Warning::FewElements { foundation, elements, needed, axis });
         }
-        let counts = self.in_plan || self.samples.running;
+        let counts = self.fineness.without_running || self.samples.running;
         if let Some(wavelength) = self.short_waves().filter(|_| counts) {
-            let (element_length, needed) = (self.longest, wavelength / self.per_wavelength()[1]);
+            let (element_length, needed) =
+                (self.longest, wavelength / self.fineness.per_wavelength[1]);
             warnings.push(Warning::LongElements { element_length, wavelength, needed });
         }
     }

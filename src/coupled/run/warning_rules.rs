@@ -83,8 +83,7 @@ impl Warning {
         storey: Option<f64>,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let is_plan = scene.layout().is_plan();
-        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), is_plan));
+        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref()));
         let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
         warnings
             .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
@@ -207,7 +206,7 @@ impl Warning {
         if !scene.layout().is_plan() {
             return None;
         }
-        let greatest = laws.map(|law| friction_at_rest(law.as_ref(), true)).fold(0.0, f64::max);
+        let greatest = laws.map(|law| friction_at_rest(law.as_ref())).fold(0.0, f64::max);
         (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }
 

@@ -12,8 +12,8 @@ use crate::geometry::{ContactLayout, Edge, axis_name, middle, span};
 /// A connected part of the structure, with the resultants of its load.
 pub(super) struct LoadedPart {
     pub(super) layout: ContactLayout,
-    /// Corners of the base; convex.
-    pub(super) outline: Vec<[f64; 2]>,
+    /// Edges of the base; convex.
+    pub(super) edges: Vec<Edge>,
     /// Ends of the base along x and along y, m.
     pub(super) bounds: [[f64; 2]; 2],
     /// Centre and area of each contact element.
@@ -50,24 +50,18 @@ impl LoadedPart {
 
     /// The resultant passes the edge of the base.
     fn overturns(&self) -> Option<StabilityError> {
-        let is_plan = self.layout.is_plan();
-        // In plan the ratio to the nearest edge, and the axis that this edge faces more.
-        let (ratio, axis) = if is_plan {
-            nearest_edge(&self.outline, self.middles(), self.eccentricities())
-        } else {
-            (self.eccentricity_ratio(0), 0)
-        };
+        let (ratio, axis) = nearest_edge(&self.edges, self.middles(), self.eccentricities());
         if ratio < 1.0 || ratio.is_nan() || !self.opens() {
             return None;
         }
         // By the right-hand rule about y, a moment that lifts the right side is negative.
         let [about_y, about_x, _] = self.moments;
-        let moment = [if is_plan { -about_y } else { about_y }, about_x][axis];
+        let moment = [-self.layout.turn() * about_y, about_x][axis];
         let (ends, across) = self.ends();
         Some(self.once_parted(StabilityError::Overturning {
             ends,
             across,
-            axis: axis_name(is_plan, axis),
+            axis: axis_name(self.layout.is_plan(), axis),
             moment,
             normal: self.normal,
             eccentricity: self.eccentricities()[axis],
@@ -115,13 +109,10 @@ impl LoadedPart {
 
     /// The normal force is larger than the bearing pressures.
     fn is_pressed_in(&self) -> Option<StabilityError> {
-        let width = if self.layout.is_plan() {
-            // The area that both eccentricities leave (Meyerhof 1963).
-            let area = self.elements.iter().map(|(_, area)| area).sum::<f64>();
-            area * (1.0 - self.eccentricity_ratio(0)) * (1.0 - self.eccentricity_ratio(1))
-        } else {
-            2.0 * self.half_width(0) * (1.0 - self.eccentricity_ratio(0))
-        };
+        // The area that the eccentricities leave (Meyerhof 1963).
+        let area = self.elements.iter().map(|(_, area)| area).sum::<f64>();
+        let left = self.layout.axes().map(|axis| 1.0 - self.eccentricity_ratio(axis));
+        let width = area * left.product::<f64>();
         let pressures = self.strengths.iter().map(|own| own.bearing_pressure);
         let areas = self.elements.iter().map(|(_, area)| *area);
         let normal = self.normal;
@@ -209,9 +200,9 @@ fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) 
 /// Largest ratio of a resultant's distance to an edge's distance, from `middle`, and the axis that this edge faces
 /// more.
 ///
-/// `outline`: convex. `distance`: of the resultant from the middle.
-fn nearest_edge(outline: &[[f64; 2]], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
-    let parts = Edge::all(outline).map(|edge| {
+/// `distance`: of the resultant from the middle.
+fn nearest_edge(edges: &[Edge], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
+    let parts = edges.iter().map(|edge| {
         let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
         (edge.outward(distance) / edge.reach(middle), usize::from(faces_y))
     });

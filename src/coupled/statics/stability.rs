@@ -12,7 +12,7 @@ use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::loaded_part::LoadedPart;
 use crate::coupled::statics::strength::Strength;
 use crate::error::{Error, StabilityError};
-use crate::geometry::{middle, resultant, span};
+use crate::geometry::{Edge, middle, resultant, span};
 use crate::interface::{InterfaceLaw, law_of};
 use crate::linalg::{SparseFactor, dot};
 
@@ -61,11 +61,14 @@ fn resultants(
         let pressure = normal / elements.iter().map(|(_, area)| area).sum::<f64>();
         let strength = |&(e, _): &(usize, f64)| {
             let law = law_of(laws, e);
-            Strength::at_pressure(law, pressure, layout.is_plan(), stage.frictionless)
+            Strength::at_pressure(law, pressure, stage.frictionless)
         };
+        // In the plane the nodes of a base lie on one line.
+        let outline = hull(nodes.iter().copied());
+        let outline = if layout.axes().len() > 1 { outline } else { vec![] };
         let part = LoadedPart {
             layout,
-            outline: hull(nodes.iter().copied()),
+            edges: Edge::of_base(&outline, bounds[0]),
             bounds,
             strengths: elements.iter().map(strength).collect(),
             elements: elements
