@@ -225,12 +225,17 @@ fn is_among(problem: &Problem, solutions: &[Vec<f64>]) -> bool {
     solutions.iter().any(near)
 }
 
+/// Fraction of this many random problems: a fifth, or all of them if `HEAVY_TESTS` is set.
+fn cases(all: usize) -> usize {
+    if std::env::var_os("HEAVY_TESTS").is_some() { all } else { all / 5 }
+}
+
 #[test]
 fn each_method_finds_one_of_all_solutions() {
     let mut random = Random(11);
     let (mut several, mut sliding, mut swept, mut nearing, mut none, mut endless) =
         (0, 0, 0, 0, 0, 0);
-    for case in 0..300 {
+    for case in 0..cases(300) {
         let count = if case % 8 == 0 { 2 } else { 1 };
         let friction = [0.2, 0.6, 1.5, 5.0, f64::INFINITY][case % 5];
         let mut problem = problem(&mut random, count, friction);
@@ -273,7 +278,7 @@ fn each_method_finds_one_of_all_solutions() {
         "{several} with several solutions, {none} without, {sliding} slide, sweeps alone find {swept}, {endless} endless"
     );
     assert!(
-        endless > 40 && sliding > 40 && swept > 150 && nearing > 150,
+        endless > cases(40) && sliding > cases(40) && swept > cases(150) && nearing > cases(150),
         "{sliding} {swept} {nearing}"
     );
 }
@@ -282,7 +287,7 @@ fn each_method_finds_one_of_all_solutions() {
 #[test]
 fn endless_friction_is_limited_where_it_must_be() {
     let (mut random, mut limited, mut failed) = (Random(17), 0, 0);
-    for case in 0..300 {
+    for case in 0..cases(300) {
         let size = 3 * [1, 2, 3, 4, 20, 40][case % 6];
         let mut problem = problem(&mut random, size / 3, f64::INFINITY);
         problem.w.iter_mut().step_by(size + 1).for_each(|own| *own -= 0.29);
@@ -291,7 +296,10 @@ fn endless_friction_is_limited_where_it_must_be() {
         limited += usize::from(problem.bounds[0].grip < f64::INFINITY);
         assert!(problem.bounds[0].grip >= 3.0, "case {case}");
     }
-    assert!(limited > 0 && failed < 6, "{limited} limited, {failed} without a solution");
+    assert!(
+        limited > 0 && 50 * failed < cases(300),
+        "{limited} limited, {failed} without a solution"
+    );
 }
 
 /// Friction work is computed from the shear and the slip of one solution, and is never negative.

@@ -359,10 +359,10 @@ fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
 
 #[test]
 fn search_finds_what_brute_force_finds() {
-    // CONTACT_PROBLEMS=5 runs a hundred thousand problems.
+    // CONTACT_PROBLEMS=25 runs a hundred thousand problems.
     let more = std::env::var("CONTACT_PROBLEMS").ok().and_then(|text| text.parse().ok());
     let more: usize = more.unwrap_or(1);
-    let sequences = [(1, 100), (2, 300), (3, 400), (4, 160), (5, 40), (6, 10)];
+    let sequences = [(1, 20), (2, 60), (3, 80), (4, 32), (5, 8), (6, 2)];
     let mut total = Tally::default();
     for (count, sequences) in sequences {
         for (friction, tally) in
@@ -378,8 +378,8 @@ fn search_finds_what_brute_force_finds() {
         }
     }
     println!("{total:?}");
-    assert!(total.problems > 15_000 && total.failed_with_strength <= 3 * more, "{total:?}");
+    assert!(total.problems > 3_000 && total.failed_with_strength <= more, "{total:?}");
     // The active set alone solves nearly all problems; the path alone solves all problems without adhesion.
     assert!(total.alone[0] > total.problems * 9 / 10, "{total:?}");
-    assert!(total.alone[2] + 10 * more > total.problems, "{total:?}");
+    assert!(total.alone[2] + 2 * more > total.problems, "{total:?}");
 }

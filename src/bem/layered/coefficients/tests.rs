@@ -42,7 +42,7 @@ fn panels_give_what_points_give() {
                 let spectra = quadrature.spectra(circle, 1, &mut samples).unwrap();
                 covered += (stages.count() * circle.points()).saturating_sub(samples.done);
                 let count = circle.points();
-                for point in (0..count).step_by(7) {
+                for point in (0..count).step_by(31) {
                     let place = [circle.logarithm, circle.angle(point)];
                     quadrature.mobility(place, &mut work, &mut scratch, &mut values).unwrap();
                     let size = |class: usize| values[class][0].abs().min(values[class][1].abs());

@@ -86,7 +86,7 @@ fn agrees_with(
         let [source, receiver] = classes.representative(class).unwrap();
         let mut sum = [0.0; 3];
         // Waves reach the elements' ends at these times; between them the integrand is smooth enough.
-        let pieces = 6000;
+        let pieces = 2000;
         for piece in 0..pieces {
             let h = end / f64::from(pieces);
             for (node, weight) in rule
