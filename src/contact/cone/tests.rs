@@ -1,11 +1,10 @@
 //! Small problems against all their solutions, found by other means.
 
-use basemat_problems::random::Random;
-
 use super::newton::Newton;
 use super::problem::{Bounds, Problem};
 use super::status::{Normal, Status, Tangential};
 use super::{proximal::Proximal, search::search, system::System};
+use basemat_problems::random::Random;
 
 /// A random positive definite W for `count` elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
