@@ -161,7 +161,7 @@ fn coefficients_are_asked_for_once() {
     assert_eq!(taken(&mut ground, 1.0), 1);
     assert!(taken(&mut ground, 1.25) > 32);
     // Another growth to look for, and another kernel, need another assessment.
-    let mut ground = ground.with_expected_steps(500);
+    let mut ground = ground.with_growth_over(500);
     assert!(taken(&mut ground, 1.25) > 32);
     assert_eq!(ground.stability().unwrap().bonded.smallest_growth, 1.0 / 500.0);
     calls.store(0, Relaxed);
@@ -177,11 +177,11 @@ fn coefficients_are_asked_for_once() {
 /// GOAL: what grows too slowly for the run is let pass.
 #[test]
 fn expected_steps_set_what_counts_as_growth() {
-    let mut short = ground().with_expected_steps(4);
+    let mut short = ground().with_growth_over(4);
     short.prepare(0.25, None, &mut unobserved).unwrap();
     assert!(short.stability().unwrap().is_bounded());
     for steps in [0, 1, usize::MAX] {
-        assert!(ground().with_expected_steps(steps).assess(1.0).is_ok(), "{steps}");
+        assert!(ground().with_growth_over(steps).assess(1.0).is_ok(), "{steps}");
     }
     for step in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(matches!(ground().assess(step), Err(Error::Input { .. })), "{step}");

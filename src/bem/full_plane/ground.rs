@@ -154,11 +154,11 @@ impl FullPlaneGround {
         self
     }
 
-    /// Searches for growth beyond 1/`steps` per step instead of 1e-4.
+    /// Searches for growth over so many steps: beyond 1/`steps` per step instead of 1e-4.
     ///
     /// Slower growth is less than e-fold in so many steps. `steps` is limited to the range 2 to 10⁷.
     #[must_use]
-    pub fn with_expected_steps(mut self, steps: usize) -> Self {
+    pub fn with_growth_over(mut self, steps: usize) -> Self {
         self.smallest_growth = 1.0 / steps.clamp(2, 10_000_000) as f64;
         self.stability = None;
         self

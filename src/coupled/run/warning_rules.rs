@@ -125,8 +125,9 @@ impl Warning {
             reach,
             axis,
         }));
-        warnings.extend(Self::of_friction(scene));
-        if motion.moves_across() && !scene.layout().is_plan() {
+        if scene.layout().is_plan() {
+            warnings.extend(Self::of_friction(scene));
+        } else if motion.moves_across() {
             warnings.push(Self::MotionAcross);
         }
         if let Some(taken) = scene.static_state.stand_in {
@@ -203,9 +204,6 @@ impl Warning {
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;
         let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
-        if !scene.layout().is_plan() {
-            return None;
-        }
         let greatest = laws.map(|law| friction_at_rest(law.as_ref())).fold(0.0, f64::max);
         (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }

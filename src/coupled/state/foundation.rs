@@ -175,14 +175,19 @@ impl Foundation {
 
 /// A force as a vector from its components to the right, along y and, as pressure, down.
 pub(crate) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE]) -> [f64; SPACE] {
-    if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
+    components(in_plan, [along, across, -pressure], [along, -pressure, 0.0])
 }
 
 /// A moment or a rotation as a vector from its components about x, about y and about the vertical.
 ///
 /// In the plane only the second counts, about the axis towards the reader.
 pub(crate) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
-    if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
+    components(in_plan, [x, y, vertical], [0.0, 0.0, y])
+}
+
+/// Components in the axes of a ground in plan (z up), or of a ground in the plane (y up).
+fn components<T>(in_plan: bool, plan: T, plane: T) -> T {
+    if in_plan { plan } else { plane }
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width.

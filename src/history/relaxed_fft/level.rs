@@ -85,21 +85,22 @@ impl Level {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 
-    /// Blocks of `size`, without spectra yet.
-    pub(super) fn new(size: usize, planner: &mut RealFftPlanner<f64>) -> Self {
+    /// Blocks of `size`, without spectra yet, with memory for `classes` spectra of each kind.
+    ///
+    /// `couples`: with memory for the coupling.
+    pub(super) fn new(
+        size: usize,
+        classes: usize,
+        couples: bool,
+        planner: &mut RealFftPlanner<f64>,
+    ) -> Self {
+        let kinds = if couples { KINDS } else { PLANE };
+        let numbers = |kind| if kind < kinds { classes * 2 * (size + 1) } else { 0 };
         Self {
             size,
             forward: planner.plan_fft_forward(2 * size),
             inverse: planner.plan_fft_inverse(2 * size),
-            spectra: Default::default(),
-        }
-    }
-
-    /// Reserves memory for `classes` spectra of each kind, and the coupling if `couples`.
-    pub(super) fn reserve(&mut self, classes: usize, couples: bool) {
-        let count = if couples { KINDS } else { PLANE };
-        for stored in &mut self.spectra[..count] {
-            stored.reserve_exact(classes * 2 * (self.size + 1));
+            spectra: std::array::from_fn(|kind| Vec::with_capacity(numbers(kind))),
         }
     }
 

@@ -87,9 +87,8 @@ impl Pairs {
         let (count, classes) = (self.elements(), self.coefficients.classes.count());
         let mut levels = Vec::new();
         for number in first..end {
-            let mut level = Level::new(LEAF << number, &mut self.planner);
-            let couples = self.couples(level.size);
-            level.reserve(classes, couples);
+            let couples = self.couples(LEAF << number);
+            let level = Level::new(LEAF << number, classes, couples, &mut self.planner);
             self.work.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, couples));
         }

@@ -105,7 +105,7 @@ pub(crate) fn print(scene: &Scene, duration: f64, short: bool) -> Result<(), Any
     for change in changes {
         let flow_chart = change.scene(scene, ContactSearch::FlowChart { iterations: 100 });
         let mut ground =
-            Scheme::Paper.full_plane(&flow_chart)?.with_expected_steps(steps(&flow_chart));
+            Scheme::Paper.full_plane(&flow_chart)?.with_growth_over(steps(&flow_chart));
         let found = ground.assess(flow_chart.time_step)?;
         let growth = [&found.bonded, &found.uplifted].map(growth_of);
         print!("| {} | {} | {} |", change.name(), growth[0], growth[1]);

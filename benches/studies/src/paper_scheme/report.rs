@@ -19,7 +19,7 @@ pub(crate) fn print_assessments(scene: &Scene, steps: usize) -> Result<(), AnyEr
         "\n| soil | base held, growth per step | base open | marched without leave |\n|---|---|---|---|"
     );
     for scheme in [Scheme::Paper, Scheme::Quadrature] {
-        let mut ground = scheme.full_plane(scene)?.with_expected_steps(steps);
+        let mut ground = scheme.full_plane(scene)?.with_growth_over(steps);
         let found = ground.assess(scene.time_step)?;
         let growth = [&found.bonded, &found.uplifted].map(growth_of);
         let answer = match found.require_bounded() {

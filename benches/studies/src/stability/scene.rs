@@ -276,7 +276,7 @@ impl Scene {
 
     fn growth_of_boundary(&self) -> Result<[f64; 2]> {
         let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
-        let mut ground = self.full_plane(soil)?.with_expected_steps(self.steps);
+        let mut ground = self.full_plane(soil)?.with_growth_over(self.steps);
         let found = ground.assess(self.time_step(&soil))?;
         Ok([found.uplifted.growth_per_step, found.bonded.growth_per_step])
     }
