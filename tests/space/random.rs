@@ -7,32 +7,14 @@ use basemat::bem::{ContactElement, ElasticGround};
 use basemat::coupled::StepError;
 use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
-use basemat::motion::FreeField;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::RigidBody;
 use basemat::{Error, Simulation, Soil};
+use basemat_problems::flexible_scenes::{Outcome, Sines};
 use basemat_problems::random::Random;
 
 const SCENES: usize = 40;
 const STEPS: usize = 60;
-
-/// Sines in three directions, at rest at t = 0.
-struct Sines {
-    amplitudes: [f64; 3],
-    frequencies: [f64; 3],
-    slowness: f64,
-}
-
-impl FreeField for Sines {
-    fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
-        unreachable!("a ground in plan asks for three directions")
-    }
-
-    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
-        let time = (time - self.slowness * (place[0] + 4.0)).max(0.0);
-        std::array::from_fn(|k| self.amplitudes[k] * (1.0 - (self.frequencies[k] * time).cos()))
-    }
-}
 
 fn law(random: &mut Random, friction: f64, pressure: f64) -> Box<dyn InterfaceLaw> {
     match random.pick(&[0, 0, 0, 1, 2, 3]) {
@@ -198,6 +180,18 @@ fn energies_of_random_scenes_close() {
     );
     assert!(opened > scenes * STEPS / 5 && slid > scenes * STEPS / 5, "{opened} {slid}");
     assert!(unsolved <= scenes / 20, "{unsolved}");
+}
+
+/// Rafts of shells with walls or frames, and bricks: energy balances close (`cargo study elements` runs 200).
+#[test]
+fn energies_of_random_flexible_scenes_close() {
+    let mut outcome = Outcome::default();
+    for number in [10, 17, 18, 32, 43, 69] {
+        outcome.run(number);
+    }
+    println!("{outcome:?}");
+    assert!(outcome.refused.is_empty() && outcome.reduced == 4, "{outcome:?}");
+    assert!(outcome.opened > 150 && outcome.slid > 200, "{outcome:?}");
 }
 
 /// Saved anywhere and resumed in another simulation, steps have the same bits: half as many scenes.

@@ -319,3 +319,47 @@ fn soft_plates_sink_as_a_uniform_pressure_does() {
         assert!(errors.is_sorted_by(|one, other| other.abs() <= one.abs()), "{errors:?}");
     }
 }
+
+/// Settlement at a point by a uniform pressure on a square about the origin (Boussinesq), m.
+fn settlement(soil: Soil, point: [f64; 2], side: f64, pressure: f64) -> f64 {
+    let corner = |u: f64, v: f64| u * (v / u.abs()).asinh() + v * (u / v.abs()).asinh();
+    let [x, y] = point.map(|place| [-0.5 * side - place, 0.5 * side - place]);
+    let sum = corner(x[1], y[1]) - corner(x[0], y[1]) - corner(x[1], y[0]) + corner(x[0], y[0]);
+    pressure * (1.0 - soil.poisson()) / (std::f64::consts::TAU * soil.shear_modulus()) * sum
+}
+
+/// Soft plates, D/(G B³) of 1e-6 and 1e-7, with ten times their weight on the middle half: the four cells in the middle
+/// sink as the soil under these two pressures does.
+#[test]
+fn soft_plates_sink_as_the_pressure_on_their_middle_does() {
+    let soil = Slab::soil();
+    for (thickness, count) in [(0.036_9, 8), (0.017_14, 8)] {
+        let mut slab = Slab { side: 12.0, count, thickness, columns: vec![] };
+        let pitch = slab.side / count as f64;
+        let quarter = 0.25 * pitch * pitch * thickness * Slab::DENSITY;
+        for i in count / 4..3 * count / 4 {
+            for corners in (count / 4..3 * count / 4).map(|j| Slab::corners([i, j])) {
+                slab.columns.extend(corners.map(|node| (node, 10.0 * quarter)));
+            }
+        }
+        let model = slab.model().unwrap();
+        let ground = ElasticGround::under(soil, &model, count).unwrap();
+        let simulation = Simulation::builder(0.01).structure(model).ground(ground);
+        let simulation = simulation.interface(Coulomb::new(0.5).unwrap()).build().unwrap();
+        let pressure = thickness * Slab::DENSITY * 9.806_65;
+        let (mut found, mut wanted) = (0.0, 0.0);
+        for k in 0..9 {
+            let node = [k % 3, k / 3].map(|step| count / 2 + step - 1);
+            let weight = [0.25, 0.5, 0.25][k % 3] * [0.25, 0.5, 0.25][k / 3];
+            found -= weight * simulation.static_displacement()[slab.dof(node)];
+        }
+        for k in 0..64_u32 {
+            let point = [k % 8, k / 8].map(|step| pitch * (0.25 * f64::from(step) - 0.875));
+            wanted += settlement(soil, point, slab.side, pressure) / 64.0;
+            wanted += settlement(soil, point, 0.5 * slab.side, 10.0 * pressure) / 64.0;
+        }
+        let error = found / wanted - 1.0;
+        println!("{thickness}, {count} cells: {error:.5}");
+        assert!(error.abs() < 5e-3, "{thickness}, {count} cells: {error}");
+    }
+}

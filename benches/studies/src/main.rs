@@ -13,6 +13,7 @@ mod contact_chatter;
 mod contact_problems;
 mod containment;
 mod document;
+mod elements;
 mod figure;
 mod fragility;
 mod full_plane;
@@ -58,6 +59,7 @@ enum Study {
     LayeredAccuracy(layered_accuracy::Options),
     LayeredCost(layered_cost::Options),
     Mats(mats::Options),
+    Elements(elements::Options),
 }
 
 fn main() -> ExitCode {
@@ -86,6 +88,7 @@ fn main() -> ExitCode {
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
         Study::Mats(options) => mats::run(&options),
+        Study::Elements(options) => elements::run(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

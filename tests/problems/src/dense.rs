@@ -143,7 +143,16 @@ pub fn eigenvalues(stiffness: &Matrix, mass: &Matrix) -> Vec<f64> {
         };
         (0..n).map(column).collect()
     };
-    let mut a = forward(&forward(stiffness));
+    let a = forward(&forward(stiffness));
+    eigenpairs(&a).0
+}
+
+/// Eigenvalues of a symmetric matrix, ascending, and their vectors, by Jacobi's method.
+pub fn eigenpairs(matrix: &Matrix) -> (Vec<f64>, Matrix) {
+    let (n, mut a) = (matrix.len(), matrix.clone());
+    // Row k becomes the k-th vector.
+    let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
+    let mut vectors: Matrix = (0..n).map(unit).collect();
     for _ in 0..60 {
         for p in 0..n {
             for q in p + 1..n {
@@ -158,17 +167,20 @@ pub fn eigenvalues(stiffness: &Matrix, mass: &Matrix) -> Vec<f64> {
                     a[k][p] = c * x - s * y;
                     a[k][q] = s * x + c * y;
                 }
-                for k in 0..n {
-                    let (x, y) = (a[p][k], a[q][k]);
-                    a[p][k] = c * x - s * y;
-                    a[q][k] = s * x + c * y;
+                for rows in [&mut a, &mut vectors] {
+                    for k in 0..n {
+                        let (x, y) = (rows[p][k], rows[q][k]);
+                        rows[p][k] = c * x - s * y;
+                        rows[q][k] = s * x + c * y;
+                    }
                 }
             }
         }
     }
-    let mut values: Vec<f64> = (0..n).map(|i| a[i][i]).collect();
-    values.sort_by(f64::total_cmp);
-    values
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| a[i][i].total_cmp(&a[j][j]));
+    let values = order.iter().map(|&k| a[k][k]).collect();
+    (values, order.into_iter().map(|k| std::mem::take(&mut vectors[k])).collect())
 }
 
 /// Numbers between −1 and 1 that are the same in every run.

@@ -5,24 +5,24 @@
 use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
+use crate::dense::{eigenpairs, noise};
 use basemat::fem::{Direction, Element, MassKind, Mesh};
-use basemat_problems::dense::{dot, eigenvalues, noise};
 
-pub(crate) const X: Direction = Direction::X;
-pub(crate) const Y: Direction = Direction::Y;
-pub(crate) const Z: Direction = Direction::Z;
-pub(crate) const RX: Direction = Direction::RotationX;
-pub(crate) const RY: Direction = Direction::RotationY;
-pub(crate) const RZ: Direction = Direction::RotationZ;
-pub(crate) const CLAMPED: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
-pub(crate) const HINGED: [Direction; 3] = [X, Y, Z];
+pub const X: Direction = Direction::X;
+pub const Y: Direction = Direction::Y;
+pub const Z: Direction = Direction::Z;
+pub const RX: Direction = Direction::RotationX;
+pub const RY: Direction = Direction::RotationY;
+pub const RZ: Direction = Direction::RotationZ;
+pub const CLAMPED: [Direction; 6] = [X, Y, Z, RX, RY, RZ];
+pub const HINGED: [Direction; 3] = [X, Y, Z];
 
 /// Force (N) or moment (N m) at a node.
-pub(crate) type Load = (usize, Direction, f64);
+pub type Load = (usize, Direction, f64);
 
 /// A matrix of the elements.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Part {
+pub enum Part {
     Stiffness,
     GeometricStiffness,
     Mass(MassKind),
@@ -30,7 +30,7 @@ pub(crate) enum Part {
 
 impl Part {
     /// This matrix of an element.
-    pub(crate) fn of(self, element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
+    pub fn of(self, element: &dyn Element, points: &[[f64; 3]]) -> Vec<f64> {
         let mut matrix = vec![0.0; element.order().pow(2)];
         match self {
             Self::Stiffness => element.stiffness(points, &mut matrix),
@@ -42,34 +42,35 @@ impl Part {
 }
 
 /// A mesh in space and its supports.
-pub(crate) struct Supported {
-    pub(crate) mesh: Mesh,
+#[derive(Debug, Default)]
+pub struct Supported {
+    pub mesh: Mesh,
     held: HashSet<(usize, Direction)>,
 }
 
 impl Supported {
-    pub(crate) fn new() -> Self {
+    pub fn new() -> Self {
         Self { mesh: Mesh::in_space(), held: HashSet::new() }
     }
 
-    pub(crate) fn node(&mut self, point: [f64; 3]) -> usize {
+    pub fn node(&mut self, point: [f64; 3]) -> usize {
         self.mesh.add_node_at(point).unwrap()
     }
 
-    pub(crate) fn add(&mut self, element: impl Element + 'static) {
+    pub fn add(&mut self, element: impl Element + 'static) {
         self.mesh.add(element).unwrap();
     }
 
-    pub(crate) fn hold(&mut self, node: usize, directions: &[Direction]) {
+    pub fn hold(&mut self, node: usize, directions: &[Direction]) {
         self.held.extend(directions.iter().map(|&direction| (node, direction)));
     }
 
-    pub(crate) fn points(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
+    pub fn points(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&node| self.mesh.nodes()[node]).collect()
     }
 
     /// Numbers of the degrees of freedom that are not held, node by node.
-    pub(crate) fn numbers(&self) -> HashMap<(usize, Direction), usize> {
+    pub fn numbers(&self) -> HashMap<(usize, Direction), usize> {
         let mut used = HashSet::new();
         for element in self.mesh.elements() {
             for &node in element.nodes() {
@@ -81,7 +82,7 @@ impl Supported {
         free.enumerate().map(|(number, place)| (place, number)).collect()
     }
 
-    pub(crate) fn matrix(&self, part: Part, factor: f64) -> Skyline {
+    pub fn matrix(&self, part: Part, factor: f64) -> Skyline {
         let numbers = self.numbers();
         let mut matrix = Skyline(vec![vec![0.0]; numbers.len()]);
         for element in self.mesh.elements() {
@@ -104,7 +105,7 @@ impl Supported {
     }
 
     /// Displacements under `loads`: zero where held.
-    pub(crate) fn solve(&self, loads: &[Load]) -> impl Fn(usize, Direction) -> f64 + use<> {
+    pub fn solve(&self, loads: &[Load]) -> impl Fn(usize, Direction) -> f64 + use<> {
         let numbers = self.numbers();
         let mut displacement = vec![0.0; numbers.len()];
         for &(node, direction, force) in loads {
@@ -116,52 +117,109 @@ impl Supported {
         move |node, direction| numbers.get(&(node, direction)).map_or(0.0, |&k| displacement[k])
     }
 
+    /// Displacements of all nodes under `loads`.
+    pub fn displacements(&self, loads: &[Load]) -> Vec<[f64; 6]> {
+        let found = self.solve(loads);
+        let nodes = 0..self.mesh.nodes().len();
+        nodes.map(|node| CLAMPED.map(|direction| found(node, direction))).collect()
+    }
+
     /// Displacement in the direction of the `loads`: their work.
-    pub(crate) fn work(&self, loads: &[Load]) -> f64 {
+    pub fn work(&self, loads: &[Load]) -> f64 {
         let found = self.solve(loads);
         loads.iter().map(|&(node, direction, force)| force * found(node, direction)).sum()
     }
 
     /// Lowest frequencies, Hz.
-    pub(crate) fn frequencies(&self, kind: MassKind, count: usize) -> Vec<f64> {
-        let squared = self.lowest(&self.matrix(Part::Mass(kind), 1.0), count);
-        squared.into_iter().map(|squared| squared.sqrt() / TAU).collect()
+    pub fn frequencies(&self, kind: MassKind, count: usize) -> Vec<f64> {
+        self.modes(kind, count, 0.0).into_iter().map(|mode| mode.frequency).collect()
+    }
+
+    /// Lowest modes. A structure that can move without deforming needs a `shift` of its squared circular frequencies.
+    pub fn modes(&self, kind: MassKind, count: usize, shift: f64) -> Vec<Vibration> {
+        let mass = self.matrix(Part::Mass(kind), 1.0);
+        let mut shifted = self.matrix(Part::Stiffness, 1.0);
+        if shift > 0.0 {
+            shifted.add_all(&mass, shift);
+        }
+        let numbers = self.numbers();
+        let found = lowest(&shifted, &mass, count).into_iter().map(|(squared, shape)| {
+            let value = |place| numbers.get(&place).map_or(0.0, |&number| shape[number]);
+            let nodes = 0..self.mesh.nodes().len();
+            let shape = nodes.map(|node| CLAMPED.map(|direction| value((node, direction))));
+            let frequency = (squared - shift).max(0.0).sqrt() / TAU;
+            Vibration { frequency, shape: shape.collect() }
+        });
+        found.collect()
+    }
+
+    /// aᵀ P b of a matrix of the elements, for motions of all nodes, held ones included.
+    pub fn form(&self, part: Part, a: &[[f64; 6]], b: &[[f64; 6]]) -> f64 {
+        let of_element = |element: &dyn Element| {
+            let [a, b] = [a, b].map(|all| values(element, all));
+            let own = part.of(element, &self.points(element.nodes()));
+            own.chunks(a.len()).zip(&a).map(|(row, a)| a * dot(row, &b)).sum::<f64>()
+        };
+        self.mesh.elements().map(of_element).sum()
     }
 
     /// Lowest factor on the axial forces at which the structure buckles.
-    pub(crate) fn buckling(&self) -> f64 {
-        self.lowest(&self.matrix(Part::GeometricStiffness, -1.0), 1)[0]
+    pub fn buckling(&self) -> f64 {
+        let other = self.matrix(Part::GeometricStiffness, -1.0);
+        lowest(&self.matrix(Part::Stiffness, 1.0), &other, 1)[0].0
     }
+}
 
-    /// Lowest positive λ of K x = λ B x, by iteration of a subspace.
-    fn lowest(&self, other: &Skyline, count: usize) -> Vec<f64> {
-        let stiffness = self.matrix(Part::Stiffness, 1.0);
-        let factor = stiffness.clone().factor();
-        let order = stiffness.0.len();
-        let mut basis: Vec<Vec<f64>> =
-            (0..2 * count + 6).map(|seed| noise(order, seed as u64 + 1)).collect();
-        let mut before = vec![0.0; count];
-        for _ in 0..300 {
-            let images = basis.iter().map(|vector| {
-                let mut image = other.multiply(vector);
-                factor.solve(&mut image);
-                image
-            });
-            basis = orthonormal(images.collect(), &stiffness);
-            let images: Vec<Vec<f64>> = basis.iter().map(|v| other.multiply(v)).collect();
-            let small: Vec<Vec<f64>> =
-                basis.iter().map(|a| images.iter().map(|b| dot(a, b)).collect()).collect();
-            let unit = |i: usize| (0..basis.len()).map(|j| f64::from(u8::from(i == j))).collect();
-            let unit: Vec<Vec<f64>> = (0..basis.len()).map(unit).collect();
-            let found: Vec<f64> =
-                eigenvalues(&small, &unit).iter().rev().take(count).map(|v| 1.0 / v).collect();
-            if found.iter().zip(&before).all(|(a, b)| (a - b).abs() < 1e-11 * a.abs()) {
-                return found;
-            }
-            before = found;
+/// A mode of vibration.
+#[derive(Debug, Clone)]
+pub struct Vibration {
+    /// Hz.
+    pub frequency: f64,
+    /// Motion of each node.
+    pub shape: Vec<[f64; 6]>,
+}
+
+/// Values of an element's degrees of freedom from the motions of all nodes.
+pub fn values(element: &dyn Element, all: &[[f64; 6]]) -> Vec<f64> {
+    let place = |direction: &Direction| CLAMPED.iter().position(|own| own == direction).unwrap();
+    let places: Vec<usize> = element.directions().iter().map(place).collect();
+    let nodes = element.nodes().iter();
+    nodes.flat_map(|&node| places.iter().map(move |&place| all[node][place])).collect()
+}
+
+/// Lowest positive λ of K x = λ B x and their x, by iteration of a subspace.
+fn lowest(stiffness: &Skyline, other: &Skyline, count: usize) -> Vec<(f64, Vec<f64>)> {
+    let factor = stiffness.clone().factor();
+    let order = stiffness.0.len();
+    let mut basis: Vec<Vec<f64>> =
+        (0..2 * count + 6).map(|seed| noise(order, seed as u64 + 1)).collect();
+    let mut before = vec![0.0; count];
+    for _ in 0..300 {
+        let images = basis.iter().map(|vector| {
+            let mut image = other.multiply(vector);
+            factor.solve(&mut image);
+            image
+        });
+        basis = orthonormal(images.collect(), stiffness);
+        let images: Vec<Vec<f64>> = basis.iter().map(|v| other.multiply(v)).collect();
+        let small: Vec<Vec<f64>> =
+            basis.iter().map(|a| images.iter().map(|b| dot(a, b)).collect()).collect();
+        // The greatest 1/λ last.
+        let (small, vectors) = eigenpairs(&small);
+        let found: Vec<f64> = small.iter().rev().take(count).map(|value| 1.0 / value).collect();
+        if found.iter().zip(&before).all(|(a, b)| (a - b).abs() < 1e-11 * a.abs()) {
+            let shape = |vector: &Vec<f64>| {
+                let mut sum = vec![0.0; order];
+                for (factor, own) in vector.iter().zip(&basis) {
+                    sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += factor * own);
+                }
+                sum
+            };
+            return found.into_iter().zip(vectors.iter().rev().map(shape)).collect();
         }
-        panic!("no convergence: {before:?}");
+        before = found;
     }
+    panic!("no convergence: {before:?}");
 }
 
 /// Vectors of unit energy xᵀKx with the same span; those that depend on earlier ones are left out.
@@ -188,8 +246,8 @@ fn orthonormal(vectors: Vec<Vec<f64>>, stiffness: &Skyline) -> Vec<Vec<f64>> {
 }
 
 /// Lower half of a symmetric matrix; each row ends at the diagonal and begins at its first entry.
-#[derive(Clone)]
-pub(crate) struct Skyline(Vec<Vec<f64>>);
+#[derive(Debug, Clone)]
+pub struct Skyline(Vec<Vec<f64>>);
 
 impl Skyline {
     fn add(&mut self, row: usize, column: usize, value: f64) {
@@ -205,7 +263,15 @@ impl Skyline {
         entries[last - place] += value;
     }
 
-    pub(crate) fn multiply(&self, vector: &[f64]) -> Vec<f64> {
+    /// Adds another matrix of the same profile times a factor.
+    fn add_all(&mut self, other: &Self, factor: f64) {
+        for (row, (own, other)) in self.0.iter_mut().zip(&other.0).enumerate() {
+            assert_eq!(own.len(), other.len(), "row {row} of both matrices");
+            own.iter_mut().zip(other).for_each(|(own, value)| *own += factor * value);
+        }
+    }
+
+    pub fn multiply(&self, vector: &[f64]) -> Vec<f64> {
         let mut product = vec![0.0; vector.len()];
         for (row, entries) in self.0.iter().enumerate() {
             let first = row + 1 - entries.len();
@@ -256,8 +322,22 @@ impl Skyline {
     }
 }
 
+/// Product of two vectors, in eight sums.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (first, rest) = a.as_chunks::<8>();
+    let (others, last) = b.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for (a, b) in first.iter().zip(others) {
+        for k in 0..8 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let rest: f64 = rest.iter().zip(last).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
 /// Asserts that two numbers differ by less than this, relative to the second.
-pub(crate) fn near(what: &str, found: f64, exact: f64, tolerance: f64) {
+pub fn near(what: &str, found: f64, exact: f64, tolerance: f64) {
     println!("{what}: {found:.9e}, {exact:.9e}");
     assert!((found / exact - 1.0).abs() < tolerance, "{what}: {found} is not {exact}");
 }

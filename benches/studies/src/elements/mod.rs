@@ -1,0 +1,119 @@
+//! Benchmarks of the finite elements in space, and random flexible structures on the ground.
+//!
+//! Each value has the value of another program of the same formulation beside it, an accepted target and a gate; the
+//! process fails if one is missed. The content of `benches/studies/tables/elements.md` comes from
+//!
+//! ```text
+//! cargo study elements --docs docs
+//! ```
+
+mod beam_modes;
+mod beams;
+mod block;
+mod brick_plates;
+mod bricks;
+mod columns;
+mod containment;
+mod plates;
+mod raft;
+mod report;
+mod row;
+mod scenes;
+mod section;
+mod single;
+mod strips;
+mod surface;
+mod vaults;
+
+use std::path::PathBuf;
+
+use cpu_time::ProcessTime;
+
+use crate::AnyError;
+use crate::document::{splice, write_csv};
+use row::Rows;
+
+/// Benchmarks of finite elements in space: values, targets, gates.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Options {
+    /// Coarse meshes only.
+    #[arg(long)]
+    short: bool,
+    /// Only this group of benchmarks, or the random `scenes`.
+    #[arg(long)]
+    only: Option<String>,
+    /// Folder for the files.
+    #[arg(long, default_value = "target/study/elements")]
+    out: PathBuf,
+    /// Folder of the documentation: given, the tables go to benches/studies/tables.
+    #[arg(long, conflicts_with = "short")]
+    docs: Option<PathBuf>,
+}
+
+type Group = (&'static str, fn(&mut Rows, bool) -> Result<(), AnyError>);
+
+const GROUPS: [Group; 11] = [
+    ("single", |rows, _| single::run(rows)),
+    ("beams", |rows, _| beams::run(rows)),
+    ("beam-modes", |rows, _| beam_modes::run(rows)),
+    ("columns", |rows, _| columns::run(rows)),
+    ("bricks", bricks::run),
+    ("brick-plates", brick_plates::run),
+    ("strips", |rows, _| strips::run(rows)),
+    ("vaults", vaults::run),
+    ("plates", plates::run),
+    ("containment", containment::run),
+    ("raft", raft::run),
+];
+
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    std::fs::create_dir_all(&options.out)?;
+    let mut rows = Rows::tabled();
+    println!(
+        "benchmark | quantity | mesh | found | tabled | difference | found / target | verdict"
+    );
+    for (name, run) in GROUPS {
+        if options.only.as_deref().is_none_or(|only| only == name) {
+            let begin = ProcessTime::try_now()?;
+            run(&mut rows, options.short)?;
+            println!("{name}: {:.0} s", begin.try_elapsed()?.as_secs_f64());
+        }
+    }
+    let text = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.7e}"));
+    let columns =
+        ["table", "benchmark", "quantity", "mesh", "found", "tabled", "target", "verdict"];
+    let files = rows.all.iter().map(|row| {
+        let target = row.target.map(|(target, _)| target);
+        [
+            row.table.to_owned(),
+            row.benchmark.clone(),
+            row.quantity.clone(),
+            row.mesh.clone(),
+            text(row.found),
+            text(Some(row.tabled)),
+            text(target),
+            row.verdict().to_owned(),
+        ]
+    });
+    write_csv(options.out.join("rows.csv"), columns, files)?;
+    let found = rows.all.iter().filter(|row| row.found.is_some()).count();
+    let mut failed = rows.failed();
+    if !options.short && options.only.is_none() {
+        failed.extend(rows.missing());
+    }
+    println!("{found} of {} rows, {} fail", rows.all.len(), failed.len());
+    if options.docs.is_some() && options.only.is_none() {
+        splice("elements.md", "elements benchmarks", &report::benchmarks(&rows)?)?;
+        splice("elements.md", "elements summary", &report::summary(&rows)?)?;
+    }
+    if options.only.as_deref().is_none_or(|only| only == "scenes") {
+        let scenes = scenes::run(options.short)?;
+        if options.docs.is_some() {
+            splice("elements.md", "elements scenes", &scenes)?;
+        }
+    }
+    if failed.is_empty() {
+        return Ok(());
+    }
+    Err(format!("gates missed:\n{}", failed.join("\n")).into())
+}

@@ -1,0 +1,223 @@
+//! Rows of the tables of benchmarks: values of the same formulation, targets, gates, and the values found.
+
+use basemat_problems::table;
+
+/// One value of a benchmark.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) table: &'static str,
+    pub(super) benchmark: String,
+    pub(super) quantity: String,
+    pub(super) mesh: String,
+    /// Value of another program.
+    pub(super) tabled: f64,
+    /// Largest relative difference from the tabled value.
+    pub(super) same: f64,
+    /// Accepted value, and largest relative difference from it.
+    pub(super) target: Option<(f64, Option<f64>)>,
+    pub(super) found: Option<f64>,
+}
+
+impl Row {
+    /// Relative difference of the value found from the tabled one.
+    pub(super) fn difference(&self) -> Option<f64> {
+        Some((self.found? / self.tabled - 1.0).abs())
+    }
+
+    /// Value found over the target.
+    pub(super) fn ratio(&self) -> Option<f64> {
+        Some(self.found? / self.target?.0)
+    }
+
+    /// Words of a verdict; those in capitals are failures.
+    pub(super) fn verdict(&self) -> &'static str {
+        let Some(difference) = self.difference() else { return "not computed" };
+        let gate = self.target.and_then(|(_, gate)| gate);
+        let off = self.ratio().zip(gate).is_some_and(|(ratio, gate)| (ratio - 1.0).abs() > gate);
+        match (difference > self.same, off) {
+            (true, true) => "OFF TABLE AND TARGET",
+            (true, false) => "OFF TABLE",
+            (false, true) => "OFF TARGET",
+            (false, false) if gate.is_none() => "as tabled",
+            (false, false) => "holds",
+        }
+    }
+
+    pub(super) fn fails(&self) -> bool {
+        self.verdict().starts_with("OFF")
+    }
+}
+
+/// Whether a raft stands on as many cells as it has elements.
+fn is_equal(mesh: &str) -> bool {
+    let words: Vec<&str> = mesh.split([' ', ',']).filter(|word| word.contains('x')).collect();
+    matches!(words[..], [shells, cells] if shells == cells)
+}
+
+/// Limits of the raft: a Ritz solution of degree 36 on springs, extrapolated cells on the half-space. Gates are for
+/// 16 and 32 elements along a side.
+fn raft_target(is_winkler: bool, quantity: &str, mesh: &str) -> Option<(f64, Option<f64>)> {
+    let [springs, half_space] = match quantity {
+        "settlement middle, mm" => [3.487_449, 6.037],
+        "settlement middle of a side, mm" => [0.743_579_3, 3.072],
+        "settlement corner, mm" => [-0.495_681_2, 1.678],
+        "moment mx = my under the load, kNm/m" => [729.3671, f64::NAN],
+        _ => return None,
+    };
+    let target = if is_winkler { springs } else { half_space };
+    let gates = if quantity.starts_with("moment") { [0.14, 0.04] } else { [1e-2, 3e-3] };
+    let gate = if mesh.starts_with("Shell4 16x16") {
+        Some(gates[0])
+    } else if mesh.starts_with("Shell4 32x32") {
+        Some(gates[1])
+    } else {
+        None
+    };
+    target.is_finite().then_some((target, gate))
+}
+
+/// All rows, and values found that stand in no table.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) all: Vec<Row>,
+    pub(super) others: Vec<(String, f64)>,
+    /// Values that must not exceed a bound.
+    pub(super) bounds: Vec<(String, f64, f64)>,
+}
+
+impl Rows {
+    /// The tables of `tests/data/elements`.
+    pub(super) fn tabled() -> Self {
+        let mut all = Vec::new();
+        let gates = table("elements/gates.csv");
+        let columns =
+            ["benchmark", "quantity", "element and mesh", "accepted target", "accuracy gate"];
+        let [benchmarks, quantities, meshes, targets, accuracies] =
+            columns.map(|column| gates.text(column));
+        let values = gates.column("value (same formulation: within 1e-5)");
+        for (k, &tabled) in values.iter().enumerate() {
+            let target: Option<f64> = targets[k].parse().ok();
+            all.push(Row {
+                table: "gates",
+                benchmark: benchmarks[k].to_owned(),
+                quantity: quantities[k].to_owned(),
+                mesh: meshes[k].to_owned(),
+                tabled,
+                // Half of the last of six digits.
+                same: 1e-5,
+                target: target.map(|target| (target, accuracies[k].parse().ok())),
+                found: None,
+            });
+        }
+        let shells = table("elements/containment.csv");
+        let [benchmarks, quantities, masses, meshes] =
+            ["benchmark", "quantity", "mass", "mesh around x (cylinder + dome)"]
+                .map(|column| shells.text(column));
+        for (k, &tabled) in shells.column("value").iter().enumerate() {
+            all.push(Row {
+                table: "containment",
+                benchmark: benchmarks[k].to_owned(),
+                quantity: quantities[k].to_owned(),
+                mesh: format!("{} {}", meshes[k], masses[k]),
+                tabled,
+                same: 1e-5,
+                target: None,
+                found: None,
+            });
+        }
+        let raft = table("elements/raft.csv");
+        let [grounds, solutions, quantities] =
+            ["ground", "solution", "quantity"].map(|column| raft.text(column));
+        for (k, &tabled) in raft.column("value").iter().enumerate() {
+            if !solutions[k].starts_with("Shell4") {
+                continue;
+            }
+            let is_winkler = grounds[k].starts_with("Winkler");
+            all.push(Row {
+                table: "raft",
+                benchmark: grounds[k].to_owned(),
+                quantity: quantities[k].to_owned(),
+                mesh: solutions[k].to_owned(),
+                tabled,
+                // Two elements a cell: the other program takes other means.
+                same: if is_winkler || is_equal(solutions[k]) { 1e-5 } else { 1e-2 },
+                target: raft_target(is_winkler, quantities[k], solutions[k]),
+                found: None,
+            });
+        }
+        let plates = table("elements/invariance.csv");
+        let [tests, elements] = ["test", "element"].map(|column| plates.text(column));
+        for (k, &tabled) in plates.column("relative difference or ratio").iter().enumerate() {
+            if !tests[k].starts_with("clamped square") {
+                continue;
+            }
+            all.push(Row {
+                table: "invariance",
+                benchmark: tests[k].to_owned(),
+                quantity: String::new(),
+                mesh: elements[k].to_owned(),
+                tabled,
+                // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
+                same: if tests[k].contains("1e-06") { 1e-3 } else { 1e-5 },
+                target: None,
+                found: None,
+            });
+        }
+        Self { all, ..Self::default() }
+    }
+
+    /// Enters a value of the tables' `benchmark`, `quantity` and `mesh`.
+    pub(super) fn put(&mut self, benchmark: &str, quantity: &str, mesh: &str, value: f64) {
+        let row = self
+            .all
+            .iter_mut()
+            .find(|row| row.benchmark == benchmark && row.quantity == quantity && row.mesh == mesh);
+        match row {
+            Some(row) => {
+                row.found = Some(value);
+                println!(
+                    "{benchmark} | {quantity} | {mesh} | {value:.6e} | {:.6e} | {:.0e} | {} | {}",
+                    row.tabled,
+                    row.difference().unwrap_or(f64::NAN),
+                    row.ratio().map_or(String::new(), |ratio| format!("{ratio:.4}")),
+                    row.verdict()
+                );
+            }
+            None => self.note(&format!("{benchmark} | {quantity} | {mesh}"), value),
+        }
+    }
+
+    /// Enters a value that must not exceed a bound.
+    pub(super) fn bound(&mut self, name: &str, value: f64, most: f64) {
+        let verdict = if value <= most { "holds" } else { "ABOVE ITS BOUND" };
+        println!("{name} | {value:.1e} | at most {most:.0e} | {verdict}");
+        self.bounds.push((name.to_owned(), value, most));
+    }
+
+    /// Rows and bounds that fail, in words.
+    pub(super) fn failed(&self) -> Vec<String> {
+        let rows = self.all.iter().filter(|row| row.fails()).map(|row| {
+            format!("{} | {} | {}: {}", row.benchmark, row.quantity, row.mesh, row.verdict())
+        });
+        let bounds = self.bounds.iter().filter(|(_, value, most)| value > most || value.is_nan());
+        rows.chain(bounds.map(|(name, value, most)| format!("{name}: {value:e} > {most:e}")))
+            .collect()
+    }
+
+    /// Rows without a value, but stresses of bricks from strains at the corner: the crate extrapolates them from the
+    /// Gauss points.
+    pub(super) fn missing(&self) -> impl Iterator<Item = String> {
+        let is_missing =
+            |row: &&Row| row.found.is_none() && row.quantity != "syy at D, at the corner, MPa";
+        let text = |row: &Row| {
+            format!("{} | {} | {}: not computed", row.benchmark, row.quantity, row.mesh)
+        };
+        self.all.iter().filter(is_missing).map(text)
+    }
+
+    /// Enters a value that stands in no table.
+    pub(super) fn note(&mut self, name: &str, value: f64) {
+        println!("{name} | {value:.7e} | no table");
+        self.others.push((name.to_owned(), value));
+    }
+}

@@ -1,0 +1,34 @@
+//! Energy balance of random flexible structures that lift off and slide.
+
+use basemat_problems::flexible_scenes::Outcome;
+
+use crate::AnyError;
+
+/// Number of scenes, fewer for continuous integration.
+const SCENES: [usize; 2] = [200, 4];
+
+/// Runs the scenes; the text for the documents.
+pub(super) fn run(short: bool) -> Result<String, AnyError> {
+    let mut outcome = Outcome::default();
+    for number in 0..SCENES[usize::from(short)] {
+        outcome.run(number);
+        if number % 20 == 19 {
+            println!("{} scenes: energy error {:.1e}", number + 1, outcome.residual);
+        }
+    }
+    for reason in &outcome.refused {
+        println!("{reason}");
+    }
+    let Outcome { scenes, steps, reduced, opened, slid, refused, residual, returned } = &outcome;
+    let text = format!(
+        "| random scenes | in other coordinates | not run | steps | with an open cell | with a cell that slides | largest \
+         energy error | energy returned by the soil |\n|---|---|---|---|---|---|---|---|\n\
+         | {scenes} | {reduced} | {} | {steps} | {opened} | {slid} | {residual:.1e} | {returned:.1e} |",
+        refused.len()
+    );
+    println!("{text}");
+    if refused.len() > scenes / 5 {
+        return Err(format!("{} of {scenes} random scenes were not run", refused.len()).into());
+    }
+    Ok(text)
+}

@@ -1,0 +1,294 @@
+//! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
+
+use basemat::fem::{Beam, BeamSection, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
+use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, values};
+
+use super::row::Rows;
+use super::surface::{Pattern, Surface};
+use crate::AnyError;
+
+/// MacNeal & Harder's patches: corners first.
+const POINTS: [[f64; 2]; 8] = [
+    [0.0, 0.0],
+    [0.24, 0.0],
+    [0.24, 0.12],
+    [0.0, 0.12],
+    [0.04, 0.02],
+    [0.18, 0.03],
+    [0.16, 0.08],
+    [0.08, 0.08],
+];
+const CELLS: [[usize; 4]; 5] =
+    [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
+const INNER: [[f64; 3]; 8] = [
+    [0.249, 0.342, 0.192],
+    [0.826, 0.288, 0.288],
+    [0.850, 0.649, 0.263],
+    [0.273, 0.750, 0.230],
+    [0.320, 0.186, 0.643],
+    [0.677, 0.305, 0.683],
+    [0.788, 0.693, 0.644],
+    [0.165, 0.745, 0.702],
+];
+const BRICKS: [[usize; 8]; 7] = [
+    [8, 9, 10, 11, 12, 13, 14, 15],
+    [0, 1, 2, 3, 8, 9, 10, 11],
+    [12, 13, 14, 15, 4, 5, 6, 7],
+    [0, 1, 9, 8, 4, 5, 13, 12],
+    [1, 2, 10, 9, 5, 6, 14, 13],
+    [2, 3, 11, 10, 6, 7, 15, 14],
+    [3, 0, 8, 11, 7, 4, 12, 15],
+];
+
+/// Largest displacement of inner nodes from a uniform `state` while the nodes before `inner` are held in it, relative
+/// to the largest of all.
+fn error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
+    let mut loads = Vec::new();
+    let mut forces = vec![[0.0; 6]; state.len()];
+    for element in scene.mesh.elements() {
+        let own = values(element, state);
+        let matrix = Part::Stiffness.of(element, &scene.points(element.nodes()));
+        let places = element
+            .nodes()
+            .iter()
+            .flat_map(|&node| element.directions().iter().map(move |&direction| (node, direction)));
+        for ((node, direction), row) in places.zip(matrix.chunks(own.len())) {
+            let place = CLAMPED.iter().position(|&other| other == direction).unwrap_or(0);
+            forces[node][place] -= row.iter().zip(&own).map(|(k, u)| k * u).sum::<f64>();
+        }
+    }
+    for (node, forces) in forces.iter().enumerate() {
+        if node < inner {
+            scene.hold(node, &CLAMPED);
+        }
+        loads.extend(CLAMPED.into_iter().zip(forces).map(|(direction, &f)| (node, direction, f)));
+    }
+    let found = scene.displacements(&loads);
+    largest(found.as_flattened()) / largest(state.as_flattened())
+}
+
+fn patches(rows: &mut Rows) -> Result<(), AnyError> {
+    type Field = fn(f64, f64) -> [f64; 6];
+    let states: [(&str, Field); 4] = [
+        ("membrane", |x, y| [x + 0.5 * y, y + 0.5 * x, 0.0, 0.0, 0.0, 0.0]),
+        ("membrane+spin", |x, y| [x - 0.2 * y, 0.3 * y + 0.8 * x, 0.0, 0.0, 0.0, 0.5]),
+        ("bending", |x, y| {
+            [0.0, 0.0, 0.5 * (x * x + x * y + y * y), 0.5 * x + y, -x - 0.5 * y, 0.0]
+        }),
+        ("twist", |x, y| [0.0, 0.0, x * y, x, -y, 0.0]),
+    ];
+    for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
+        for thickness in [0.001, 0.05] {
+            for (name, field) in states {
+                let mut patch = Surface::new(Material::new(1.0e6, 0.25, 1.0)?, thickness);
+                for [x, y] in POINTS {
+                    patch.scene.node([x, y, 0.0]);
+                }
+                for corners in CELLS.into_iter().flat_map(|cell| pattern.split(cell)) {
+                    patch.shell(&corners, thickness)?;
+                }
+                let state = POINTS.map(|[x, y]| field(x, y));
+                let error = error(patch.scene, 4, &state);
+                let case = format!("t/size={:.3}", thickness / 0.24);
+                rows.bound(&format!("patch {name} {} {case}", pattern.element()), error, 1e-9);
+            }
+        }
+    }
+    let material = Material::new(1.0e6, 0.25, 1.0)?;
+    let mut scene = Supported::new();
+    for z in [0.0, 1.0] {
+        for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
+            scene.node([x, y, z]);
+        }
+    }
+    for point in INNER {
+        scene.node(point);
+    }
+    for nodes in BRICKS {
+        scene.add(Hex8::new(nodes, material));
+    }
+    let uniform = |&[x, y, z]: &[f64; 3]| {
+        [x + 0.5 * (y + z), y + 0.5 * (x + z), z + 0.5 * (x + y), 0.0, 0.0, 0.0]
+    };
+    let state: Vec<[f64; 6]> = scene.mesh.nodes().iter().map(uniform).collect();
+    let error = error(scene, 8, &state);
+    rows.bound("patch of seven distorted bricks", error, 1e-9);
+    Ok(())
+}
+
+/// An element, its name and the places of its nodes.
+type Sample = (&'static str, Box<dyn Element>, Vec<[f64; 3]>);
+
+fn samples() -> Result<Vec<Sample>, AnyError> {
+    let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+    let quads = [
+        ("Shell4 flat", [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], [0.0; 4]),
+        ("Shell4 distorted", [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [-0.2, 1.3]], [0.0; 4]),
+        ("Shell4 warped", [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [-0.2, 1.3]], [0.0, 0.2, -0.1, 0.3]),
+    ];
+    let mut all: Vec<Sample> = Vec::new();
+    for (name, plan, heights) in quads {
+        let points = plan.iter().zip(heights).map(|(&[x, y], z)| [x, y, z]).collect();
+        all.push((name, Box::new(Shell::new([0, 1, 2, 3], concrete, 0.2)?), points));
+    }
+    let triangle = vec![[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
+    all.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
+    let brick = vec![
+        [0.12, -0.12, 0.06],
+        [1.152, 0.036, 0.12],
+        [1.2, 1.12, -0.12],
+        [0.096, 1.024, 0.036],
+        [-0.12, -0.084, 1.548],
+        [1.236, -0.024, 1.428],
+        [1.26, 1.108, 1.512],
+        [-0.024, 1.072, 1.392],
+    ];
+    all.push(("Hex8 distorted", Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)), brick));
+    let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?.with_shear_areas([0.1; 2])?;
+    let beam = SpaceBeam::new([0, 1], concrete, section, [1.0, 1.0, 0.2])?
+        .with_offsets([[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]])?;
+    all.push(("SpaceBeam with offsets", Box::new(beam), vec![[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]]));
+    Ok(all)
+}
+
+/// Unit motion along or about an axis through the origin.
+fn rigid(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
+    let mut own = [0.0; 6];
+    own[motion] = 1.0;
+    match motion {
+        3 => [own[1], own[2]] = [-z, y],
+        4 => [own[0], own[2]] = [z, -x],
+        5 => [own[0], own[1]] = [-y, x],
+        _ => (),
+    }
+    own
+}
+
+fn rigid_motions(rows: &mut Rows) -> Result<(), AnyError> {
+    for (name, element, points) in samples()? {
+        let order = element.order();
+        let matrix = Part::Stiffness.of(&*element, &points);
+        let scale = largest(&matrix);
+        for motion in 0..6 {
+            let state: Vec<[f64; 6]> = points.iter().map(|&point| rigid(motion, point)).collect();
+            let own = values(&*element, &state);
+            let force = |row: &[f64]| row.iter().zip(&own).map(|(k, u)| k * u).sum::<f64>().abs();
+            let most = matrix.chunks(order).map(force).fold(0.0, f64::max);
+            rows.bound(&format!("rigid motion {motion}, {name}"), most / scale, 1e-12);
+        }
+        let square: Vec<Vec<f64>> = matrix.chunks(order).map(<[f64]>::to_vec).collect();
+        let (found, _) = eigenpairs(&square);
+        let most = found[order - 1];
+        rows.bound(&format!("sixth eigenvalue, {name}"), largest(&found[..6]) / most, 1e-13);
+        // Of its inverse: none of the others is near zero.
+        rows.bound(&format!("largest over seventh eigenvalue, {name}"), most / found[6], 1e6);
+    }
+    Ok(())
+}
+
+fn renumbered(rows: &mut Rows) -> Result<(), AnyError> {
+    for (name, element, points) in samples()? {
+        let orders: &[&[usize]] = match points.len() {
+            4 => &[&[1, 2, 3, 0], &[0, 3, 2, 1]],
+            3 => &[&[1, 2, 0], &[0, 2, 1]],
+            // A quarter turn about the vertical axis, and about the first.
+            8 => &[&[1, 2, 3, 0, 5, 6, 7, 4], &[3, 2, 6, 7, 0, 1, 5, 4]],
+            _ => continue,
+        };
+        let order = element.order();
+        let size = order / points.len();
+        let matrix = Part::Stiffness.of(&*element, &points);
+        for &places in orders {
+            let moved: Vec<[f64; 3]> = places.iter().map(|&place| points[place]).collect();
+            let found = Part::Stiffness.of(&*element, &moved);
+            let place = |k: usize| size * places[k / size] + k % size;
+            let apart =
+                |k: usize| (found[k] - matrix[place(k / order) * order + place(k % order)]).abs();
+            let most = (0..order * order).map(apart).fold(0.0, f64::max) / largest(&matrix);
+            rows.bound(&format!("renumbered {places:?}, {name}"), most, 1e-12);
+        }
+    }
+    Ok(())
+}
+
+/// Beams of the plane x–z: largest difference from the beam of the plane, of the largest entry.
+fn in_the_plane(rows: &mut Rows) -> Result<(), AnyError> {
+    const PLACES: [usize; 6] = [0, 2, 4, 6, 8, 10];
+    const SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
+    let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+    let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?.with_shear_areas([0.1; 2])?;
+    for ends in [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]] {
+        let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
+            .with_shear_stiffness(12.5e9 * 0.1)?
+            .with_rotary_inertia();
+        let beam =
+            SpaceBeam::new([0, 1], concrete, section, [0.0, 1.0, 0.0])?.with_rotary_inertia();
+        let displacement = [1e-3, 2e-3, 1e-3, -2e-3, -1e-3, 3e-3];
+        let mut in_space = [0.0; 12];
+        for k in 0..6 {
+            in_space[PLACES[k]] = SIGNS[k] * displacement[k];
+        }
+        let flat_points = ends.map(|[x, z]| [x, z, 0.0]);
+        let points = ends.map(|[x, z]| [x, 0.0, z]);
+        let none = "a beam with an axial force";
+        let flat = flat.in_static_state(&flat_points, &displacement, 50.0).ok_or(none)?;
+        let beam = beam.in_static_state(&points, &in_space, 50.0).ok_or(none)?;
+        for (name, part) in [
+            ("stiffness", Part::Stiffness),
+            ("geometric stiffness", Part::GeometricStiffness),
+            ("mass", Part::Mass(MassKind::Consistent)),
+            ("lumped mass", Part::Mass(MassKind::Lumped)),
+        ] {
+            let [flat, own] = [part.of(&*flat, &flat_points), part.of(&*beam, &points)];
+            let mut most = 0.0_f64;
+            for i in 0..6 {
+                for j in 0..6 {
+                    let row = 12 * PLACES[i];
+                    let value = SIGNS[i] * SIGNS[j] * own[row + PLACES[j]];
+                    most =
+                        most.max((value - flat[6 * i + j]).abs()).max(own[row + 2 * j + 1].abs());
+                }
+            }
+            let name = format!("beam in the plane, {ends:?}: {name}");
+            rows.bound(&name, most / largest(&flat), 1e-12);
+        }
+    }
+    Ok(())
+}
+
+fn clamped_squares(rows: &mut Rows) -> Result<(), AnyError> {
+    for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
+        for (slenderness, name) in [(1e-2, "0.01"), (1e-4, "0.0001"), (1e-6, "1e-06")] {
+            let thickness = 10.0 * slenderness;
+            let mut plate = Surface::new(Material::new(200.0e9, 0.3, 8000.0)?, thickness);
+            let nodes = plate.grid([8, 8], pattern, |x, y| [10.0 * x, 10.0 * y, 0.0])?;
+            for (i, row) in nodes.iter().enumerate() {
+                for (j, &node) in row.iter().enumerate() {
+                    let is_edge = [i, j].iter().any(|&k| k == 0 || k == 8);
+                    plate.scene.hold(node, if is_edge { &CLAMPED } else { &[X, Y, RZ] });
+                }
+            }
+            let mut loads = Vec::new();
+            for shell in &plate.shells {
+                let forces = shell.pressure_forces(&plate.scene.points(shell.nodes()), 1.0)?;
+                let own = shell.nodes().iter().zip(forces);
+                loads.extend(own.map(|(&node, [.., force])| (node, Z, force)));
+            }
+            let rigidity = 200.0e9 * thickness.powi(3) / 12.0 / 0.91;
+            let ratio = plate.scene.solve(&loads)(nodes[4][4], Z) * rigidity / (0.001_265_32 * 1e4);
+            let test =
+                format!("clamped square 8x8, t/L = {name}: w / thin closed form .00126532 q L^4/D");
+            rows.put(&test, "", pattern.element(), ratio);
+        }
+    }
+    Ok(())
+}
+
+pub(super) fn run(rows: &mut Rows) -> Result<(), AnyError> {
+    patches(rows)?;
+    rigid_motions(rows)?;
+    renumbered(rows)?;
+    in_the_plane(rows)?;
+    clamped_squares(rows)
+}

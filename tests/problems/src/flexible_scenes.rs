@@ -1,0 +1,295 @@
+//! Random structures of finite elements in space that bend, lift off and slide.
+//!
+//! Units make the soil's density and fastest wave one.
+
+use basemat::bem::ElasticGround;
+use basemat::bem::plan::Plan;
+use basemat::coupled::{Coordinates, StepError};
+use basemat::fem::{BeamSection, Grid, Hex8, MassKind, Material, Mesh, Shell, SpaceBeam};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Mode};
+use basemat::motion::FreeField;
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::structure::{FemModel, RayleighDamping};
+use basemat::{Error, Simulation, Soil};
+
+use crate::random::Random;
+
+const STEPS: usize = 60;
+
+/// Sines in three directions, at rest at t = 0.
+#[derive(Debug, Clone)]
+pub struct Sines {
+    pub amplitudes: [f64; 3],
+    pub frequencies: [f64; 3],
+    pub slowness: f64,
+}
+
+impl FreeField for Sines {
+    fn displacement(&self, _: f64, _: f64) -> [f64; 2] {
+        unreachable!("a ground in plan asks for three directions")
+    }
+
+    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
+        let time = (time - self.slowness * (place[0] + 4.0)).max(0.0);
+        std::array::from_fn(|k| self.amplitudes[k] * (1.0 - (self.frequencies[k] * time).cos()))
+    }
+}
+
+/// A mesh on its lowest faces.
+#[derive(Debug)]
+struct Building {
+    mesh: Mesh,
+    shells: Vec<Shell>,
+    floor: Grid,
+    counts: [usize; 2],
+    material: Material,
+    thickness: f64,
+    height: f64,
+}
+
+/// Sides of the base.
+type Sides = [f64; 2];
+
+impl Building {
+    /// Nodes of an uneven floor.
+    fn new(random: &mut Random, sides: Sides, modulus: f64) -> Result<Self, Error> {
+        let counts = [random.pick(&[2, 3, 4, 5]), random.pick(&[2, 3, 4])];
+        let lines: [Vec<f64>; 2] = [0, 1].map(|axis| {
+            let widths: Vec<f64> = (0..counts[axis]).map(|_| random.within(0.7, 1.3)).collect();
+            let whole: f64 = widths.iter().sum();
+            let upto = |k: usize| widths[..k].iter().sum::<f64>() / whole - 0.5;
+            (0..=counts[axis]).map(|k| sides[axis] * upto(k)).collect()
+        });
+        let skew: Vec<[f64; 2]> = (0..(counts[0] + 1) * (counts[1] + 1))
+            .map(|_| {
+                [0, 1].map(|axis| random.within(-0.15, 0.15) * sides[axis] / counts[axis] as f64)
+            })
+            .collect();
+        let point = |row: usize, column: usize| {
+            let is_inner = row > 0 && row < counts[1] && column > 0 && column < counts[0];
+            let [x, y] = skew[row * (counts[0] + 1) + column];
+            let moved = if is_inner { [x, y] } else { [0.0; 2] };
+            [lines[0][column] + moved[0], lines[1][row] + moved[1], 0.0]
+        };
+        let mut mesh = Mesh::in_space();
+        let floor = mesh.add_grid(counts[1] + 1, counts[0] + 1, point)?;
+        let poisson = random.within(0.0, 0.4);
+        let thickness = random.within(0.02, 0.2) * sides[0];
+        // D/(G B³) of a mat of this thickness.
+        let rigidity = random.log_within(1e-5, 1.0) * modulus * sides[0].powi(3);
+        let young = 12.0 * (1.0 - poisson * poisson) * rigidity / thickness.powi(3);
+        let material = Material::new(young, poisson, random.log_within(0.3, 10.0))?;
+        let height = random.within(0.4, 2.5);
+        Ok(Self { mesh, shells: Vec::new(), floor, counts, material, thickness, height })
+    }
+
+    fn shell(&mut self, corners: [usize; 4], thickness: f64, halved: bool) -> Result<(), Error> {
+        let [a, b, c, d] = corners;
+        let parts =
+            if halved { vec![vec![a, b, c], vec![a, c, d]] } else { vec![vec![a, b, c, d]] };
+        for nodes in parts {
+            self.shells.push(Shell::new(nodes, self.material, thickness)?);
+        }
+        Ok(())
+    }
+
+    fn mat(&mut self, random: &mut Random) -> Result<(), Error> {
+        let triangles = if random.chance(0.3) { 0.4 } else { 0.0 };
+        for (_, nodes) in self.floor.cells().collect::<Vec<_>>() {
+            let Ok(corners) = nodes.try_into() else { continue };
+            self.shell(corners, self.thickness, random.chance(triangles))?;
+        }
+        Ok(())
+    }
+
+    /// Copies of nodes at this height.
+    fn lifted(&mut self, nodes: &[usize], height: f64) -> Result<Vec<usize>, Error> {
+        let points: Vec<[f64; 3]> = nodes.iter().map(|&node| self.mesh.nodes()[node]).collect();
+        points.into_iter().map(|[x, y, _]| self.mesh.add_node_at([x, y, height])).collect()
+    }
+
+    /// A wall on a row of the mat, and one across it.
+    fn walls(&mut self, random: &mut Random) -> Result<(), Error> {
+        let row = random.pick(&[0, self.counts[1] / 2, self.counts[1]]);
+        let column = random.pick(&[0, self.counts[0]]);
+        let along = self.floor.row(row).to_vec();
+        let across: Vec<usize> =
+            (0..self.floor.rows()).map(|row| self.floor.row(row)[column]).collect();
+        let thickness = random.within(0.3, 1.0) * self.thickness;
+        let storeys = random.pick(&[1, 2]);
+        let mut tops: Vec<(usize, usize, usize)> = Vec::new();
+        for line in [along, across] {
+            let mut below = line.clone();
+            for storey in 1..=storeys {
+                let height = self.height * storey as f64 / storeys as f64;
+                // The walls share the nodes above their common node.
+                let mut above = Vec::new();
+                for &foot in &line {
+                    let known = tops.iter().find(|own| (own.0, own.1) == (foot, storey));
+                    let node = match known {
+                        Some(&(_, _, node)) => node,
+                        None => self.lifted(&[foot], height)?[0],
+                    };
+                    tops.push((foot, storey, node));
+                    above.push(node);
+                }
+                for k in 0..line.len() - 1 {
+                    let corners = [below[k], below[k + 1], above[k + 1], above[k]];
+                    self.shell(corners, thickness, false)?;
+                }
+                below = above;
+            }
+        }
+        Ok(())
+    }
+
+    /// Columns on the corners under a roof of beams, or one column with a rigid arm.
+    fn frame(&mut self, random: &mut Random) -> Result<(), Error> {
+        let (last, end) = (self.floor.rows() - 1, self.counts[0]);
+        let feet =
+            [[0, 0], [0, end], [last, end], [last, 0]].map(|[row, k]| self.floor.row(row)[k]);
+        let tops = self.lifted(&feet, self.height)?;
+        let side = random.within(0.5, 2.0) * self.thickness;
+        let moment = side.powi(4) / 12.0;
+        let section = BeamSection::new(side * side, [moment; 2], 1.6 * moment)?
+            .with_shear_areas([0.8 * side * side; 2])?;
+        for k in 0..4 {
+            let column =
+                SpaceBeam::new([feet[k], tops[k]], self.material, section, [1.0, 0.2, 0.0])?;
+            self.mesh.add(column.with_rotary_inertia())?;
+            let ends = [tops[k], tops[(k + 1) % 4]];
+            self.mesh.add(SpaceBeam::new(ends, self.material, section, [0.0, 0.0, 1.0])?)?;
+        }
+        Ok(())
+    }
+
+    fn bricks(&mut self, random: &mut Random) -> Result<(), Error> {
+        let levels = random.pick(&[1, 2, 3]);
+        let heights: Vec<f64> =
+            (1..=levels).map(|k| 0.5 * self.height * f64::from(k) / f64::from(levels)).collect();
+        for brick in self.floor.extrude(&mut self.mesh, &heights)? {
+            self.mesh.add(Hex8::new(brick, self.material))?;
+        }
+        Ok(())
+    }
+
+    fn model(mut self, random: &mut Random) -> Result<FemModel, Error> {
+        match random.pick(&[0, 0, 1, 2]) {
+            0 => {
+                self.mat(random)?;
+                self.walls(random)?;
+            }
+            1 => {
+                self.mat(random)?;
+                self.frame(random)?;
+            }
+            _ => self.bricks(random)?,
+        }
+        Shell::match_sides(&mut self.shells);
+        for shell in self.shells {
+            self.mesh.add(shell)?;
+        }
+        let damping = RayleighDamping::from_ratios([0.05, 2.0], [random.within(0.01, 0.1); 2])?;
+        let kind = random.pick(&[MassKind::Consistent, MassKind::Lumped]);
+        Ok(FemModel::on_base(self.mesh)?.with_mass(kind).with_rayleigh(damping))
+    }
+}
+
+fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
+    let soil = Soil::new(1.0, random.within(0.0, 0.45), 1.0)?;
+    let mut profile = SoilProfile::from(soil);
+    if random.chance(0.1) {
+        let rock = Soil::new(random.within(2.0, 20.0), 0.3, 1.2)?;
+        let damping = GeneralizedMaxwell::constant_q(random.within(0.01, 0.1), [0.02, 2.0], 0.3)?;
+        profile = SoilProfile::on_half_plane(rock)
+            .with_layer(soil, random.within(1.0, 4.0))?
+            .with_damping(damping);
+    }
+    let sides = [2.0, random.within(1.2, 2.0)];
+    let model = Building::new(random, sides, soil.shear_modulus())?.model(random)?;
+    let cells = random.pick(&[4, 5, 6, 8]);
+    let plan = Plan::under(&model, cells)?;
+    let step = plan.pitch()[1] * random.log_within(0.1, 5.0);
+    let gravity = random.log_within(1e-4, 1e-2);
+    let law: Box<dyn InterfaceLaw> = match random.pick(&[0, 0, 1, 2]) {
+        0 => Box::new(Coulomb::new(random.log_within(0.05, 2.0))?),
+        1 => Box::new(Coulomb::new(f64::INFINITY)?),
+        _ => Box::new(Bonded),
+    };
+    let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
+    let mut strength = || random.within(-2.0, 2.0) * gravity;
+    let accelerations = [strength(), strength(), 0.5 * strength()];
+    let amplitudes = std::array::from_fn(|k| accelerations[k] / frequencies[k].powi(2));
+    let slowness = if random.chance(0.3) { random.within(0.0, 0.7) } else { 0.0 };
+    let is_reduced = random.chance(0.5);
+    let coordinates = if is_reduced {
+        random.pick(&[Coordinates::Reduced { tolerance: 1e-3 }, Coordinates::Auto])
+    } else {
+        Coordinates::Physical
+    };
+    let simulation = Simulation::builder(step)
+        .structure(model)
+        .ground(ElasticGround::in_plan(profile, plan)?)
+        .interface(law)
+        .motion(Sines { amplitudes, frequencies, slowness })
+        .gravity(gravity)
+        .coordinates(coordinates)
+        .expected_steps(STEPS)
+        .build()?;
+    Ok((simulation, is_reduced))
+}
+
+/// Events and errors of random scenes.
+#[derive(Debug, Default, Clone)]
+pub struct Outcome {
+    pub scenes: usize,
+    pub steps: usize,
+    pub reduced: usize,
+    /// Steps with an open cell, and with a cell that slides.
+    pub opened: usize,
+    pub slid: usize,
+    /// Scenes whose structure or step has no solution, with their reasons.
+    pub refused: Vec<String>,
+    /// Largest residual of an energy balance, and the most energy returned by the soil, of the largest energy.
+    pub residual: f64,
+    pub returned: f64,
+}
+
+impl Outcome {
+    /// Adds the scene of this number; panics where an energy balance is open by 1e-9.
+    pub fn run(&mut self, number: usize) {
+        self.scenes += 1;
+        let (mut simulation, is_reduced) = match scene(&mut Random(4711 + number as u64)) {
+            Ok(built) => built,
+            Err(
+                error @ (Error::Preload { .. }
+                | Error::Stability(_)
+                | Error::CoarseBase(_)
+                | Error::Accuracy { .. }),
+            ) => {
+                self.refused.push(format!("{number}: {error}"));
+                return;
+            }
+            Err(error) => panic!("{number}: {error}"),
+        };
+        self.reduced += usize::from(is_reduced);
+        for _ in 0..STEPS {
+            let state = match simulation.step() {
+                Ok(state) => state,
+                Err(Error::Step { source: source @ StepError::Cone { .. }, step, .. }) => {
+                    self.refused.push(format!("{number}, step {step}: {source}"));
+                    return;
+                }
+                Err(error) => panic!("{number}: {error}"),
+            };
+            let energy = &state.energy_balance;
+            assert!(energy.residual() < 1e-9, "{number}: {energy}");
+            assert!(energy.soil >= -1e-9 * energy.largest, "{number}: {energy}");
+            self.residual = self.residual.max(energy.residual());
+            self.returned = self.returned.max(-energy.soil / energy.largest);
+            self.steps += 1;
+            self.opened += usize::from(state.modes.contains(&Mode::Open));
+            self.slid += usize::from(state.modes.iter().any(|mode| mode.is_slip()));
+        }
+    }
+}
