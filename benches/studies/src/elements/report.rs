@@ -126,7 +126,8 @@ pub(super) fn benchmarks(rows: &Rows) -> Result<String, AnyError> {
                 let target = row.target.map_or("–".to_owned(), |(target, _)| digits(target));
                 let ratio = row.ratio().map_or("–".to_owned(), |ratio| format!("{ratio:.3}"));
                 let gate = row.target.and_then(|(_, gate)| gate);
-                let gate = gate.map_or("–".to_owned(), |gate| format!("{} %", 100.0 * gate));
+                let gate = gate
+                    .map_or("–".to_owned(), |gate| format!("{} %", (1e4 * gate).round() / 100.0));
                 let found = digits(found);
                 writeln!(
                     text,
