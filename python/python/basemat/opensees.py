@@ -108,7 +108,7 @@ def structure(
     ``-corotational``: it counts as linear.
 
     Beyond 2400 degrees of freedom, SciPy makes the matrices sparse: nodes are fixed for a while to assemble window by
-    window (10 000 take about a minute). Without SciPy they are dense, with all n² numbers.
+    window (10 000 take about a minute, 20 000 three). Without SciPy they are dense, with all n² numbers.
 
     To compare with a ``UniformExcitation`` in OpenSees, give masses to nodes, or to elements other
     than ``elasticBeamColumn``: OpenSees 3.7.1 doubles the excitation of that element's ``-mass``.
