@@ -1,15 +1,18 @@
 //! The same scenes as in Python's tests, by the Rust crate: `reference containment 0.4 2000` writes
-//! every time series bit by bit, so do `reference block 0.4 200` and `reference storeys 0.4 200` of scenes in plan, and
+//! every time series bit by bit, so do `block`, `storeys` and `raft` of scenes in plan, and
 //! `reference time 0.4 54000` the seconds of a run that keeps them.
 
 use std::time::Instant;
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
+use basemat::fem::{BeamSection, LumpedMass, Material, Mesh, Shell, SpaceBeam};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{PlaneWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
-use basemat::structure::{Bilinear, PlanStorey, RigidBody, StoreyBuilding};
+use basemat::structure::{
+    Bilinear, FemModel, PlanStorey, RayleighDamping, RigidBody, StoreyBuilding,
+};
 use basemat::{Result, Simulation, Soil};
 use basemat_problems::containment::Containment;
 
@@ -65,6 +68,35 @@ fn storeys(friction: f64) -> Result<Simulation> {
     builder.interface(Coulomb::new(friction)?).structure(building).build()
 }
 
+/// A raft of shells that bends, with a tower of beams that carries a mass, under three records.
+fn raft(friction: f64) -> Result<Simulation> {
+    let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+    let mut mesh = Mesh::in_space();
+    let place = |row, column| [2.0 * column as f64 - 6.0, 2.0 * row as f64 - 4.0, 0.0];
+    let floor = mesh.add_grid(5, 7, place)?;
+    for (_, cell) in floor.cells() {
+        mesh.add(Shell::new(cell, concrete, 0.8)?)?;
+    }
+    let section = BeamSection::new(1.5, [0.2, 0.25], 0.3)?.with_shear_areas([1.2, 1.25])?;
+    let mut top = mesh.node_at_point([0.0; 3])?;
+    for height in [4.0, 8.0, 12.0] {
+        let ends = [top, mesh.add_node_at([0.0, 0.0, height])?];
+        mesh.add(SpaceBeam::new(ends, concrete, section, [1.0, 0.0, 0.0])?)?;
+        top = ends[1];
+    }
+    mesh.add(LumpedMass::in_space(top, 200.0e3, [4.0e5, 5.0e5, 6.0e5])?)?;
+    let model = FemModel::on_base(mesh)?.with_rayleigh(RayleighDamping::new(0.2, 1e-3)?);
+    let record = el_centro_1940();
+    let motion = Triaxial {
+        x: Some(record.clone()),
+        y: Some(record.scaled(0.8)?),
+        up: Some(record.scaled(0.5)?),
+    };
+    let ground = ElasticGround::under(Soil::new(80.0e6, 0.25, 1900.0)?, &model, 4)?;
+    let builder = Simulation::builder(0.01).ground(ground).motion(motion);
+    builder.interface(Coulomb::new(friction)?).structure(model).build()
+}
+
 fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
     let mut histories = Recorder::new().start(simulation)?;
     histories.reserve(steps)?;
@@ -94,7 +126,9 @@ fn write(histories: &TimeSeries) -> Result<()> {
 fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [task, friction, steps] = &arguments[..] else {
-        return Err("usage: reference containment|block|storeys|time FRICTION|bonded STEPS".into());
+        return Err(
+            "usage: reference containment|block|storeys|raft|time FRICTION|bonded STEPS".into()
+        );
     };
     let friction = if friction == "bonded" { None } else { Some(friction.parse()?) };
     let steps = steps.parse()?;
@@ -102,13 +136,14 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         "containment" => write(&run(&mut scene(friction, steps)?, steps)?.1)?,
         "block" => write(&run(&mut block(friction.unwrap_or(0.0))?, steps)?.1)?,
         "storeys" => write(&run(&mut storeys(friction.unwrap_or(0.0))?, steps)?.1)?,
+        "raft" => write(&run(&mut raft(friction.unwrap_or(0.0))?, steps)?.1)?,
         "time" => {
             let mut simulation = scene(friction, steps)?;
             let begin = Instant::now();
             let (run, _) = run(&mut simulation, steps)?;
             println!("{} {:e}", begin.elapsed().as_secs_f64(), run.whole.base_shear.magnitude());
         }
-        _ => return Err("the first argument is `containment`, `block`, `storeys` or `time`".into()),
+        _ => return Err(format!("there is no task '{task}'").into()),
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Arrays and matrices that come from Python, and the memory that they may take.
 
 use basemat::structure::Triplets;
-use numpy::ndarray::{Ix1, Ix2};
+use numpy::ndarray::{Ix1, Ix2, Ix3};
 use numpy::{Complex64, Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyFloat};
@@ -186,6 +186,58 @@ extracts!(Pairs, object => {
     Ok(Self(pairs.map_err(|row| {
         refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
     })?))
+});
+
+/// Points in the plane or in space: anything that numpy takes for an array of shape (n, 2) or (n, 3).
+pub(crate) struct Points {
+    columns: usize,
+    rows: Vec<Vec<f64>>,
+}
+
+extracts!(Points, object => {
+    let Table { columns, rows } = Table::read(&object, "(n, 3), or (n, 2) in the plane")?;
+    if !(columns == 2 || columns == 3) {
+        let needed = "must be of shape (n, 3), or (n, 2) in the plane";
+        return Err(refuse(format!("an array of {columns} columns, but {needed}")));
+    }
+    Ok(Self { columns, rows })
+});
+
+impl Points {
+    /// Places [x, y, z], with z = 0 for points in the plane.
+    pub(crate) fn in_plane(self) -> Vec<[f64; 3]> {
+        let z = |row: &Vec<f64>| row.get(2).copied().unwrap_or_default();
+        self.rows.iter().map(|row| [row[0], row[1], z(row)]).collect()
+    }
+
+    /// Places [x, y, z]; an error for points of two coordinates.
+    pub(crate) fn in_space(self) -> PyResult<Vec<[f64; 3]>> {
+        if self.columns == 3 {
+            return Ok(self.in_plane());
+        }
+        Err(refuse("an array of 2 columns, but must have 3 in space: x, y and z"))
+    }
+}
+
+/// Points in rows and columns: anything that numpy takes for an array of shape (rows, columns, 3).
+pub(crate) struct Surface {
+    /// Numbers of rows and columns.
+    pub(crate) shape: [usize; 2],
+    /// Row after row.
+    pub(crate) points: Vec<[f64; 3]>,
+}
+
+extracts!(Surface, object => {
+    let shape = "(rows, columns, 3)";
+    let array = reals::<Ix3>(&object, shape)?;
+    let (rows, columns, axes) = array.as_array().dim();
+    if axes != 3 {
+        let found = format!("({rows}, {columns}, {axes})");
+        return Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")));
+    }
+    let array = array.as_array();
+    let points = array.rows().into_iter().map(|point| [point[0], point[1], point[2]]).collect();
+    Ok(Self { shape: [rows, columns], points })
 });
 
 /// Rows of numbers: anything that numpy takes for an array of two axes.

@@ -74,12 +74,27 @@ def storeys(friction: float) -> bm.Simulation:
     return bm.Simulation(0.01, building, ground, bm.Coulomb(friction), motion=motion)
 
 
-@pytest.mark.parametrize("scene", [block, storeys])
-def test_scenes_in_plan(reference: Path, scene) -> None:
-    rust = rusts(reference, scene.__name__, "0.15", "400")
-    run = scene(0.15).run(400)
+def raft(friction: float) -> bm.Simulation:
+    concrete, record = bm.Material(30e9, 0.2, 2500.0), bm.el_centro_1940()
+    mesh = bm.Mesh.in_space()
+    x, y = np.meshgrid(2.0 * np.arange(7) - 6.0, 2.0 * np.arange(5) - 4.0)
+    mesh.add_shells(mesh.add_grid(np.stack([x, y, 0.0 * x], axis=2)).cells, concrete, 0.8)
+    tower = [mesh.node_at(0.0, 0.0), *mesh.add_nodes([[0.0, 0.0, z] for z in (4.0, 8.0, 12.0)])]
+    section = bm.BeamSection(1.5, (0.2, 0.25), 0.3, shear_areas=(1.2, 1.25))
+    mesh.add_space_beams(list(zip(tower, tower[1:])), concrete, section, (1.0, 0.0, 0.0))
+    mesh.add_mass(tower[-1], 200e3, rotary_inertia=(4e5, 5e5, 6e5))
+    model = bm.FemModel(mesh, rayleigh=bm.RayleighDamping(0.2, 1e-3))
+    motion = bm.triaxial(record, record.scaled(0.8), record.scaled(0.5))
+    ground = bm.ElasticGround.under(bm.Soil(80e6, 0.25, 1900.0), model, 4)
+    return bm.Simulation(0.01, model, ground, bm.Coulomb(friction), motion=motion)
+
+
+@pytest.mark.parametrize(("scene", "steps"), [(block, 400), (storeys, 400), (raft, 300)])
+def test_scenes_in_plan(reference: Path, scene, steps: int) -> None:
+    rust = rusts(reference, scene.__name__, "0.15", str(steps))
+    run = scene(0.15).run(steps)
     names = list(run.series)
-    assert len(names) == 22 and rust.shape == (401, len(names) + 1)
+    assert len(names) == 22 and rust.shape == (steps + 1, len(names) + 1)
     for column, key in enumerate(names):
         assert same_bits(run[key], np.ascontiguousarray(rust[:, column])), key
     # It twisted, lifted and slid.

@@ -184,7 +184,10 @@ def read(word: str) -> object:
         return None
 
 
-def mesh() -> bm.Mesh:
+def mesh(direction: str = "x") -> bm.Mesh:
+    """A mesh that has this direction."""
+    if "z" in direction or "_" in direction:
+        return bm.Mesh.in_space([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]])
     return bm.Mesh.layered_block(0.0, 1.0, 1, [bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3))])
 
 
@@ -215,7 +218,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
     "_Quantity": lambda word: simulation().run(1).extremes(word),  # type: ignore[arg-type]
     "_Direction": lambda word: bm.FemModel(mesh()).dof_at(0, word),
-    "_SpringDirection": lambda word: mesh().add_dashpots([[0, 1]], word, 1.0),
+    "_SpringDirection": lambda word: mesh(word).add_dashpots([[0, 1]], word, 1.0),
 }
 LITERALS = {
     name: re.findall(r'"([^"]+)"', words)

@@ -3,7 +3,7 @@
 use super::material::Material;
 use super::mesh::Mesh;
 use super::shell::Shell;
-use crate::error::{Error, Result, at_least, finite, not_negative, require};
+use crate::error::{Error, Result, at_least, finite, in_bounds, not_negative, require};
 
 /// Nodes of a surface, row by row, and the cells between them.
 ///
@@ -92,14 +92,17 @@ impl Grid {
     /// first. The grid is seen from above: its cells run counter-clockwise.
     ///
     /// # Errors
-    /// [`Error::Scene`] for a mesh in the plane or a grid with a pole, [`Error::Input`] unless the heights are finite
-    /// and ascend from above zero.
+    /// [`Error::Scene`] for a mesh in the plane or a grid with a pole, [`Error::Index`] for a mesh without the grid's
+    /// nodes, [`Error::Input`] unless the heights are finite and ascend from above zero.
     pub fn extrude(&self, mesh: &mut Mesh, heights: &[f64]) -> Result<Vec<[usize; 8]>> {
         let quads: Option<Vec<[usize; 4]>> =
             self.cells().map(|(_, cell)| cell.try_into().ok()).collect();
         let needed = "must have cells of four corners to be extruded";
         let quads = quads.ok_or(Error::Scene { quantity: "grid", needed })?;
         let nodes: Vec<usize> = self.rows.concat();
+        for &node in &nodes {
+            in_bounds("node of the grid", node, mesh.nodes().len())?;
+        }
         let (mut bricks, mut last) = (Vec::with_capacity(quads.len() * heights.len()), 0.0);
         let (mut below, mut place) = (nodes.clone(), vec![0; mesh.nodes().len()]);
         nodes.iter().enumerate().for_each(|(index, &node)| place[node] = index);

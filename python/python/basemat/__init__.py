@@ -7,7 +7,7 @@ soil. ``python -m basemat`` says what there is; the README of the package has a 
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _frames, _pickling as _pickling, _plots
+from . import _frames, _meshes, _pickling as _pickling, _plots
 from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *
@@ -37,6 +37,9 @@ for _class, _name, _method in (
 ):
     _method.__name__, _method.__qualname__ = _name, f"{_class.__name__}.{_name}"
     setattr(_class, _name, _method)
+
+_meshes.from_arrays.__qualname__ = "Mesh.from_arrays"
+setattr(Mesh, "from_arrays", staticmethod(_meshes.from_arrays))
 
 # Classes, functions and constants; neither modules nor what begins with an underscore.
 __all__ = sorted(

@@ -50,8 +50,10 @@ _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
 _PlanDirection: TypeAlias = Literal["x", "y", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
 _Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass"]
-_Direction: TypeAlias = Literal["x", "y", "rotation"]
-_SpringDirection: TypeAlias = Literal["x", "y", "rotation", "axial"]
+_Direction: TypeAlias = Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
+_SpringDirection: TypeAlias = Literal[
+    "x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z", "axial"
+]
 
 _Interface: TypeAlias = Union["InterfaceLaw", UserLaw, UserPlanLaw]
 _Quantity: TypeAlias = Literal[
@@ -2491,10 +2493,12 @@ class FemModel(Structure):
     """A finite-element structure.
 
     ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
-    a list of such lists for separate foundations; all lowest nodes unless given. ``rayleigh``:
+    a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
+    corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
     :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
-    unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
+    unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
+    y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
     given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
     matrices of elements may be unsymmetric, an error by default.
     """
@@ -2507,18 +2511,29 @@ class FemModel(Structure):
         rayleigh: RayleighDamping | None = None,
         mass: _Mass = "consistent",
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,
+        diaphragms: Sequence[tuple[int, Sequence[int]]] | None = None,
         p_delta: float | None = None,
         active_damping: bool = False,
         active_stiffness: bool = False,
     ) -> Self: ...
     def row(self, node: int, direction: _Direction) -> DofCombination:
-        """The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation"."""
+        """The :class:`DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x"."""
     def dof_at(self, node: int, direction: _Direction) -> int | None:
-        """Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
-        has none of its own.
+        """Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if it has none of
+        its own.
         """
-    def node_at(self, x: float, y: float) -> int:
-        """Number of the node at (``x``, ``y``), m, to a millionth of the model's size."""
+    def node_at(self, x: float, y: float, z: float = 0.0) -> int:
+        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the model's size.
+        ``z`` is 0 by default.
+        """
+    def rigid_motion(
+        self,
+        direction: _Direction,
+        point: Sequence[float] | None = None,
+    ) -> NDArray[np.float64]:
+        """All n degrees of freedom in a rigid motion in a ``direction`` of the mesh, by 1 m or by 1 rad about ``point`` (x, y
+        and z, m; the origin unless given): array of shape (n,), m or rad.
+        """
     def section(self, height: float, reference: float = 0.0) -> tuple[SectionRows, SectionRows, SectionRows]:
         """The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
         ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
@@ -2527,6 +2542,10 @@ class FemModel(Structure):
     def pressure_row(self, nodes: Sequence[int]) -> DofCombination:
         """The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
         row of a :class:`Load`, whose forces are then pressures (Pa).
+        """
+    def resultant_row(self, nodes: Sequence[int], direction: _Direction) -> DofCombination:
+        """The :class:`DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
+        of ``nodes`` (list of numbers): as the row of a :class:`Load` in N/m, in space in N.
         """
     def buckling_factor(self) -> float:
         """Factor on the axial forces of its static state at which it buckles."""
@@ -2695,12 +2714,74 @@ class Layer:
     ) -> Self: ...
 
 @final
+class BeamSection:
+    """Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
+    m⁴) and ``torsion_constant`` (m⁴).
+
+    y and z are the principal axes: y along the orientation of the beam, z across it. ``shear_areas`` along y and along
+    z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle is 5/6 of
+    its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+    """
+
+    def __new__(
+        cls,
+        area: float,
+        second_moments: Sequence[float],
+        torsion_constant: float,
+        *,
+        shear_areas: Sequence[float] | None = None,
+    ) -> Self: ...
+
+@final
+class Grid:
+    """Nodes of a surface in rows, and the cells between them: from :meth:`Mesh.add_grid` and :meth:`Mesh.revolve`."""
+
+    def row(self, index: int) -> list[int]:
+        """Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node."""
+    def __len__(self) -> int: ...
+    @property
+    def cells(self) -> list[list[int]]:
+        """Corner nodes of the cells between neighbouring rows, for :meth:`Mesh.add_shells`: a list of lists of four numbers,
+        of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
+        upwards; of a wall that :meth:`Mesh.revolve` made, from outside.
+        """
+    @property
+    def cell_rows(self) -> NDArray[np.uint64]:
+        """Number of the lower row of each of :attr:`cells`: array of shape (cells,)."""
+    def extrude(self, mesh: Mesh, heights: ArrayLike) -> list[list[int]]:
+        """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
+        above; returns the list of the nodes of the bricks between them, for :meth:`Mesh.add_bricks`.
+        """
+
+@final
 class Mesh:
-    """Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
-    elements: all, or none if one of them is an error.
+    """Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
+    :meth:`in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
+    elements' numbers.
+
+    In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
+    of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
+    "rotation_y" and "rotation_z", rotations follow the right-hand rule.
     """
 
     def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
+    @staticmethod
+    def in_space(nodes: ArrayLike | None = None) -> Mesh:
+        """Mesh in space; ``nodes``: array of shape (nodes, 3), x to the right, y away and z up, m; none unless given."""
+    @staticmethod
+    def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:
+        """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
+
+        ``points``: array of shape (nodes, 3), or (nodes, 2) in the plane, m. ``cells``: list of pairs (type, array of node
+        numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as those of a mesh of meshio.
+        ``parts``: list with an entry for each block; None leaves the block out.
+
+        In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
+        of one per cell; of "hexahedron" it is a :class:`Material`; of "line" it is ``(material, section, orientation)`` as in
+        :meth:`Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a :class:`Material`. Triangles match the
+        sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
+        added by the methods of the mesh.
+        """
     @staticmethod
     def layered_block(left: float, right: float, columns: int, layers: Sequence[Layer]) -> Mesh:
         """Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
@@ -2711,8 +2792,58 @@ class Mesh:
         """Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
         ``layers`` is a list of :class:`Layer` from y = 0 upwards.
         """
-    def add_node(self, x: float, y: float) -> int:
-        """Adds a node at (``x``, ``y``), m; returns its number."""
+    def add_node(self, x: float, y: float, z: float = 0.0) -> int:
+        """Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default."""
+    def add_nodes(self, points: ArrayLike) -> list[int]:
+        """Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers."""
+    def add_grid(self, points: ArrayLike) -> Grid:
+        """Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its :class:`Grid`."""
+    def revolve(self, axis: Sequence[float], meridian: ArrayLike, sectors: int) -> Grid:
+        """Adds the nodes of a surface of revolution; returns its :class:`Grid`.
+
+        ``axis``: x and y (m) of the vertical axis. ``meridian``: radius and height (m) of each row of nodes, array of shape
+        (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
+        x towards y.
+        """
+    def add_shells(
+        self,
+        nodes: ArrayLike | Sequence[Sequence[int]],
+        material: Material | Sequence[Material],
+        thickness: ArrayLike,
+    ) -> list[int]:
+        """Adds shells of three or four ``nodes``, listed around each: array of shape (shells, 3) or (shells, 4), or a list of
+        lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
+        or an array of one per shell.
+
+        The nodes lie in the middle of the thickness. The shells of a call know each other: triangles match the sides that
+        they share with quadrilaterals, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
+        """
+    def add_bricks(self, nodes: ArrayLike, material: Material) -> list[int]:
+        """Adds bricks of a ``material`` (:class:`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
+        counter-clockwise seen from above, then the nodes above these.
+        """
+    def add_space_beams(
+        self,
+        nodes: ArrayLike,
+        material: Material,
+        section: BeamSection,
+        orientation: ArrayLike,
+        *,
+        offsets: ArrayLike | None = None,
+        releases: tuple[Sequence[_Direction], Sequence[_Direction]] | None = None,
+        rotary_inertia: bool = False,
+        compression: ArrayLike | None = None,
+    ) -> list[int]:
+        """Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (:class:`Material`) and a
+        ``section`` (:class:`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
+        vector, or an array of shape (beams, 3)).
+
+        ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of
+        shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which nothing
+        holds its first and its second end, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
+        ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
+        array of one per beam): axial force of P–Δ, none unless given.
+        """
     def add_beams(
         self,
         nodes: ArrayLike,
@@ -2724,7 +2855,7 @@ class Mesh:
         shear_stiffness: ArrayLike | None = None,
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
-    ) -> None:
+    ) -> list[int]:
         """Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
         ``second_moment`` (m⁴) per metre of thickness, ``density`` (kg/m³), each one number or an array of
         one per beam. ``shear_stiffness`` (N per metre): of Timoshenko beams, infinite unless given;
@@ -2737,20 +2868,33 @@ class Mesh:
         young_modulus: ArrayLike,
         area: ArrayLike,
         density: ArrayLike,
-    ) -> None:
+    ) -> list[int]:
         """Adds trusses on ``nodes`` (array of shape (trusses, 2)): ``young_modulus`` (Pa), ``area`` (m² per
-        metre of thickness), ``density`` (kg/m³), each one number or an array of one per truss.
+        metre of thickness, in space m²), ``density`` (kg/m³), each one number or an array of one per truss.
         """
-    def add_springs(self, nodes: ArrayLike, direction: _SpringDirection, stiffness: ArrayLike) -> None:
-        """Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` ("x", "y",
-        "rotation" or "axial"), of ``stiffness`` (N/m, of rotations N·m).
+    def add_springs(self, nodes: ArrayLike, direction: _SpringDirection, stiffness: ArrayLike) -> list[int]:
+        """Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` of the mesh, such as "x", or
+        "axial", of ``stiffness`` (N/m, of rotations N·m): one number or an array of one per spring.
         """
-    def add_dashpots(self, nodes: ArrayLike, direction: _SpringDirection, coefficient: ArrayLike) -> None:
-        """Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` ("x", "y",
-        "rotation" or "axial"), of a ``coefficient`` (N s/m, of rotations N·m s).
+    def add_dashpots(
+        self,
+        nodes: ArrayLike,
+        direction: _SpringDirection,
+        coefficient: ArrayLike,
+    ) -> list[int]:
+        """Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` of the mesh, such as "x", or
+        "axial", of a ``coefficient`` (N s/m, of rotations N·m s): one number or an array of one per dashpot.
         """
-    def add_mass(self, node: int, mass: float, *, rotary_inertia: float | None = None) -> None:
-        """Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given)."""
+    def add_mass(
+        self,
+        node: int,
+        mass: float,
+        *,
+        rotary_inertia: float | Sequence[float] | None = None,
+    ) -> int:
+        """Adds a ``mass`` (kg/m, in space kg) at a ``node``, with a ``rotary_inertia`` (kg m²/m; in space three numbers
+        about x, y and z, kg m²; none unless given).
+        """
     def add_quads(
         self,
         nodes: ArrayLike,
@@ -2758,19 +2902,21 @@ class Mesh:
         *,
         formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
-    ) -> None:
+    ) -> list[int]:
         """Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
         (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
         those of :class:`Layer`, are for four nodes.
         """
     @property
     def nodes(self) -> NDArray[np.float64]:
-        """Coordinates of the nodes: array of shape (nodes, 2), m."""
-    def node_at(self, x: float, y: float) -> int:
-        """Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size."""
+        """Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m."""
+    def node_at(self, x: float, y: float, z: float = 0.0) -> int:
+        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
+        ``z`` is 0 by default.
+        """
     def nodes_at_height(self, y: float, tolerance: float = 1e-09) -> list[int]:
-        """Numbers of the nodes at a height ``y`` (m) within a ``tolerance`` (m; 1e-9 by default): list, from
-        left to right.
+        """Numbers of the nodes at a height (``y`` in the plane, in space z; m) within a ``tolerance`` (m; 1e-9 by
+        default): list, from left to right, in space at each x from front to back.
         """
 
 @final

@@ -224,6 +224,20 @@ def _prepare_call(name: str) -> None:
     setattr(_core.Mesh, name, _noting(getattr(_core.Mesh, name), note))
 
 
+def _prepare_extrusion() -> None:
+    """A grid that adds nodes to a mesh."""
+    extrude = _core.Grid.extrude
+
+    @functools.wraps(extrude)
+    def extruding(self: _core.Grid, mesh: _core.Mesh, heights: Any) -> list[list[int]]:
+        before = len(mesh.nodes)
+        bricks = extrude(self, mesh, heights)
+        vars(mesh).setdefault(_CALLS, []).append(("add_nodes", (mesh.nodes[before:],), {}))
+        return bricks
+
+    _core.Grid.extrude = extruding  # type: ignore[method-assign]
+
+
 def _prepare_all() -> None:
     """Lets all descriptions pickle; once, when the package is imported."""
     classes: list[Any] = [own for own in vars(_core).values() if isinstance(own, type)]
@@ -243,6 +257,8 @@ def _prepare_all() -> None:
         setattr(owner, name, _remembering(getattr(owner, name), None, name))
     for name in [name for name in vars(_core.Mesh) if name.startswith("add_")]:
         _prepare_call(name)
+    _prepare_call("revolve")
+    _prepare_extrusion()
     _prepare_layers()
     for name in _FUNCTIONS:
         function = _remembering(getattr(_core, name), None, None)

@@ -12,8 +12,9 @@ use pyo3::types::PyTuple;
 
 use super::PyStructure;
 use super::composed::PyRayleighDamping;
-use super::mesh::{PyMaterial, PyMesh, direction, formulation};
-use crate::array::{Count, whole};
+use super::material::{PyMaterial, formulation};
+use super::mesh::{PyMesh, direction};
+use crate::array::{Array, Count, whole};
 use crate::error::{OrRaise, WithGiven};
 use crate::recipe::Shared;
 use crate::row::{PyDofCombination, PySectionRows};
@@ -21,16 +22,18 @@ use crate::row::{PyDofCombination, PySectionRows};
 /// A finite-element structure.
 ///
 /// ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
-/// a list of such lists for separate foundations; all lowest nodes unless given. ``rayleigh``:
+/// a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
+/// corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
 /// :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
 /// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
-/// unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
+/// unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
+/// y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
 /// given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
 /// matrices of elements may be unsymmetric, an error by default.
 #[pyclass(name = "FemModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyFemModel(pub(crate) Arc<FemModel>);
 
-/// Nodes of the base, or of each foundation.
+/// Nodes of the base, of each foundation, or of each face.
 enum Contact {
     Nodes(Vec<usize>),
     Lines(Vec<Vec<usize>>),
@@ -44,20 +47,24 @@ extracts!(Contact, object => match object.extract() {
 #[pymethods]
 impl PyFemModel {
     #[new]
-    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, p_delta=None, active_damping=false, active_stiffness=false))]
+    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, p_delta=None, active_damping=false, active_stiffness=false))]
     fn new(
         mesh: &PyMesh,
         contact: Option<Contact>,
         rayleigh: Option<&PyRayleighDamping>,
         mass: &str,
         #[pyo3(from_py_with = whole)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
+        #[pyo3(from_py_with = whole)] diaphragms: Option<Vec<(usize, Vec<usize>)>>,
         p_delta: Option<f64>,
         active_damping: bool,
         active_stiffness: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mesh = mesh.0.clone();
+        let (has_depth, mesh) = (mesh.has_depth(), mesh.0.clone());
         let model = match contact {
             None => FemModel::on_base(mesh),
+            // A single face may be given without a list.
+            Some(Contact::Nodes(face)) if has_depth => FemModel::on_faces(mesh, &[face]),
+            Some(Contact::Lines(faces)) if has_depth => FemModel::on_faces(mesh, &faces),
             Some(Contact::Nodes(nodes)) => FemModel::new(mesh, &nodes),
             Some(Contact::Lines(lines)) => FemModel::on_foundations(mesh, &lines),
         };
@@ -66,6 +73,9 @@ impl PyFemModel {
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)));
         for (leader, followers) in rigid_links.into_iter().flatten() {
             model = model.and_then(|model| model.with_rigid_link(leader, &followers));
+        }
+        for (leader, followers) in diaphragms.into_iter().flatten() {
+            model = model.and_then(|model| model.with_rigid_diaphragm(leader, &followers));
         }
         let mut model = model.with(p_delta, FemModel::with_p_delta).or_raise()?;
         if active_damping {
@@ -79,20 +89,30 @@ impl PyFemModel {
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 
-    /// The :class:`DofCombination` of the motion of a ``node`` in a ``direction``: "x", "y" or "rotation".
+    /// The :class:`DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x".
     fn row(&self, node: Count, direction: &str) -> PyResult<PyDofCombination> {
         Ok(self.0.row(node.0, self::direction(direction)?).or_raise()?.into())
     }
 
-    /// Number of the degree of freedom of a ``node`` in a ``direction``, "x", "y" or "rotation"; None if it
-    /// has none of its own.
+    /// Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if it has none of
+    /// its own.
     fn dof_at(&self, node: Count, direction: &str) -> PyResult<Option<usize>> {
         Ok(self.0.dof(node.0, self::direction(direction)?))
     }
 
-    /// Number of the node at (``x``, ``y``), m, to a millionth of the model's size.
-    fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
-        self.0.mesh().node_at(x, y).or_raise()
+    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the model's size.
+    /// ``z`` is 0 by default.
+    #[pyo3(signature = (x, y, z=0.0))]
+    fn node_at(&self, x: f64, y: f64, z: f64) -> PyResult<usize> {
+        self.0.mesh().node_at_point([x, y, z]).or_raise()
+    }
+
+    /// All n degrees of freedom in a rigid motion in a ``direction`` of the mesh, by 1 m or by 1 rad about ``point`` (x, y
+    /// and z, m; the origin unless given): array of shape (n,), m or rad.
+    #[pyo3(signature = (direction, point=None))]
+    fn rigid_motion(&self, direction: &str, point: Option<[f64; 3]>) -> PyResult<Array> {
+        let direction = self::direction(direction)?;
+        Ok(self.0.rigid_motion(direction, point.unwrap_or_default()).into())
     }
 
     /// The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
@@ -117,6 +137,16 @@ impl PyFemModel {
         #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
     ) -> PyResult<PyDofCombination> {
         Ok(self.0.pressure_row(&nodes).or_raise()?.into())
+    }
+
+    /// The :class:`DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
+    /// of ``nodes`` (list of numbers): as the row of a :class:`Load` in N/m, in space in N.
+    fn resultant_row(
+        &self,
+        #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
+        direction: &str,
+    ) -> PyResult<PyDofCombination> {
+        Ok(self.0.resultant_row(&nodes, self::direction(direction)?).or_raise()?.into())
     }
 
     /// Factor on the axial forces of its static state at which it buckles.

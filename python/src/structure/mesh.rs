@@ -1,147 +1,72 @@
 //! Meshes from arrays.
 
 use basemat::fem::{
-    Beam, Dashpot, Direction, Element, Layer, LumpedMass, Material, Mesh, Quad4, Quad8,
-    QuadFormulation, Spring, Truss,
+    Beam, Dashpot, Direction, Element, Layer, LumpedMass, Mesh, Quad4, Quad8, Spring, Truss,
 };
 use pyo3::prelude::*;
 
-use crate::array::{Count, Numbers, Pairs, Rows, Table, whole};
+use super::connectivity::{Connectivity, PerElement};
+use super::material::{PyLayer, PyMaterial, formulation};
+use crate::array::{Count, Numbers, Pairs, Points, Rows, whole};
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 use crate::several::Several;
 
-/// A direction by its name: "x", "y" or "rotation".
+/// A direction by its name: "x", "y" or "rotation" in the plane, one of six in space.
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
-    let all = [("x", Direction::X), ("y", Direction::Y), ("rotation", Direction::Rotation)];
+    let all = [
+        ("x", Direction::X),
+        ("y", Direction::Y),
+        ("rotation", Direction::Rotation),
+        ("z", Direction::Z),
+        ("rotation_x", Direction::RotationX),
+        ("rotation_y", Direction::RotationY),
+        ("rotation_z", Direction::RotationZ),
+    ];
     choice("direction", name, &all)
 }
 
-/// Integration of four-node quadrilaterals by its name.
-pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulation> {
-    let percent = u8::try_from(percent).map_err(|_| {
-        refuse(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
-    })?;
-    let all = [
-        ("full", QuadFormulation::Full),
-        ("incompatible_modes", QuadFormulation::IncompatibleModes),
-        ("one_point", QuadFormulation::OnePoint),
-        ("hourglass", QuadFormulation::Hourglass { percent }),
-    ];
-    choice("formulation", name, &all)
-}
-
-/// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
-/// ``density`` (kg/m³).
-#[pyclass(name = "Material", module = "basemat", frozen, dict)]
-pub(crate) struct PyMaterial(pub(super) Material);
-
-#[pymethods]
-impl PyMaterial {
-    #[new]
-    fn new(young_modulus: f64, poisson: f64, density: f64) -> PyResult<Self> {
-        Ok(Self(Material::new(young_modulus, poisson, density).or_raise()?))
-    }
-}
-
-/// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
-/// ``material`` (:class:`Material`).
+/// Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
+/// :meth:`in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
+/// elements' numbers.
 ///
-/// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
-/// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
-/// point, stabilised with ``hourglass_percent``, 5 by default).
-#[pyclass(name = "Layer", module = "basemat", frozen, dict)]
-pub(crate) struct PyLayer(Layer);
-
-#[pymethods]
-impl PyLayer {
-    #[pyo3(signature = (height, rows, material, *, formulation="incompatible_modes", hourglass_percent=5))]
-    #[new]
-    fn new(
-        height: f64,
-        #[pyo3(from_py_with = whole)] rows: usize,
-        material: &PyMaterial,
-        formulation: &str,
-        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
-    ) -> PyResult<Self> {
-        let formulation = self::formulation(formulation, hourglass_percent)?;
-        Ok(Self(Layer { height, rows, material: material.0, formulation }))
-    }
-}
-
-/// Nodes and finite elements; ``nodes``: array of shape (nodes, 2), m; none unless given. Its methods add
-/// elements: all, or none if one of them is an error.
+/// In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
+/// of thickness. In space x points to the right, y away and z up; directions are "x", "y", "z", "rotation_x",
+/// "rotation_y" and "rotation_z", rotations follow the right-hand rule.
 #[pyclass(name = "Mesh", module = "basemat", dict)]
 pub(crate) struct PyMesh(pub(super) Mesh);
 
-/// Number for all elements, or one each.
-struct PerElement(Vec<f64>);
-
-extracts!(PerElement, object => match object.extract::<f64>() {
-    Ok(value) => Ok(Self(vec![value])),
-    Err(_) => Ok(Self(object.extract::<Numbers>()?.0)),
-});
-
-impl PerElement {
-    fn at(&self, index: usize, count: usize) -> PyResult<f64> {
-        match self.0.len() {
-            1 => Ok(self.0[0]),
-            found if found == count => Ok(self.0[index]),
-            found => Err(refuse(format!("{found} values are given for {count} elements"))),
-        }
-    }
-}
-
-/// Node numbers of elements: anything that numpy takes for an array of shape (elements, nodes each).
-struct Connectivity {
-    /// Nodes of an element.
-    each: usize,
-    rows: Vec<Vec<usize>>,
-}
-
-extracts!(Connectivity, object => {
-    // Read as floats: as integers, numpy would truncate fractions.
-    let Table { columns, rows } = Table::read(&object, "(elements, nodes of each)")?;
-    let node = |value: &f64| {
-        if *value < 0.0 || value.fract() != 0.0 {
-            let needed = "must be a whole number of 0 or more";
-            return Err(refuse(format!("node is {value}, but {needed}")));
-        }
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        Ok(*value as usize)
-    };
-    let rows = rows.iter().map(|row| row.iter().map(node).collect());
-    Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
-});
-
-impl Connectivity {
-    fn rows<const N: usize>(&self) -> PyResult<Vec<[usize; N]>> {
-        let nodes = |row: &Vec<usize>| {
-            <[usize; N]>::try_from(row.as_slice()).map_err(|_| {
-                refuse(format!("elements have {} nodes, but must have {N}", self.each))
-            })
-        };
-        self.rows.iter().map(nodes).collect()
-    }
-}
+/// Makes a link along the line between two nodes.
+type NewAxial<E> = fn([usize; 2], f64) -> basemat::Result<E>;
 
 impl PyMesh {
-    /// Adds all elements, or none if one of them is an error.
-    fn add_all<E: Element + 'static>(
+    /// Whether the mesh lies in space.
+    pub(super) fn has_depth(&self) -> bool {
+        self.0.directions().contains(&Direction::Z)
+    }
+
+    /// Changes a copy of the mesh, which replaces it unless there is an error.
+    pub(super) fn changed<T>(
+        &mut self,
+        change: impl FnOnce(&mut Mesh) -> basemat::Result<T>,
+    ) -> PyResult<T> {
+        let mut mesh = self.0.clone();
+        let found = change(&mut mesh).or_raise()?;
+        self.0 = mesh;
+        Ok(found)
+    }
+
+    /// Adds all elements, or none if one of them is an error; returns their numbers.
+    pub(super) fn add_all<E: Element + 'static>(
         &mut self,
         elements: impl Iterator<Item = PyResult<E>>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<usize>> {
         let elements = elements.collect::<PyResult<Vec<_>>>()?;
         if elements.len() < 2 {
             // A single element needs no copy of the mesh.
-            return elements.into_iter().try_for_each(|own| self.0.add(own).or_raise().map(drop));
+            return elements.into_iter().map(|own| self.0.add(own).or_raise()).collect();
         }
-        let mut mesh = self.0.clone();
-        for element in elements {
-            mesh.add(element).or_raise()?;
-        }
-        self.0 = mesh;
-        Ok(())
+        self.changed(|mesh| elements.into_iter().map(|own| mesh.add(own)).collect())
     }
 
     /// Adds links between nodes in a direction.
@@ -149,13 +74,14 @@ impl PyMesh {
         &mut self,
         nodes: &Connectivity,
         direction: &str,
-        values: &PerElement,
-        axial: fn([usize; 2], f64) -> basemat::Result<E>,
+        (name, values): (&str, &PerElement),
+        axial: [NewAxial<E>; 2],
         along: fn([usize; 2], Direction, f64) -> basemat::Result<E>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
+        let axial = axial[usize::from(self.has_depth())];
         self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let value = values.at(k, ends.len())?;
+            let value = values.at(name, k, ends.len())?;
             match direction {
                 "axial" => axial(*own, value).or_raise(),
                 _ => along(*own, self::direction(direction)?, value).or_raise(),
@@ -163,6 +89,17 @@ impl PyMesh {
         }))
     }
 }
+
+/// Rotary inertia of a mass.
+enum RotaryInertia {
+    InPlane(f64),
+    AboutAxes([f64; 3]),
+}
+
+extracts!(RotaryInertia, object => match object.extract() {
+    Ok(inertia) => Ok(Self::InPlane(inertia)),
+    Err(_) => Ok(Self::AboutAxes(object.extract()?)),
+});
 
 /// The layers of a block.
 fn layers(given: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
@@ -200,15 +137,23 @@ impl PyMesh {
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
     }
 
-    /// Coordinates of the nodes: array of shape (nodes, 2), m.
+    /// Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m.
     #[getter]
     fn nodes(&self) -> Rows {
-        Rows(self.0.nodes().iter().map(|node| node[..2].to_vec()).collect())
+        let axes = if self.has_depth() { 3 } else { 2 };
+        Rows(self.0.nodes().iter().map(|node| node[..axes].to_vec()).collect())
     }
 
-    /// Adds a node at (``x``, ``y``), m; returns its number.
-    fn add_node(&mut self, x: f64, y: f64) -> PyResult<usize> {
-        self.0.add_node(x, y).or_raise()
+    /// Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default.
+    #[pyo3(signature = (x, y, z=0.0))]
+    fn add_node(&mut self, x: f64, y: f64, z: f64) -> PyResult<usize> {
+        self.0.add_node_at([x, y, z]).or_raise()
+    }
+
+    /// Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers.
+    fn add_nodes(&mut self, points: Points) -> PyResult<Vec<usize>> {
+        let points = if self.has_depth() { points.in_space()? } else { points.in_plane() };
+        self.changed(|mesh| points.into_iter().map(|point| mesh.add_node_at(point)).collect())
     }
 
     /// Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
@@ -227,65 +172,91 @@ impl PyMesh {
         shear_stiffness: Option<PerElement>,
         rotary_inertia: bool,
         compression: Option<PerElement>,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
         self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let at = |values: &PerElement| values.at(k, ends.len());
-            let numbers = (at(&young_modulus)?, at(&area)?, at(&second_moment)?, at(&density)?);
-            let beam = Beam::new(*own, numbers.0, numbers.1, numbers.2, numbers.3)
-                .with(shear_stiffness.as_ref().map(at).transpose()?, Beam::with_shear_stiffness)
-                .with(compression.as_ref().map(at).transpose()?, Beam::with_compression)
+            let at = |name, values: &PerElement| values.at(name, k, ends.len());
+            let [modulus, area] = [at("young_modulus", &young_modulus)?, at("area", &area)?];
+            let [moment, density] =
+                [at("second_moment", &second_moment)?, at("density", &density)?];
+            let stiffness = shear_stiffness.as_ref().map(|own| at("shear_stiffness", own));
+            let force = compression.as_ref().map(|own| at("compression", own));
+            let beam = Beam::new(*own, modulus, area, moment, density)
+                .with(stiffness.transpose()?, Beam::with_shear_stiffness)
+                .with(force.transpose()?, Beam::with_compression)
                 .or_raise()?;
             Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
         }))
     }
 
     /// Adds trusses on ``nodes`` (array of shape (trusses, 2)): ``young_modulus`` (Pa), ``area`` (m² per
-    /// metre of thickness), ``density`` (kg/m³), each one number or an array of one per truss.
+    /// metre of thickness, in space m²), ``density`` (kg/m³), each one number or an array of one per truss.
     fn add_trusses(
         &mut self,
         nodes: Connectivity,
         young_modulus: PerElement,
         area: PerElement,
         density: PerElement,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
+        let new = if self.has_depth() { Truss::in_space } else { Truss::new };
         self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let at = |values: &PerElement| values.at(k, ends.len());
-            let truss = Truss::new(*own, at(&young_modulus)?, at(&area)?, at(&density)?);
-            truss.or_raise()
+            let at = |name, values: &PerElement| values.at(name, k, ends.len());
+            let [modulus, area] = [at("young_modulus", &young_modulus)?, at("area", &area)?];
+            new(*own, modulus, area, at("density", &density)?).or_raise()
         }))
     }
 
-    /// Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` ("x", "y",
-    /// "rotation" or "axial"), of ``stiffness`` (N/m, of rotations N·m).
+    /// Adds springs between ``nodes`` (array of shape (springs, 2)) in a ``direction`` of the mesh, such as "x", or
+    /// "axial", of ``stiffness`` (N/m, of rotations N·m): one number or an array of one per spring.
     fn add_springs(
         &mut self,
         nodes: Connectivity,
         direction: &str,
         stiffness: PerElement,
-    ) -> PyResult<()> {
-        self.add_links(&nodes, direction, &stiffness, Spring::axial, Spring::new)
+    ) -> PyResult<Vec<usize>> {
+        let axial = [Spring::axial, Spring::axial_in_space];
+        self.add_links(&nodes, direction, ("stiffness", &stiffness), axial, Spring::new)
     }
 
-    /// Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` ("x", "y",
-    /// "rotation" or "axial"), of a ``coefficient`` (N s/m, of rotations N·m s).
+    /// Adds dashpots between ``nodes`` (array of shape (dashpots, 2)) in a ``direction`` of the mesh, such as "x", or
+    /// "axial", of a ``coefficient`` (N s/m, of rotations N·m s): one number or an array of one per dashpot.
     fn add_dashpots(
         &mut self,
         nodes: Connectivity,
         direction: &str,
         coefficient: PerElement,
-    ) -> PyResult<()> {
-        self.add_links(&nodes, direction, &coefficient, Dashpot::axial, Dashpot::new)
+    ) -> PyResult<Vec<usize>> {
+        let axial = [Dashpot::axial, Dashpot::axial_in_space];
+        self.add_links(&nodes, direction, ("coefficient", &coefficient), axial, Dashpot::new)
     }
 
-    /// Adds a ``mass`` (kg/m) at a ``node``, with a ``rotary_inertia`` (kg m²/m; none unless given).
+    /// Adds a ``mass`` (kg/m, in space kg) at a ``node``, with a ``rotary_inertia`` (kg m²/m; in space three numbers
+    /// about x, y and z, kg m²; none unless given).
     #[pyo3(signature = (node, mass, *, rotary_inertia=None))]
-    fn add_mass(&mut self, node: Count, mass: f64, rotary_inertia: Option<f64>) -> PyResult<()> {
-        let element = LumpedMass::new(node.0, mass)
-            .with(rotary_inertia, LumpedMass::with_rotary_inertia)
-            .or_raise()?;
-        self.0.add(element).or_raise().map(|_| ())
+    fn add_mass(
+        &mut self,
+        node: Count,
+        mass: f64,
+        rotary_inertia: Option<RotaryInertia>,
+    ) -> PyResult<usize> {
+        let (node, has_depth) = (node.0, self.has_depth());
+        let element = match rotary_inertia {
+            None if has_depth => LumpedMass::in_space(node, mass, [0.0; 3]),
+            None => LumpedMass::new(node, mass),
+            Some(RotaryInertia::AboutAxes(inertia)) if has_depth => {
+                LumpedMass::in_space(node, mass, inertia)
+            }
+            Some(RotaryInertia::InPlane(inertia)) if !has_depth => {
+                LumpedMass::new(node, mass).with(Some(inertia), LumpedMass::with_rotary_inertia)
+            }
+            Some(_) => {
+                let needed =
+                    if has_depth { "three numbers in space" } else { "one number in the plane" };
+                return Err(refuse(format!("rotary_inertia must be {needed}")));
+            }
+        };
+        self.0.add(element.or_raise()?).or_raise()
     }
 
     /// Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
@@ -298,7 +269,7 @@ impl PyMesh {
         material: &PyMaterial,
         formulation: &str,
         #[pyo3(from_py_with = whole)] hourglass_percent: usize,
-    ) -> PyResult<()> {
+    ) -> PyResult<Vec<usize>> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         if nodes.each == 8 {
             let all = nodes.rows::<8>()?.into_iter();
@@ -308,13 +279,15 @@ impl PyMesh {
         self.add_all(all.map(|own| Ok(Quad4::new(own, material.0, formulation))))
     }
 
-    /// Number of the node at (``x``, ``y``), m, to a millionth of the mesh's size.
-    fn node_at(&self, x: f64, y: f64) -> PyResult<usize> {
-        self.0.node_at(x, y).or_raise()
+    /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
+    /// ``z`` is 0 by default.
+    #[pyo3(signature = (x, y, z=0.0))]
+    fn node_at(&self, x: f64, y: f64, z: f64) -> PyResult<usize> {
+        self.0.node_at_point([x, y, z]).or_raise()
     }
 
-    /// Numbers of the nodes at a height ``y`` (m) within a ``tolerance`` (m; 1e-9 by default): list, from
-    /// left to right.
+    /// Numbers of the nodes at a height (``y`` in the plane, in space z; m) within a ``tolerance`` (m; 1e-9 by
+    /// default): list, from left to right, in space at each x from front to back.
     #[pyo3(signature = (y, tolerance=1e-9))]
     fn nodes_at_height(&self, y: f64, tolerance: f64) -> PyResult<Vec<usize>> {
         self.0.nodes_at_height(y, tolerance).or_raise()

@@ -1,24 +1,32 @@
 //! Structures.
 
+mod beam_section;
 mod block;
 mod building;
 mod composed;
+mod connectivity;
 mod dof_combination;
 mod fem;
+mod grid;
 mod hysteresis;
+mod in_space;
+mod material;
 mod matrices;
 mod mesh;
 mod superclass;
 
+pub(crate) use beam_section::PyBeamSection;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
+pub(crate) use grid::PyGrid;
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,
 };
+pub(crate) use material::{PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
-pub(crate) use mesh::{PyLayer, PyMaterial, PyMesh};
+pub(crate) use mesh::PyMesh;
 pub(crate) use superclass::{PyStructure, made, recipe};

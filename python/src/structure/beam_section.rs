@@ -1,0 +1,30 @@
+//! Cross-sections of beams in space.
+
+use basemat::fem::BeamSection;
+use pyo3::prelude::*;
+
+use crate::error::{OrRaise, WithGiven};
+
+/// Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
+/// m⁴) and ``torsion_constant`` (m⁴).
+///
+/// y and z are the principal axes: y along the orientation of the beam, z across it. ``shear_areas`` along y and along
+/// z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle is 5/6 of
+/// its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+#[pyclass(name = "BeamSection", module = "basemat", frozen, dict)]
+pub(crate) struct PyBeamSection(pub(super) BeamSection);
+
+#[pymethods]
+impl PyBeamSection {
+    #[pyo3(signature = (area, second_moments, torsion_constant, *, shear_areas=None))]
+    #[new]
+    fn new(
+        area: f64,
+        second_moments: [f64; 2],
+        torsion_constant: f64,
+        shear_areas: Option<[f64; 2]>,
+    ) -> PyResult<Self> {
+        let section = BeamSection::new(area, second_moments, torsion_constant);
+        Ok(Self(section.with(shear_areas, BeamSection::with_shear_areas).or_raise()?))
+    }
+}

@@ -1,0 +1,76 @@
+//! Grids of nodes on surfaces.
+
+use basemat::fem::Grid;
+use pyo3::prelude::*;
+
+use super::mesh::PyMesh;
+use crate::array::{Array, Count, Numbers, Pairs, Surface};
+use crate::error::refuse;
+
+/// Nodes of a surface in rows, and the cells between them: from :meth:`Mesh.add_grid` and :meth:`Mesh.revolve`.
+#[pyclass(name = "Grid", module = "basemat", frozen)]
+pub(crate) struct PyGrid(Grid);
+
+#[pymethods]
+impl PyGrid {
+    /// Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node.
+    fn row(&self, index: Count) -> PyResult<Vec<usize>> {
+        let rows = self.0.rows();
+        if index.0 < rows {
+            return Ok(self.0.row(index.0).to_vec());
+        }
+        Err(refuse(format!("index is {}, but must be below {rows}, the number of rows", index.0)))
+    }
+
+    /// Number of rows.
+    fn __len__(&self) -> usize {
+        self.0.rows()
+    }
+
+    /// Corner nodes of the cells between neighbouring rows, for :meth:`Mesh.add_shells`: a list of lists of four numbers,
+    /// of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
+    /// upwards; of a wall that :meth:`Mesh.revolve` made, from outside.
+    #[getter]
+    fn cells(&self) -> Vec<Vec<usize>> {
+        self.0.cells().map(|(_, cell)| cell).collect()
+    }
+
+    /// Number of the lower row of each of :attr:`cells`: array of shape (cells,).
+    #[getter]
+    fn cell_rows(&self) -> Array<u64> {
+        self.0.cells().map(|(row, _)| row as u64).collect()
+    }
+
+    /// Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
+    /// above; returns the list of the nodes of the bricks between them, for :meth:`Mesh.add_bricks`.
+    fn extrude(
+        &self,
+        mut mesh: PyRefMut<'_, PyMesh>,
+        heights: Numbers,
+    ) -> PyResult<Vec<[usize; 8]>> {
+        mesh.changed(|mesh| self.0.extrude(mesh, &heights.0))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Grid({} rows, {} cells)", self.0.rows(), self.0.cells().count())
+    }
+}
+
+#[pymethods]
+impl PyMesh {
+    /// Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its :class:`Grid`.
+    fn add_grid(&mut self, points: Surface) -> PyResult<PyGrid> {
+        let Surface { shape: [rows, columns], points } = points;
+        let point = |row, column| points[row * columns + column];
+        self.changed(|mesh| mesh.add_grid(rows, columns, point)).map(PyGrid)
+    }
+
+    /// Adds the nodes of a surface of revolution; returns its :class:`Grid`.
+    ///
+    /// ``axis``: x and y (m) of the vertical axis. ``meridian``: radius and height (m) of each row of nodes, array of shape
+    /// (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
+    /// x towards y.
+    fn revolve(&mut self, axis: [f64; 2], meridian: Pairs, sectors: Count) -> PyResult<PyGrid> {
+        self.changed(|mesh| mesh.revolve(axis, &meridian.0, sectors.0)).map(PyGrid)
+    }
+}

@@ -1,0 +1,104 @@
+//! Meshes in space: their nodes, shells, bricks and beams.
+
+use basemat::fem::{Hex8, Mesh, Shell, SpaceBeam};
+use pyo3::prelude::*;
+
+use super::beam_section::PyBeamSection;
+use super::connectivity::{Cells, Connectivity, PerElement, Vectors, one_of};
+use super::material::PyMaterial;
+use super::mesh::{PyMesh, direction};
+use crate::array::Points;
+use crate::error::{OrRaise, WithGiven, refuse};
+use crate::several::Several;
+
+#[pymethods]
+impl PyMesh {
+    /// Mesh in space; ``nodes``: array of shape (nodes, 3), x to the right, y away and z up, m; none unless given.
+    #[pyo3(signature = (nodes=None))]
+    #[staticmethod]
+    fn in_space(nodes: Option<Points>) -> PyResult<Self> {
+        let mut mesh = Mesh::in_space();
+        for point in nodes.map_or_else(|| Ok(Vec::new()), Points::in_space)? {
+            mesh.add_node_at(point).or_raise()?;
+        }
+        Ok(Self(mesh))
+    }
+
+    /// Adds shells of three or four ``nodes``, listed around each: array of shape (shells, 3) or (shells, 4), or a list of
+    /// lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
+    /// or an array of one per shell.
+    ///
+    /// The nodes lie in the middle of the thickness. The shells of a call know each other: triangles match the sides that
+    /// they share with quadrilaterals, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
+    fn add_shells(
+        &mut self,
+        nodes: Cells,
+        material: Several<'_, PyMaterial>,
+        thickness: PerElement,
+    ) -> PyResult<Vec<usize>> {
+        let count = nodes.0.len();
+        let shell = |(k, own): (usize, &Vec<usize>)| {
+            let material = one_of(&material, "material", k, count)?.get().0;
+            Shell::new(own, material, thickness.at("thickness", k, count)?).or_raise()
+        };
+        let mut shells = nodes.0.iter().enumerate().map(shell).collect::<PyResult<Vec<_>>>()?;
+        Shell::match_sides(&mut shells);
+        self.add_all(shells.into_iter().map(Ok))
+    }
+
+    /// Adds bricks of a ``material`` (:class:`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
+    /// counter-clockwise seen from above, then the nodes above these.
+    fn add_bricks(&mut self, nodes: Connectivity, material: &PyMaterial) -> PyResult<Vec<usize>> {
+        let all = nodes.rows::<8>()?.into_iter();
+        self.add_all(all.map(|own| Ok(Hex8::new(own, material.0))))
+    }
+
+    /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (:class:`Material`) and a
+    /// ``section`` (:class:`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
+    /// vector, or an array of shape (beams, 3)).
+    ///
+    /// ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of
+    /// shape (2, 3), m); none unless given. ``releases``: two lists of directions in the axes of the beam in which nothing
+    /// holds its first and its second end, such as ``([], ["rotation_z"])`` for a hinge; none unless given.
+    /// ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
+    /// array of one per beam): axial force of P–Δ, none unless given.
+    #[pyo3(signature = (nodes, material, section, orientation, *, offsets=None, releases=None, rotary_inertia=false, compression=None))]
+    fn add_space_beams(
+        &mut self,
+        nodes: Connectivity,
+        material: &PyMaterial,
+        section: &PyBeamSection,
+        orientation: Vectors,
+        offsets: Option<Points>,
+        releases: Option<[Vec<String>; 2]>,
+        rotary_inertia: bool,
+        compression: Option<PerElement>,
+    ) -> PyResult<Vec<usize>> {
+        let ends = nodes.rows::<2>()?;
+        let offsets = offsets.map(two_arms).transpose()?;
+        let mut released = Vec::new();
+        for (end, names) in releases.iter().flatten().enumerate() {
+            let directions = names.iter().map(|name| direction(name));
+            released.push((end, directions.collect::<PyResult<Vec<_>>>()?));
+        }
+        self.add_all(ends.iter().enumerate().map(|(k, own)| {
+            let orientation = *one_of(&orientation.0, "orientation", k, ends.len())?;
+            let force = compression.as_ref().map(|own| own.at("compression", k, ends.len()));
+            let mut beam = SpaceBeam::new(*own, material.0, section.0, orientation)
+                .with(offsets, SpaceBeam::with_offsets)
+                .with(force.transpose()?, SpaceBeam::with_compression);
+            for (end, directions) in &released {
+                beam = beam.and_then(|beam| beam.with_releases(*end, directions));
+            }
+            let beam = beam.or_raise()?;
+            Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
+        }))
+    }
+}
+
+/// Arms from two nodes to the ends of a beam.
+fn two_arms(points: Points) -> PyResult<[[f64; 3]; 2]> {
+    let arms = points.in_space()?;
+    let found = arms.len();
+    arms.try_into().map_err(|_| refuse(format!("offsets has {found} rows, but must have 2")))
+}
