@@ -66,10 +66,10 @@ fn main() -> basemat::Result<()> {
     let foot = model.section_in_space(0.0, [0.0; 2])?;
     println!("{} degrees of freedom", model.dofs());
     println!(
-        "                   base shear   foot of the wall     uplifted   slip   moment in     energy"
+        "                   base shear       foot of the wall     uplifted   slip     moment in      energy"
     );
     println!(
-        "                           MN   MN           MNm            %     mm   raft, MNm/m   error"
+        "                           MN       MN           MNm            %     mm   raft, MNm/m       error"
     );
     let laws: [(&str, Box<dyn InterfaceLaw>); 2] =
         [("bonded", Box::new(Bonded)), ("opens, slides", Box::new(Coulomb::new(0.5)?))];
