@@ -160,9 +160,9 @@ fn floors_pass_on_their_inertia() {
         for (axis, (rows, sign)) in rows(&section).into_iter().enumerate() {
             let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
             if axis < 3 {
-                shift[axis] = 1.0
+                shift[axis] = 1.0;
             } else {
-                turn[axis - 3] = 1.0
+                turn[axis - 3] = 1.0;
             }
             let at = |z: f64| {
                 let turned = cross(turn, [-reference[0], -reference[1], z - height]);

@@ -106,7 +106,7 @@ impl Assembly {
     }
 
     pub(super) fn stiffness(&self) -> Matrix {
-        self.matrix(|element, points, matrix| element.stiffness(points, matrix))
+        self.matrix(Element::stiffness)
     }
 
     pub(super) fn mass(&self, kind: MassKind) -> Matrix {
