@@ -44,7 +44,8 @@ pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
-    Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber, SpringResponse, WithSprings,
+    BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
+    SpringResponse, WithSprings,
 };
 pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiffness, massless};
 pub use modal_damping::{ModalDamping, WithModalDamping};

@@ -2,6 +2,7 @@
 //! SCENE: rigid bodies on independent springs and dashpots under each cell, and on elastic ground.
 //! REFERENCE: equations of motion integrated here, Newton's law, the same body in the plane, symmetry.
 
+mod bearings;
 mod cells;
 mod elastic;
 mod equations;

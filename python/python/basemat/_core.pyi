@@ -47,7 +47,7 @@ _Change: TypeAlias = Literal["interface_law", "ground_motion", "load", "gravity_
 _GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
 _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
-_PlanDirection: TypeAlias = Literal["x", "y", "twist"]
+_PlanDirection: TypeAlias = Literal["x", "y", "xy", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
 _Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass"]
 _Direction: TypeAlias = Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
@@ -83,6 +83,10 @@ _Structure: TypeAlias = Union["Structure", UserStructure]
 _Base: TypeAlias = Union[Sequence["BaseNode"], Sequence[Sequence["BaseNode"]], "BaseFaces"]
 _RowLike: TypeAlias = Union[
     "DofCombination", int, Mapping[int, float], Sequence[tuple[int, float]], NDArray[np.float64]
+]
+_Spring: TypeAlias = Union[
+    tuple[_RowLike, Union["Hysteresis", UserHysteresis]],
+    tuple[_RowLike, _RowLike, "Hysteresis"],
 ]
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
@@ -2324,7 +2328,9 @@ class StoreyBuilding(Structure):
     "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
     gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
     (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-    given.
+    given. In the direction "xy" a :class:`Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
+    has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
+    diagonal.
     """
 
     def __new__(
@@ -2923,13 +2929,12 @@ class Mesh:
 class WithSprings(Structure):
     """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
     freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
+    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a :class:`Hysteresis`
+    (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
+    along x and y act independently, and carry √2 times their limit on the diagonal.
     """
 
-    def __new__(
-        cls,
-        structure: _Structure,
-        springs: Sequence[tuple[_RowLike, Hysteresis | UserHysteresis]],
-    ) -> Self: ...
+    def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
 
 @final
 class Condition:

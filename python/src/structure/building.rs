@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use basemat::structure::{
-    Hysteresis, IsolationLevel, PlanStorey, ShearBuilding, Storey, StoreyBuilding, Structure,
+    BiaxialSpring, Hysteresis, IsolationLevel, PlanStorey, ShearBuilding, Storey, StoreyBuilding,
+    Structure,
 };
 use pyo3::prelude::*;
 
@@ -42,7 +43,7 @@ type GivenLaws = Option<BTreeMap<i64, LawLike>>;
 
 /// Recipes of laws by storey.
 fn recipes(laws: GivenLaws) -> PyResult<Laws> {
-    let own = |(storey, LawLike(law)): (i64, LawLike)| Ok((number(storey)?, law));
+    let own = |(storey, law): (i64, LawLike)| Ok((number(storey)?, law.0));
     laws.into_iter().flatten().map(own).collect()
 }
 
@@ -210,9 +211,19 @@ impl PyPlanStorey {
     }
 }
 
-/// Directions of the laws of storeys in plan.
-const DIRECTIONS: [(&str, usize); 3] =
-    [("x", StoreyBuilding::ALONG), ("y", StoreyBuilding::ACROSS), ("twist", StoreyBuilding::TWIST)];
+/// Directions of the laws of storeys in plan; none: a coupled law along x and y.
+const DIRECTIONS: [(&str, Option<usize>); 4] = [
+    ("x", Some(StoreyBuilding::ALONG)),
+    ("y", Some(StoreyBuilding::ACROSS)),
+    ("xy", None),
+    ("twist", Some(StoreyBuilding::TWIST)),
+];
+
+/// A law of a storey in plan.
+enum StoreyLaw {
+    Uniaxial(usize, Recipe<dyn Hysteresis>),
+    Biaxial(Make<BiaxialSpring>),
+}
 
 /// Rigid floors on flexible columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y
 /// and twist, and tilt with the mat.
@@ -222,7 +233,9 @@ const DIRECTIONS: [(&str, usize); 3] =
 /// "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
 /// gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
 /// (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-/// given.
+/// given. In the direction "xy" a :class:`Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
+/// has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
+/// diagonal.
 #[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStoreyBuilding(Make<StoreyBuilding>);
 
@@ -252,16 +265,24 @@ impl PyStoreyBuilding {
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
         let mat = mat.0.clone();
-        let laws = laws.into_iter().flatten().map(|((storey, direction), LawLike(law))| {
-            let direction = choice("direction of a law", &direction, &DIRECTIONS)?;
-            Ok((number(storey)?, direction, law))
+        let laws = laws.into_iter().flatten().map(|((storey, direction), law)| {
+            let law = match choice("direction of a law", &direction, &DIRECTIONS)? {
+                Some(direction) => StoreyLaw::Uniaxial(direction, law.0),
+                None => StoreyLaw::Biaxial(law.coupled()?),
+            };
+            Ok((number(storey)?, law))
         });
         let laws: Vec<_> = laws.collect::<PyResult<_>>()?;
         let make = move || {
             let building = StoreyBuilding::new(mat.clone(), &storeys);
             let mut building = building.with(p_delta, StoreyBuilding::with_p_delta)?;
-            for (storey, direction, law) in &laws {
-                building = building.with_law(*storey, *direction, law()?)?;
+            for (storey, law) in &laws {
+                building = match law {
+                    StoreyLaw::Uniaxial(direction, law) => {
+                        building.with_law(*storey, *direction, law()?)?
+                    }
+                    StoreyLaw::Biaxial(law) => building.with_biaxial_law(*storey, law()?)?,
+                };
             }
             Ok(building)
         };

@@ -2,17 +2,19 @@
 
 use std::sync::Arc;
 
+use basemat::Result;
 use basemat::structure::{
-    Bilinear, BoucWen, DofCombination, FrictionPendulum, Hysteresis, LeadRubber, WithSprings,
+    BiaxialSpring, Bilinear, BoucWen, DofCombination, FrictionPendulum, Hysteresis, LeadRubber,
+    WithSprings,
 };
 use pyo3::prelude::*;
 
 use super::{PyStructure, recipe};
 use crate::dof_names::DofNames;
-use crate::error::OrRaise;
-use crate::recipe::Recipe;
+use crate::error::{OrRaise, refuse};
+use crate::recipe::{Make, Recipe};
 use crate::row::RowLike;
-use crate::several::Pairs;
+use crate::several::no_such;
 use crate::user;
 
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
@@ -20,19 +22,34 @@ use crate::user;
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyHysteresis {
     make: Recipe<dyn Hysteresis>,
+    coupled: Make<BiaxialSpring>,
 }
 
-/// A law of this package, or one written in Python.
-pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>);
+/// A law of this package, or one written in Python, and its coupled spring in two directions.
+pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>, Option<Make<BiaxialSpring>>);
+
+impl LawLike {
+    pub(super) fn coupled(self) -> PyResult<Make<BiaxialSpring>> {
+        let needed = "a hysteresis written in Python acts in one direction: give one for each";
+        self.1.ok_or_else(|| refuse(needed))
+    }
+}
 
 extracts!(LawLike, object => match object.cast::<PyHysteresis>() {
-    Ok(own) => Ok(Self(own.get().make.clone())),
-    Err(_) => Ok(Self(user::hysteresis(&object)?)),
+    Ok(own) => Ok(Self(own.get().make.clone(), Some(own.get().coupled.clone()))),
+    Err(_) => Ok(Self(user::hysteresis(&object)?, None)),
 });
 
 /// The base of a law that can be copied.
-fn copied(law: impl Hysteresis + Clone + Sync + 'static) -> PyHysteresis {
-    PyHysteresis { make: Arc::new(move || Ok(Box::new(law.clone()))) }
+fn copied<L: Hysteresis + Clone + Sync + 'static>(
+    law: L,
+    coupled: fn(&L) -> Result<BiaxialSpring>,
+) -> PyHysteresis {
+    let own = law.clone();
+    PyHysteresis {
+        make: Arc::new(move || Ok(Box::new(law.clone()))),
+        coupled: Arc::new(move || coupled(&own)),
+    }
 }
 
 #[pymethods]
@@ -59,7 +76,8 @@ pub(crate) struct PyBilinear;
 impl PyBilinear {
     #[new]
     fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
-        let base = copied(Bilinear::new(stiffness, yield_force, hardening).or_raise()?);
+        let own = Bilinear::new(stiffness, yield_force, hardening).or_raise()?;
+        let base = copied(own, |law| Ok(law.coupled()));
         Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }
@@ -85,9 +103,9 @@ impl PyBoucWen {
         match (exponent, beta) {
             (None, None) => {}
             (Some(exponent), Some(beta)) => own = own.with_shape(exponent, beta).or_raise()?,
-            _ => return Err(crate::error::refuse("give both exponent and beta, or neither")),
+            _ => return Err(refuse("give both exponent and beta, or neither")),
         }
-        Ok(PyClassInitializer::from(copied(own)).add_subclass(Self))
+        Ok(PyClassInitializer::from(copied(own, BoucWen::coupled)).add_subclass(Self))
     }
 }
 
@@ -96,7 +114,7 @@ impl PyBoucWen {
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
 
-extends!(PyFrictionPendulum, own => copied(own.0.clone()));
+extends!(PyFrictionPendulum, own => copied(own.0.clone(), |law| Ok(law.coupled())));
 
 #[pymethods]
 impl PyFrictionPendulum {
@@ -162,40 +180,70 @@ impl PyLeadRubber {
     }
 }
 
-extends!(PyLeadRubber, own => copied(own.0.clone()));
+extends!(PyLeadRubber, own => copied(own.0.clone(), |law| Ok(law.coupled())));
 
 fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<PyLeadRubber> {
     let own = own.and_then(|own| own.with_stiffness_ratio(stiffness_ratio));
     own.or_raise().map(PyLeadRubber)
 }
 
+/// Springs of a list: rows of the deformations, one or two, and the law.
+struct Springs(Vec<(Vec<RowLike>, LawLike)>);
+
+extracts!(Springs, object => {
+    let needed = "a list of (row, law) or (row_x, row_y, law)";
+    let entries = object.try_iter().map_err(|_| no_such(&object, needed))?;
+    let spring = |entry: PyResult<Bound<'py, PyAny>>| {
+        let entry = entry?;
+        let count = entry.len().ok().filter(|count| [2, 3].contains(count));
+        let last = count.ok_or_else(|| no_such(&entry, "(row, law) or (row_x, row_y, law)"))? - 1;
+        let rows = (0..last).map(|k| entry.get_item(k)?.extract::<RowLike>());
+        Ok((rows.collect::<PyResult<_>>()?, entry.get_item(last)?.extract()?))
+    };
+    entries.map(spring).collect::<PyResult<_>>().map(Self)
+});
+
+/// A row and a law along it, or two rows and a coupled law.
+enum Spring {
+    Uniaxial(DofCombination, Recipe<dyn Hysteresis>),
+    Biaxial([DofCombination; 2], Make<BiaxialSpring>),
+}
+
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
 /// freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
+/// In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a :class:`Hysteresis`
+/// (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
+/// along x and y act independently, and carry √2 times their limit on the diagonal.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings;
 
 #[pymethods]
 impl PyWithSprings {
     #[new]
-    fn new(
-        structure: Bound<'_, PyAny>,
-        springs: Pairs<RowLike, LawLike>,
-    ) -> PyResult<PyClassInitializer<Self>> {
+    fn new(structure: Bound<'_, PyAny>, springs: Springs) -> PyResult<PyClassInitializer<Self>> {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
         let names = DofNames::from_structure(&object, dofs)?;
-        let springs: Vec<(DofCombination, Recipe<dyn Hysteresis>)> = springs
-            .0
-            .into_iter()
-            .map(|(RowLike(row, order), LawLike(law))| {
+        let spring = |(rows, law): (Vec<RowLike>, LawLike)| {
+            let row = |RowLike(row, order): RowLike| {
                 order.check("the row of a spring", dofs)?;
-                Ok((row, law))
+                Ok(row)
+            };
+            let mut rows = rows.into_iter().map(row).collect::<PyResult<Vec<_>>>()?.into_iter();
+            let first = rows.next().unwrap_or_default();
+            Ok(match rows.next() {
+                Some(second) => Spring::Biaxial([first, second], law.coupled()?),
+                None => Spring::Uniaxial(first, law.0),
             })
-            .collect::<PyResult<_>>()?;
+        };
+        let springs: Vec<_> = springs.0.into_iter().map(spring).collect::<PyResult<_>>()?;
         let make = move || {
             let mut own = WithSprings::new(structure()?);
-            for (row, law) in &springs {
-                own = own.spring(row, law()?)?;
+            for spring in &springs {
+                own = match spring {
+                    Spring::Uniaxial(row, law) => own.spring(row, law()?)?,
+                    Spring::Biaxial(rows, law) => own.biaxial_spring(rows.each_ref(), law()?)?,
+                };
             }
             Ok(own)
         };

@@ -1,5 +1,7 @@
 //! Bilinear spring with kinematic hardening.
 
+use super::biaxial::BiaxialSpring;
+use super::coupled_slider::CoupledSlider;
 use super::slider::{Slider, elastic_share, slider_law};
 use crate::error::{Result, positive};
 
@@ -30,6 +32,14 @@ impl Bilinear {
             positive("yield force of the bilinear spring", share * yield_force)?,
         );
         Ok(Self { slider })
+    }
+
+    /// A new spring with these numbers in two directions.
+    ///
+    /// F − α k d yields on a circle of the radius (1 − α) F_y and follows the deformation by radial return, with
+    /// kinematic hardening.
+    pub fn coupled(&self) -> BiaxialSpring {
+        CoupledSlider::new(&self.slider).into()
     }
 }
 

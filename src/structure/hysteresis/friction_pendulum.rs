@@ -1,5 +1,7 @@
 //! Friction pendulum: a slider on a concave dish.
 
+use super::biaxial::BiaxialSpring;
+use super::coupled_slider::CoupledSlider;
 use super::slider::{Slider, slider_law};
 use crate::error::{Result, not_negative, positive};
 
@@ -68,6 +70,14 @@ impl FrictionPendulum {
         let square =
             not_negative("square of the period", self.radius / positive("gravity", gravity)?)?;
         Ok(std::f64::consts::TAU * square.sqrt())
+    }
+
+    /// A new bearing with these numbers that slides in any direction of the plane.
+    ///
+    /// F = W d/R + friction · W · n, with the unit vector n along the sliding. The weight W is constant: neither the
+    /// vertical motion nor the drift of the bearing changes it.
+    pub fn coupled(&self) -> BiaxialSpring {
+        CoupledSlider::new(&self.slider).into()
     }
 }
 

@@ -1,5 +1,7 @@
 //! Lead–rubber bearing by its engineering parameters.
 
+use super::biaxial::BiaxialSpring;
+use super::coupled_slider::CoupledSlider;
 use super::slider::{Slider, slider_law};
 use crate::error::{Result, finite, positive, require};
 
@@ -85,6 +87,11 @@ impl LeadRubber {
     /// Stiffness after yield K₂, N/m per metre of thickness.
     pub fn stiffness(&self) -> f64 {
         self.slider.parallel
+    }
+
+    /// A new bearing with these numbers in two directions: F = K₂ d plus lead that yields on a circle of radius Q.
+    pub fn coupled(&self) -> BiaxialSpring {
+        CoupledSlider::new(&self.slider).into()
     }
 }
 

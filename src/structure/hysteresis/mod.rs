@@ -1,12 +1,17 @@
 //! Hysteretic springs: the trait, and laws for yielding storeys and base isolators.
 
+mod biaxial;
 mod bilinear;
 mod bouc_wen;
+mod coupled_bouc_wen;
+mod coupled_slider;
 mod friction_pendulum;
 mod lead_rubber;
 mod slider;
+mod spring;
 mod springs;
 
+pub use biaxial::BiaxialSpring;
 pub use bilinear::Bilinear;
 pub use bouc_wen::BoucWen;
 pub use friction_pendulum::FrictionPendulum;
@@ -24,6 +29,17 @@ pub struct SpringResponse {
     pub force: f64,
     /// Slope of the force over the deformation, N/m per metre.
     pub tangent: f64,
+}
+
+/// Force of a [`BiaxialSpring`] and its slopes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BiaxialResponse {
+    /// Components of the force, N, positive against positive deformations.
+    pub force: [f64; 2],
+    /// Slopes of the force over the deformation, N/m: a symmetric matrix, by rows.
+    ///
+    /// A coupled [`BoucWen`] gives the symmetric part of the slopes; the rest falls with the square of the step.
+    pub tangent: [[f64; 2]; 2],
 }
 
 /// A hysteretic spring: implement this for your own law.

@@ -1,22 +1,11 @@
 //! Hysteretic springs on the degrees of freedom of a structure.
 
 use super::Hysteresis;
+use super::biaxial::BiaxialSpring;
+use super::spring::Spring;
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
-
-/// A spring and the row l of its deformation l·u.
-#[derive(Clone)]
-struct Spring {
-    row: DofCombination,
-    law: Box<dyn Hysteresis>,
-}
-
-impl Spring {
-    fn deformation(&self, displacement: &[f64]) -> f64 {
-        self.row.value(displacement)
-    }
-}
 
 /// The nonlinear part of a structure with springs.
 #[derive(Clone, Default)]
@@ -30,8 +19,24 @@ impl Springs {
         law: Box<dyn Hysteresis>,
         dofs: usize,
     ) -> Result<()> {
-        row.check("degree of freedom of a spring", dofs)?;
-        self.0.push(Spring { row, law });
+        self.attach(Spring::Uniaxial(row, law), dofs)
+    }
+
+    /// Adds a spring with two deformations.
+    pub(crate) fn add_biaxial(
+        &mut self,
+        rows: [DofCombination; 2],
+        law: BiaxialSpring,
+        dofs: usize,
+    ) -> Result<()> {
+        self.attach(Spring::Biaxial(rows, law), dofs)
+    }
+
+    fn attach(&mut self, spring: Spring, dofs: usize) -> Result<()> {
+        for row in spring.rows() {
+            row.check("degree of freedom of a spring", dofs)?;
+        }
+        self.0.push(spring);
         Ok(())
     }
 
@@ -53,18 +58,18 @@ impl Springs {
 
     /// Number of internal variables.
     fn variables(&self) -> usize {
-        self.0.iter().map(|spring| spring.law.save().len()).sum()
+        self.0.iter().map(|spring| spring.save().len()).sum()
     }
 
     fn state(&self) -> Vec<f64> {
-        self.0.iter().flat_map(|spring| spring.law.save()).collect()
+        self.0.iter().flat_map(|spring| spring.save()).collect()
     }
 
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
         let mut rest = values;
         for spring in &mut self.0 {
-            let (own, after) = rest.split_at(spring.law.save().len().min(rest.len()));
-            spring.law.restore(own)?;
+            let (own, after) = rest.split_at(spring.save().len().min(rest.len()));
+            spring.restore(own)?;
             rest = after;
         }
         Ok(())
@@ -73,35 +78,22 @@ impl Springs {
 
 impl NonlinearForce for Springs {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        for spring in &self.0 {
-            let value = spring.law.response(spring.deformation(displacement)).force;
-            for &(i, weight) in &spring.row {
-                if let Some(force) = force.get_mut(i) {
-                    *force += weight * value;
-                }
-            }
-        }
+        self.0.iter().for_each(|spring| spring.add_force(displacement, force));
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        for spring in &self.0 {
-            let tangent = spring.law.response(spring.deformation(displacement)).tangent;
-            matrix.add_outer(&spring.row, tangent);
-        }
+        self.0.iter().for_each(|spring| spring.add_tangent(displacement, matrix));
         Ok(())
     }
 
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        let each = self.0.iter().map(|s| s.law.energy(s.deformation(displacement)));
+        let each = self.0.iter().map(|spring| spring.energy(displacement));
         Some(each.fold(InternalEnergy::default(), |sum, one| sum + one))
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        for spring in &mut self.0 {
-            let deformation = spring.deformation(displacement);
-            spring.law.commit(deformation);
-        }
+        self.0.iter_mut().for_each(|spring| spring.commit(displacement));
     }
 
     fn save(&self) -> Result<Vec<f64>> {
@@ -133,6 +125,10 @@ impl NonlinearForce for Springs {
 /// Degrees of freedom are absolute. A spring on a single one would hold the structure to a point in space instead
 /// of the moving ground, and `build` returns an error. A deformation must be zero when all degrees of freedom
 /// translate together.
+///
+/// A bearing in plan that moves in two directions is one
+/// [`biaxial_spring`](WithSprings::biaxial_spring). Two springs along x and y act independently: two
+/// sliders carry √2 times their friction on the diagonal.
 ///
 /// ```
 /// use basemat::structure::{Bilinear, NonlinearForce, ShearBuilding, Storey, WithSprings};
@@ -174,6 +170,19 @@ impl WithSprings {
         law: impl Hysteresis + 'static,
     ) -> Result<Self> {
         self.springs.add(row.into(), Box::new(law), self.structure.dofs())?;
+        Ok(self)
+    }
+
+    /// Adds a spring with the deformations `rows` in two directions at a right angle.
+    ///
+    /// # Errors
+    /// As for [`spring`](WithSprings::spring).
+    pub fn biaxial_spring(
+        mut self,
+        rows: [impl Into<DofCombination>; 2],
+        law: BiaxialSpring,
+    ) -> Result<Self> {
+        self.springs.add_biaxial(rows.map(Into::into), law, self.structure.dofs())?;
         Ok(self)
     }
 }

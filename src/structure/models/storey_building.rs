@@ -4,7 +4,7 @@ use super::rigid_body::RigidBody;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
-use crate::structure::hysteresis::{Hysteresis, Springs};
+use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, Springs};
 use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
@@ -130,7 +130,9 @@ impl StoreyBuilding {
     ///
     /// Directions: [`ALONG`](StoreyBuilding::ALONG), [`ACROSS`](StoreyBuilding::ACROSS) or
     /// [`TWIST`](StoreyBuilding::TWIST). The deformation of the law is the storey's
-    /// [`drift`](StoreyBuilding::drift) in that direction.
+    /// [`drift`](StoreyBuilding::drift) in that direction. Laws along x and y act independently: two
+    /// sliders carry √2 times their friction on the diagonal. For bearings that slide or yield in any direction use
+    /// [`with_biaxial_law`](StoreyBuilding::with_biaxial_law).
     ///
     /// # Errors
     /// [`Error::Index`] when there is no such storey or direction, [`Error::Scene`] when it has a law already.
@@ -142,11 +144,30 @@ impl StoreyBuilding {
     ) -> Result<Self> {
         let fault = Error::Index { quantity: "direction of a storey", index: direction, bound: 3 };
         let row = self.drift(storey)?.into_iter().nth(direction).ok_or(fault)?;
-        let is_first = !std::mem::replace(&mut self.has_law[storey][direction], true);
-        require_part("law of a storey", is_first, "one law at most")?;
+        self.replace_stiffness(storey, direction)?;
         let dofs = self.dofs();
         self.springs.add(row, Box::new(law), dofs)?;
         Ok(self)
+    }
+
+    /// Replaces the stiffness of `storey` (0: the lowest) along x and y by one `law`.
+    ///
+    /// Its deformations are the first two [`drift`](StoreyBuilding::drift)s of the storey.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such storey, [`Error::Scene`] when it has a law along x or y already.
+    pub fn with_biaxial_law(mut self, storey: usize, law: BiaxialSpring) -> Result<Self> {
+        let [along, across, _] = self.drift(storey)?;
+        self.replace_stiffness(storey, Self::ALONG)?;
+        self.replace_stiffness(storey, Self::ACROSS)?;
+        let dofs = self.dofs();
+        self.springs.add_biaxial([along, across], law, dofs)?;
+        Ok(self)
+    }
+
+    fn replace_stiffness(&mut self, storey: usize, direction: usize) -> Result<()> {
+        let is_first = !std::mem::replace(&mut self.has_law[storey][direction], true);
+        require_part("law of a storey", is_first, "one law at most")
     }
 
     /// Adds the P–Δ effect of the floors' weight.

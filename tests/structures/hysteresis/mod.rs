@@ -2,6 +2,7 @@
 //! SCENE: the laws alone, and buildings in the coupled integrator.
 //! REFERENCE: differential equations, energies, closed-form loops.
 
+mod biaxial;
 mod building;
 mod damping;
 mod laws;

@@ -1,0 +1,89 @@
+//! Elastic slider parallel to a spring, in a plane.
+
+use super::slider::Slider;
+use super::{BiaxialResponse, corrupt};
+use crate::error::Result;
+use crate::structure::InternalEnergy;
+
+/// Spring `parallel` to a spring `series` with a slider that yields at the force `limit`, in any direction.
+///
+/// The slider follows the deformation by the shortest way to the circle of its limit (radial return). Along a step
+/// the force is the gradient of a convex energy, which is the sum of the stored and the dissipated energy.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct CoupledSlider {
+    parallel: f64,
+    series: f64,
+    limit: f64,
+    /// Displacement of the slider.
+    slip: [f64; 2],
+    dissipated: f64,
+}
+
+impl CoupledSlider {
+    /// A new spring with the numbers of `slider`.
+    pub(super) fn new(slider: &Slider) -> Self {
+        let Slider { parallel, series, limit, .. } = *slider;
+        Self { parallel, series, limit, slip: [0.0; 2], dissipated: 0.0 }
+    }
+
+    /// Direction from the slider to the deformation, force of the slider and the way that it slides.
+    fn slide(&self, deformation: [f64; 2]) -> ([f64; 2], f64, f64) {
+        let [x, y] = [0, 1].map(|k| deformation[k] - self.slip[k]);
+        let distance = x.hypot(y);
+        if distance == 0.0 {
+            return ([0.0; 2], 0.0, 0.0);
+        }
+        let direction = [x, y].map(|part| part / distance);
+        let trial = self.series * distance;
+        if trial <= self.limit {
+            return (direction, trial, 0.0);
+        }
+        (direction, self.limit, distance - self.limit / self.series)
+    }
+
+    pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
+        let (direction, force, way) = self.slide(deformation);
+        // Across its direction the force turns with the deformation about the slider.
+        let across = if way > 0.0 { force / (force / self.series + way) } else { self.series };
+        let along = if way > 0.0 { 0.0 } else { self.series };
+        let part = |i: usize, j: usize| {
+            let unit = if i == j { self.parallel + across } else { 0.0 };
+            unit + (along - across) * (direction[i] * direction[j])
+        };
+        BiaxialResponse {
+            force: [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]),
+            tangent: [0, 1].map(|i| [0, 1].map(|j| part(i, j))),
+        }
+    }
+
+    pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
+        let (_, force, way) = self.slide(deformation);
+        let square: f64 = deformation.iter().map(|d| d * d).sum();
+        InternalEnergy {
+            stored: 0.5 * (self.parallel * square + force * force / self.series),
+            dissipated: self.dissipated + self.limit * way,
+        }
+    }
+
+    pub(super) fn commit(&mut self, deformation: [f64; 2]) {
+        let (direction, _, way) = self.slide(deformation);
+        self.dissipated += self.limit * way;
+        self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
+    }
+
+    pub(super) fn save(&self) -> Vec<f64> {
+        vec![self.slip[0], self.slip[1], self.dissipated]
+    }
+
+    pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
+        match values {
+            &[x, y, dissipated]
+                if values.iter().all(|value| value.is_finite()) && dissipated >= 0.0 =>
+            {
+                (self.slip, self.dissipated) = ([x, y], dissipated);
+                Ok(())
+            }
+            _ => Err(corrupt()),
+        }
+    }
+}
