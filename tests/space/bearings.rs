@@ -1,12 +1,12 @@
 //! Buildings on bearings that slide and yield in any direction.
 
-use basemat::Simulation;
 use basemat::interface::Bonded;
 use basemat::motion::{FreeField, Triaxial, el_centro_1940};
 use basemat::structure::{
     BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, LeadRubber, PlanStorey, RigidBody,
     StoreyBuilding,
 };
+use basemat::{Error, Simulation};
 
 use super::cells::{BED, Bed, Cells, Waves};
 
@@ -105,4 +105,20 @@ fn an_oblique_motion_is_a_motion_along_an_axis() {
     }
     let lost = [straight, oblique].map(|run| run.state().energy_balance.hysteresis);
     assert!(most > 2e-3 && (lost[1] / lost[0] - 1.0).abs() < 1e-8, "{most} {lost:?}");
+}
+
+#[test]
+fn a_storey_has_one_law_in_each_direction() {
+    let own = || isolated([0.0; 2]);
+    let law = || Bilinear::new(4.0e7, 4.0e4, 0.05).unwrap();
+    let beyond = own().with_biaxial_law(2, law().coupled());
+    assert!(matches!(beyond, Err(Error::Index { index: 2, bound: 2, .. })));
+    for direction in [StoreyBuilding::ALONG, StoreyBuilding::ACROSS] {
+        let first = own().with_law(0, direction, law()).unwrap();
+        assert!(matches!(first.with_biaxial_law(0, law().coupled()), Err(Error::Scene { .. })));
+        let first = own().with_biaxial_law(0, law().coupled()).unwrap();
+        assert!(matches!(first.with_law(0, direction, law()), Err(Error::Scene { .. })));
+    }
+    let both = own().with_biaxial_law(0, law().coupled()).unwrap();
+    assert!(both.with_law(0, StoreyBuilding::TWIST, law()).is_ok());
 }
