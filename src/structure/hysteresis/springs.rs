@@ -62,7 +62,7 @@ impl Springs {
     }
 
     fn state(&self) -> Vec<f64> {
-        self.0.iter().flat_map(|spring| spring.save()).collect()
+        self.0.iter().flat_map(Spring::save).collect()
     }
 
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
