@@ -7,7 +7,9 @@
 //! Processor time of all threads; weights alone, without the histories' transforms of them.
 
 use basemat::bem::layered::Stages;
+use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Grading, Strip};
+use basemat::history::ConvolutionWeights;
 use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Result, Soil, unobserved};
 use cpu_time::ProcessTime;
@@ -125,6 +127,36 @@ fn cases() -> Result<Vec<Case>> {
     Ok(rows.into())
 }
 
+/// Processor time of the lags up to a power of two, s.
+fn taken(weights: &dyn ConvolutionWeights, steps: usize) -> std::result::Result<f64, AnyError> {
+    let begin = ProcessTime::try_now()?;
+    weights.prepare(steps.next_power_of_two(), &mut unobserved)?;
+    Ok(begin.try_elapsed()?.as_secs_f64())
+}
+
+/// Two seconds of 8 × 8 cells on 10 m: pressure waves travel a ratio of a cell in a step.
+fn in_plan(short: bool) -> std::result::Result<(), AnyError> {
+    let [soil, rock] = [Soil::new(60.0e6, 1.0 / 3.0, 1900.0)?, Soil::new(600.0e6, 0.3, 2200.0)?];
+    let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0)?;
+    let damped = layer.with_damping(GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0)?);
+    let grounds =
+        [("half-space", SoilProfile::on_half_plane(soil)), ("layer, 5 %, on rock", damped)];
+    println!("\n| 8 × 8 cells | c₁Δt/cell | steps | s |");
+    println!("|---|---|---|---|");
+    for (name, profile) in grounds {
+        for ratio in [1.2, 0.6, 0.24, 0.12, 0.06] {
+            let plan = Plan::rectangle(0.0..10.0, 0.0..10.0, 8)?;
+            let time_step = ratio * plan.pitch()[0] / soil.pressure_wave_speed();
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "thousands")]
+            let steps = if short { 100 } else { (2.0 / time_step) as usize };
+            let ground = ElasticGround::in_plan(profile.clone(), plan)?;
+            let taken = taken(&*ground.weights(time_step)?, steps)?;
+            println!("| {name} | {ratio} | {steps} | {taken:.2} |");
+        }
+    }
+    Ok(())
+}
+
 pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
     println!("| ground | elements | steps | s |");
     println!("|---|---|---|---|");
@@ -132,11 +164,8 @@ pub(crate) fn run(options: &Options) -> std::result::Result<(), AnyError> {
         let steps = if options.short { 100 } else { steps };
         let strip = Strip::new(-3.0..3.0, elements, grading)?;
         let ground = ElasticGround::new(profile, strip)?.with_stages(stages);
-        let kernel = ground.weights(time_step)?;
-        let begin = ProcessTime::try_now()?;
-        kernel.prepare(steps.next_power_of_two(), &mut unobserved)?;
-        let taken = begin.try_elapsed()?.as_secs_f64();
+        let taken = taken(&*ground.weights(time_step)?, steps)?;
         println!("| {name} | {elements} | {steps} | {taken:.2} |");
     }
-    Ok(())
+    in_plan(options.short)
 }

@@ -1,8 +1,9 @@
 //! Form factors of a lattice on panels of wavenumbers, and their integrals beyond the last.
 //!
 //! Panels are so narrow that forms turn by at most 16 radians, which 16 Gauss points resolve. They are tabulated
-//! up to the largest K in use. Beyond K only the top layer contributes to the surface compliance, a power series in
-//! q₂/k². All integrals there follow from
+//! up to the largest K in use. The first panels are sums over directions, and all others are waves from corners, so
+//! that a table takes a time proportional to K*. Beyond K only the top layer contributes to the surface compliance, a
+//! power series in q₂/k². All integrals there follow from
 //!
 //! `T_j`(K) = ∫_K^∞ k^(−2j) g dk.
 //!
@@ -11,6 +12,7 @@
 
 use std::sync::OnceLock;
 
+use super::corner_waves::{CornerWaves, Scratch};
 use super::forms::{AngularMeans, FORMS, integrals};
 use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid};
 use crate::error::{GroundError, Result, Watch, memory};
@@ -28,8 +30,14 @@ const SHORT: f64 = 8.0;
 const END: f64 = 64.0;
 /// Smallest ratio of K* to |√q₂|.
 const SPREAD: f64 = 16.0;
-/// Largest number of operations for a table: a minute or two.
+/// Number of panels on which forms are sums over directions; beyond, they are waves from corners.
+const DIRECT: usize = 64;
+/// Largest number of operations for a table and for the compliances that use it: a minute or two.
 const MOST: f64 = 3e11;
+/// Operations for waves from a corner at one point, and for the compliances of some five hundred Laplace variables
+/// there; number of cells that cost as much as the surface compliance.
+const WAVE: f64 = 2e3;
+const SURFACE: f64 = 80.0;
 /// Number of points for Legendre coefficients.
 const FINE: usize = DEGREES + 8;
 
@@ -97,6 +105,41 @@ pub(super) struct FormTable {
     deep: f64,
     /// Number of panels up to K*.
     pub(super) end: usize,
+    /// Forms from panel `direct` on.
+    waves: CornerWaves,
+    pub(super) direct: usize,
+}
+
+/// Forms at points of one panel after the other.
+struct PanelForms<'a> {
+    table: &'a FormTable,
+    means: AngularMeans,
+    wavenumbers: Vec<f64>,
+    waves: Scratch,
+}
+
+impl<'a> PanelForms<'a> {
+    fn new(table: &'a FormTable) -> Self {
+        let means = AngularMeans::new(&table.lattice);
+        Self { table, means, wavenumbers: vec![], waves: Scratch::default() }
+    }
+
+    /// Forms at `nodes` in −1 … 1 of a panel: node by node, form by form, all classes.
+    fn on(&mut self, panel: usize, nodes: &[f64]) -> &[f64] {
+        let Self { table, means, wavenumbers, waves } = self;
+        let all = nodes.iter().map(|x| table.width * (panel as f64 + 0.5 * (1.0 + x)));
+        wavenumbers.clear();
+        wavenumbers.extend(all);
+        if panel < table.direct {
+            waves.values.clear();
+            for k in wavenumbers {
+                waves.values.extend_from_slice(means.at(*k));
+            }
+        } else {
+            table.waves.at(wavenumbers, waves);
+        }
+        &waves.values
+    }
 }
 
 impl FormTable {
@@ -107,6 +150,8 @@ impl FormTable {
     pub(super) fn new(lattice: &Lattice, [root, deep]: [f64; 2]) -> Result<Self> {
         let classes = lattice.classes().len();
         let width = TURN / lattice.diagonal();
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
+        let direct = DIRECT.max((CornerWaves::least(lattice) / width).ceil() as usize);
         let mut table = Self {
             lattice: lattice.clone(),
             classes,
@@ -117,6 +162,8 @@ impl FormTable {
             legendre: vec![],
             deep,
             end: 0,
+            waves: CornerWaves::new(lattice, [0.0; 2]),
+            direct,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
@@ -124,10 +171,12 @@ impl FormTable {
         // Beyond K* an error of about q₂ K*⁻⁵ is left.
         let end = END / side * (0.5 * root * side).min(1.0).powf(0.4);
         let end = end.max(SPREAD * root).max(1.2 * reach);
-        let turn = end * lattice.diagonal();
-        if turn.is_nan() || turn * turn * cells > MOST {
-            let span = lattice.diagonal();
-            let most = (MOST / cells).sqrt() / span;
+        let span = lattice.diagonal();
+        let begin = direct as f64 * width;
+        let summed = cells * (begin.min(end) * span).powi(2);
+        let waves = begin + (MOST - summed) / (WAVE * (cells + SURFACE) * span);
+        let most = if summed < MOST { waves } else { (MOST / cells).sqrt() / span };
+        if end.is_nan() || end > most {
             return Err(GroundError::TooFine { span, wavenumber: end, most }.into());
         }
         let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
@@ -137,6 +186,7 @@ impl FormTable {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded")]
         let end = (end / width).ceil() as usize;
         table.end = end.max(last + 1);
+        table.waves = CornerWaves::new(lattice, [begin, table.end as f64 * width]);
         Ok(table)
     }
 
@@ -175,7 +225,7 @@ impl FormTable {
         let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
         let mut tabulated =
             Tabulated { values: FormRows::new(kept.end() * POINTS, classes), tails: vec![] };
-        let mut means = AngularMeans::new(&self.lattice);
+        let mut forms = PanelForms::new(self);
         let mut sums = FormRows::new(TERMS, classes);
         // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
         let [last, star] =
@@ -187,9 +237,9 @@ impl FormTable {
         });
         for panel in (0..end).rev() {
             watch.reach(0)?;
-            for (i, node) in self.rule.nodes.iter().enumerate() {
+            let rows = forms.on(panel, &self.rule.nodes).chunks_exact(FORMS * classes);
+            for (i, (node, values)) in self.rule.nodes.iter().zip(rows).enumerate() {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
-                let values = means.at(k);
                 if panel < *kept.end() {
                     tabulated.values.set(panel * POINTS + i, values);
                 }
@@ -236,10 +286,10 @@ impl FormTable {
     /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.
     pub(super) fn legendre(&self, panel: usize) -> &FormRows {
         self.legendre[panel].get_or_init(|| {
-            let (mut means, fine) = (AngularMeans::new(&self.lattice), Rule::new(FINE));
+            let (mut forms, fine) = (PanelForms::new(self), Rule::new(FINE));
             let mut rows = FormRows::new(DEGREES, self.classes);
-            for (x, weight) in fine.points() {
-                let values = means.at(self.width * (panel as f64 + 0.5 * (1.0 + x)));
+            let all = forms.on(panel, &fine.nodes).chunks_exact(FORMS * self.classes);
+            for ((x, weight), values) in fine.points().zip(all) {
                 for (degree, polynomial) in legendre(x).into_iter().enumerate() {
                     rows.add(degree, (degree as f64 + 0.5) * weight * polynomial, values);
                 }

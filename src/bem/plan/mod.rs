@@ -11,12 +11,13 @@
 //! | unions | contact elements of several cells |
 //! | cells, faces, outline | plan: cells on a lattice under faces, discs, masks; cells cut at the outline |
 //! | under | plan under the base of a structure |
-//! | forms, form_table | form factors, and their integrals |
+//! | forms, corner_waves, form_table | form factors, at small and large wavenumbers, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
 //! | kernel | convolution weights by convolution quadrature |
 //! | sectors, impedance | rigid mats at one frequency |
 
 mod cells;
+mod corner_waves;
 pub(crate) mod faces;
 mod form_table;
 mod forms;

@@ -118,6 +118,27 @@ fn weights_depend_on_the_offset_alone() {
     }
 }
 
+/// Forms at large wavenumbers are waves from corners: sums over directions give the same weights, at steps much shorter
+/// than the way across a cell.
+#[test]
+fn weights_of_short_steps_are_sums_over_directions() {
+    for (profile, step) in [(half_space(), 0.08), (p1(gmb(5), gmb(1)), 0.03)] {
+        let plan = Plan::masked([0.0; 2], [0.5, 0.4], 3, &[true; 6]).unwrap();
+        let make = || {
+            let steps = [step, 1e-10];
+            LatticeKernel::in_plan(profile.clone(), &plan, Stages::Two, steps, None).unwrap()
+        };
+        let mut summed = make();
+        summed.quadrature.integrals.table.direct = usize::MAX;
+        let [one, two] = [make(), summed].map(|kernel| weights(&kernel, 128));
+        let largest = one[0][1][0];
+        let pairs = one.iter().flatten().flatten().zip(two.iter().flatten().flatten());
+        let worst = pairs.fold(0.0_f64, |worst, (one, two)| worst.max((one - two).abs()));
+        println!("{step} {:e}", worst / largest);
+        assert!(0.0 < worst && worst < 1e-12 * largest, "{step} {:e}", worst / largest);
+    }
+}
+
 /// The passivity check takes some of many cells, each once.
 #[test]
 fn gates_take_some_of_many_cells() {
