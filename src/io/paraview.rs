@@ -1,11 +1,18 @@
 //! Files for ParaView: a `.pvd` collection of `.vtu` grids, up to two per frame.
 //!
-//! The first grid of a frame is the structure. Its points have the vectors `displacement` (m, change from the
-//! static state, relative to the free field) and `velocity` (m/s, total); apply *Warp By Vector* to see it
-//! move. The second grid is the base. It has one line for each contact element, with `pressure` and `shear`
+//! The first grid of a frame is the structure. For a [`FemModel`](crate::structure::FemModel) its cells are the
+//! elements in their order: lines, triangles, quadrilaterals, bricks with eight corners, other solids as convex sets of
+//! points. Points have the vectors `displacement` (m, change from the static state, relative to the free field),
+//! `static_displacement` (m) and `velocity` (m/s, total). Apply *Warp By Vector* to see the structure move, to the sum
+//! of the first two (*Calculator*) to see it from its unloaded shape.
+//!
+//! The second grid is the base. It has one line for each contact element, with `pressure` and `shear`
 //! (Pa), `gap` and `slip` (m) and `mode` (0 stick, 1 slip to the left, 2 slip to the right, 3 open). In plan
 //! it has one rectangle for each element, with `shear_across` and `slip_across` (along y) as well; mode 7 is
-//! slip in any direction. Points are (x, y, 0) in the plane, y up, and (x, y, z) in plan, z up.
+//! slip in any direction. Points are (x, y, 0) in the plane, y up, and (x, y, z) in plan, z up; the nodes of the base
+//! lie at height zero.
+//!
+//! A single state, such as the static one or a vibration mode, is a grid by itself ([`write_state`]).
 //!
 //! Files are ASCII XML as in *VTK File Formats* (Kitware, for VTK 4.2 and later), and need no library.
 //!
@@ -27,7 +34,8 @@ use std::path::Path;
 use crate::error::{Result, require_part};
 use crate::geometry::ContactElement;
 use crate::interface::ContactState;
-use crate::results::{ContactFrame, DeformedShape, MotionFrame, ShapePoint, TimeSeries};
+use crate::results::shape_cell::ShapeCell;
+use crate::results::{ContactFrame, DeformedShape, ShapePoint, TimeSeries};
 use crate::text::file::{unwritten, write_file};
 
 /// Writes `name.pvd` and the grids of all kept frames into `folder`; returns the number of grids.
@@ -63,6 +71,19 @@ pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries
     write(folder.as_ref(), name, None, time_series)
 }
 
+/// Writes one grid of a structure, a `.vtu` file, with the vectors `displacement` at its points.
+///
+/// `dofs`: values of the degrees of freedom, m and rad, such as
+/// [`Simulation::static_displacement`](crate::Simulation::static_displacement) or a vibration mode. The folder is made
+/// if it does not exist.
+///
+/// # Errors
+/// [`Error::Index`](crate::Error::Index) if `shape` has degrees of freedom beyond `dofs`;
+/// [`Error::File`](crate::Error::File) if the file cannot be written.
+pub fn write_state(path: impl AsRef<Path>, shape: &DeformedShape, dofs: &[f64]) -> Result<()> {
+    write_file(path.as_ref(), structure(shape, &[("displacement", dofs)])?)
+}
+
 fn write(
     folder: &Path,
     name: &str,
@@ -78,12 +99,18 @@ fn write(
     let moved = time_series.motion_frames().filter_map(|frame| Some((shape?, frame)));
     for (k, (shape, frame)) in moved.enumerate() {
         let file = format!("{name}_{k:04}.vtu");
-        write_file(&folder.join(&file), &structure(shape, &frame, time_series.in_plan())?)?;
+        let rest = ("static_displacement", time_series.static_displacement());
+        let rates = [("displacement", frame.displacement), ("velocity", frame.velocity)];
+        let known = [rest].into_iter().filter(|(_, dofs)| !dofs.is_empty());
+        let vectors: Vec<_> = rates.into_iter().chain(known).collect();
+        write_file(&folder.join(&file), structure(shape, &vectors)?)?;
         entries.push((frame.time, 0, file));
     }
     let mut corners = 0..;
-    let cell = |own: &ContactElement| corners.by_ref().take(own.outline().count()).collect();
-    let cells: Vec<Vec<usize>> = time_series.elements().iter().map(cell).collect();
+    let cell = |own: &ContactElement| {
+        ShapeCell::flat(corners.by_ref().take(own.outline().count()).collect())
+    };
+    let cells: Vec<ShapeCell> = time_series.elements().iter().map(cell).collect();
     for (k, frame) in time_series.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
         write_file(&folder.join(&file), base(time_series, &cells, &frame))?;
@@ -94,32 +121,31 @@ fn write(
     Ok(entries.len())
 }
 
-/// A vector in the file's axes; in the plane the second one points up.
-fn shown(in_plan: bool, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    if in_plan { [x, y, z] } else { [x, z, 0.0] }
+/// The vector `[x, y, z]`, z up, in the file's axes: those along the surface, and then `up`.
+fn shown(up: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let mut own = [x, y, 0.0];
+    own[up] = z;
+    own
 }
 
-fn structure(shape: &DeformedShape, frame: &MotionFrame<'_>, in_plan: bool) -> Result<String> {
-    let turned = |[right, up, away]: [f64; 3]| shown(in_plan, [right, away, up]);
-    let vectors = |dofs| -> Result<Vec<[f64; 3]>> {
-        Ok(shape.displacements(dofs)?.into_iter().map(turned).collect())
-    };
-    let place = |point: &ShapePoint| turned([point.position[0], point.position[1], point.away]);
+/// A grid of the structure with the displacements of its points by these values of the degrees of freedom.
+fn structure(shape: &DeformedShape, vectors: &[(&'static str, &[f64])]) -> Result<String> {
+    let turned = |[right, up, away]: [f64; 3]| shown(shape.up(), [right, away, up]);
+    let vectors = vectors.iter().map(|&(name, dofs)| {
+        Ok((name, shape.displacements(dofs)?.into_iter().map(turned).collect()))
+    });
     let grid = Grid {
-        points: shape.points().iter().map(place).collect(),
-        cells: shape.cells(),
-        point_vectors: vec![
-            ("displacement", vectors(frame.displacement)?),
-            ("velocity", vectors(frame.velocity)?),
-        ],
+        points: shape.points().iter().map(ShapePoint::place).map(turned).collect(),
+        cells: shape.grid(),
+        point_vectors: vectors.collect::<Result<_>>()?,
         cell_scalars: Vec::new(),
     };
     Ok(grid.xml())
 }
 
-fn base(time_series: &TimeSeries, cells: &[Vec<usize>], frame: &ContactFrame<'_>) -> String {
+fn base(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame<'_>) -> String {
     let corners = time_series.elements().iter().flat_map(ContactElement::outline);
-    let points = corners.map(|place| shown(time_series.in_plan(), place)).collect();
+    let points = corners.map(|place| shown(time_series.up(), place)).collect();
     let numbers = ContactState::NUMBERS.iter().filter(|own| time_series.in_plan() || !own.2);
     let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
     let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();
@@ -147,23 +173,9 @@ fn collection(entries: &[(f64, usize, String)]) -> String {
 /// Points, cells and data of a `.vtu` file.
 pub(super) struct Grid<'a> {
     pub(super) points: Vec<[f64; 3]>,
-    pub(super) cells: &'a [Vec<usize>],
+    pub(super) cells: &'a [ShapeCell],
     pub(super) point_vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
-}
-
-/// VTK's code for a cell with this number of points (vtkCellType.h).
-fn cell_type(points: usize) -> u8 {
-    match points {
-        1 => 1,  // vertex
-        2 => 3,  // line
-        3 => 5,  // triangle
-        4 => 9,  // quad
-        6 => 22, // quadratic triangle
-        8 => 23, // quadratic quad
-        9 => 28, // biquadratic quad
-        _ => 7,  // polygon
-    }
 }
 
 impl Grid<'_> {
@@ -190,13 +202,19 @@ impl Grid<'_> {
         out += "</CellData>\n<Points>\n";
         array(&mut out, "Float64", "points", 3, self.points.iter().map(in_space));
         out += "</Points>\n<Cells>\n";
-        array(&mut out, "Int64", "connectivity", 1, self.cells.iter().flatten());
+        array(
+            &mut out,
+            "Int64",
+            "connectivity",
+            1,
+            self.cells.iter().flat_map(|cell| &cell.points),
+        );
         let ends = self.cells.iter().scan(0, |end, cell| {
-            *end += cell.len();
+            *end += cell.points.len();
             Some(*end)
         });
         array(&mut out, "Int64", "offsets", 1, ends);
-        array(&mut out, "UInt8", "types", 1, self.cells.iter().map(|cell| cell_type(cell.len())));
+        array(&mut out, "UInt8", "types", 1, self.cells.iter().map(|cell| cell.form as u8));
         out += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         out
     }

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
-use super::deformed::{SOIL, SURFACE, View, bounds, check_dimension, places};
+use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
 use super::shown::{Shown, shown};
 use super::svg::{Svg, changes, polygon};
 use super::text_width::{fitted, short, width};
+use super::view::View;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
@@ -28,8 +29,9 @@ const MOST_TIMES: usize = 150;
 /// surface of the soil, the contact mode of every element below it, a clock, and a bar with the scales of
 /// lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
-/// In plan the view is from the front, the right and above, with one scale for all lengths along the axes.
-/// The elements are drawn below the structure, and again in a small plan at the side, with x to the right.
+/// In plan the view is from the front, the right and above, with one scale for all lengths along the axes. Shells
+/// and sides of solids of a model in space hide most of what lies behind them. The elements are drawn below the
+/// structure, and again in a small plan at the side, with x to the right.
 ///
 /// Frames of contact are shown if there are as many as frames of motion.
 ///
@@ -54,32 +56,27 @@ pub fn animation(
     require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let in_plan = time_series.in_plan();
-    let view = if in_plan { View::Slanted } else { View::AlongY };
+    let view = View::whole(time_series.up());
     let seen = |frame| Ok(view.all(&places(shape, frame, magnification)?));
     let moved: Vec<Vec<[f64; 2]>> = frames.iter().map(seen).collect::<Result<_>>()?;
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
     let mut out = head(title);
-    let screen;
-    if in_plan {
-        let floor = Floor::new(time_series);
-        screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
-        out += &floor.draw(time_series, &screen, frames.len(), &duration);
-    } else {
-        screen = Screen::around(&moved, &[[moved[0][0][0], 0.0]]);
-        out += &screen.ground();
-        out += &base(time_series, &screen, frames.len(), &duration);
-    }
-    let paths: Vec<String> = moved.iter().map(|places| screen.path(shape, places)).collect();
-    let _ = writeln!(
-        out,
-        "<path fill=\"none\" stroke=\"#1f77b4\" stroke-width=\"1.2\" d=\"{}\">\
-         <animate attributeName=\"d\" dur=\"{duration}\" repeatCount=\"indefinite\" values=\"{}\"/>\
-         </path>",
-        paths[0],
-        paths.join(";")
-    );
+    let screen = match view {
+        View::Slanted => {
+            let floor = Floor::new(time_series);
+            let screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
+            out += &floor.draw(time_series, &screen, frames.len(), &duration);
+            screen
+        }
+        View::AlongX | View::AlongY => {
+            let screen = Screen::around(&moved, &[[moved[0][0][0], 0.0]]);
+            out += &screen.ground();
+            out += &base(time_series, &screen, frames.len(), &duration);
+            screen
+        }
+    };
+    out += &screen.structure(&view.far_to_near(shape), shape.has_faces(), &moved, &duration);
     out += &screen.bar(magnification);
     out += &clock(&times, &duration);
     Ok(Svg::new(out + "</svg>\n"))
@@ -113,11 +110,36 @@ impl Screen {
         ]
     }
 
+    /// The cells at all instants; those that are faces hide what was drawn before.
+    fn structure(
+        &self,
+        cells: &[&[usize]],
+        are_faces: bool,
+        moved: &[Vec<[f64; 2]>],
+        duration: &str,
+    ) -> String {
+        let (at_once, fill) = if are_faces { (1, "#fff") } else { (cells.len().max(1), "none") };
+        let mut out = format!(
+            "<g fill=\"{fill}\" fill-opacity=\"{OPACITY}\" stroke=\"#1f77b4\" stroke-width=\"1.2\" \
+             stroke-linejoin=\"round\">\n"
+        );
+        for cells in cells.chunks(at_once) {
+            let paths: Vec<String> = moved.iter().map(|places| self.path(cells, places)).collect();
+            let _ = writeln!(
+                out,
+                "<path d=\"{}\"><animate attributeName=\"d\" dur=\"{duration}\" \
+                 repeatCount=\"indefinite\" values=\"{}\"/></path>",
+                paths[0],
+                paths.join(";")
+            );
+        }
+        out + "</g>\n"
+    }
+
     /// Outlines of the cells as an SVG path, with the same commands for every frame.
-    fn path(&self, shape: &DeformedShape, places: &[[f64; 2]]) -> String {
+    fn path(&self, cells: &[&[usize]], places: &[[f64; 2]]) -> String {
         let mut path = String::new();
-        for cell in shape.cells() {
-            let corners = DeformedShape::corners(cell);
+        for corners in cells {
             for (k, &corner) in corners.iter().enumerate() {
                 let [x, y] = self.place(places[corner]);
                 let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });

@@ -189,6 +189,15 @@ pub(super) fn draw_curve(
     let pieces = points.split(|(x, y)| !(drawable(*x) && drawable(*y)));
     let lines = pieces.filter(|piece| !piece.is_empty());
     chart.draw_series(lines.map(|piece| PathElement::new(piece.to_vec(), style)))?;
+    draw_markers(chart, points, stroke)
+}
+
+/// The markers of a stroke along a curve, if it has any.
+pub(super) fn draw_markers(
+    chart: &mut Chart<'_, '_>,
+    points: &[(f64, f64)],
+    stroke: Stroke,
+) -> Drawing<()> {
     if let Some(marker) = stroke.marker {
         let places = stroke.marked(points.len()).map(|k| points[k]);
         let places = places.filter(|(x, y)| drawable(*x) && drawable(*y));

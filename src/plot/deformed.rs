@@ -1,55 +1,23 @@
-//! The structure at some instants, and the views in which it is drawn.
+//! The structure at some instants.
 
 use std::ops::Range;
 
-use super::axes::{Axis, LEFT, RIGHT, chart, draw_curve, drawable};
+use super::axes::{Axis, Chart, LEFT, RIGHT, chart, draw_curve, draw_markers, drawable};
 use super::drawing::{Area, Drawing, Stroke};
 use super::key::{Key, Sample};
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
+use super::view::View;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-/// Directions of view of a structure.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum View {
-    /// View along y: x to the right, height up.
-    AlongY,
-    /// View against x: y to the right, height up.
-    AlongX,
-    /// Isometric view from the front, the right and above.
-    ///
-    /// Towards the right, x falls and y rises by 30 degrees, all at one scale.
-    Slanted,
-}
-
-impl View {
-    /// Place in the picture of a point (x, height, y), m.
-    pub(super) fn project(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
-        match self {
-            Self::AlongY => [x, up],
-            Self::AlongX => [y, up],
-            Self::Slanted => [(x + y) * COS, up + (y - x) * SIN],
-        }
-    }
-
-    /// Places in the picture of all points.
-    pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
-        places.iter().map(|place| self.project(*place)).collect()
-    }
-}
-
-/// Cosine of 30 degrees.
-const COS: f64 = 0.866_025_403_784_438_6;
-const SIN: f64 = 0.5;
-
 /// Error if only one of shape and ground is in plan.
 pub(super) fn check_dimension(shape: &DeformedShape, time_series: &TimeSeries) -> Result<()> {
     let needed = "must be one in plan on a ground in plan, and one of the plane else";
-    require_part("deformed shape", shape.in_plan() == time_series.in_plan(), needed)
+    require_part("deformed shape", shape.up() == time_series.up(), needed)
 }
 
 /// Places of the points (x, height, y), m, with magnified displacements relative to the free field.
@@ -60,7 +28,7 @@ pub(super) fn places(
 ) -> Result<Vec<[f64; 3]>> {
     let moved = shape.displacements(frame.displacement)?;
     let place = |(point, u): (&ShapePoint, [f64; 3])| {
-        let at_rest = at_rest(point);
+        let at_rest = point.place();
         [0, 1, 2].map(|k| at_rest[k] + magnification * u[k])
     };
     let places: Vec<[f64; 3]> = shape.points().iter().zip(moved).map(place).collect();
@@ -68,11 +36,6 @@ pub(super) fn places(
         require("magnified coordinate", *value, drawable(*value), "below 1e60 m")?;
     }
     Ok(places)
-}
-
-fn at_rest(point: &ShapePoint) -> [f64; 3] {
-    let [x, height] = point.position;
-    [x, height, point.away]
 }
 
 /// Colours of the soil below its surface y = 0, and of the surface.
@@ -84,25 +47,37 @@ pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| span(places.iter().map(|place| place[axis])))
 }
 
-/// Outlines of a deformed shape's cells at these places in one list, separated by NaN.
-fn outlines(shape: &DeformedShape, places: &[[f64; 2]]) -> Vec<(f64, f64)> {
+/// Draws the cells of a shape at these places in a view; faces of elements hide those behind them.
+fn draw_shape(
+    chart: &mut Chart<'_, '_>,
+    shape: &DeformedShape,
+    (view, places): (View, &[[f64; 2]]),
+    stroke: Stroke,
+) -> Drawing<()> {
     let mut points = Vec::new();
-    for cell in shape.cells() {
-        let corners = DeformedShape::corners(cell);
-        points.extend(corners.iter().map(|&k| (places[k][0], places[k][1])));
-        if corners.len() > 2 {
-            points.push((places[corners[0]][0], places[corners[0]][1]));
+    for cell in view.far_to_near(shape) {
+        let mut outline: Vec<_> = cell.iter().map(|&k| (places[k][0], places[k][1])).collect();
+        if cell.len() > 2 {
+            if shape.has_faces() {
+                chart.draw_series([Polygon::new(outline.clone(), WHITE.mix(OPACITY))])?;
+            }
+            outline.push(outline[0]);
         }
+        draw_curve(chart, &outline, Stroke::plain(stroke.color), 1)?;
+        points.append(&mut outline);
         points.push((f64::NAN, f64::NAN));
     }
-    points
+    draw_markers(chart, &points, stroke)
 }
+
+/// Opacity of faces of elements.
+pub(super) const OPACITY: f64 = 0.8;
 
 /// Picture of the structure at rest and at some instants.
 ///
 /// The kept frames nearest to `times` (s) are drawn. Displacements are relative to the ground and multiplied
 /// by `magnification`, with one scale in both directions. In plan there are two views, along y on the left
-/// and against x on the right.
+/// and against x on the right. Shells and sides of solids of a model in space hide most of what lies behind them.
 ///
 /// # Errors
 /// [`Error::Scene`] if no motion was kept ([`crate::results::Recorder::motion`]), [`Error::Size`] without
@@ -125,46 +100,44 @@ pub fn deformed_shapes(
     let scale = format!("displacements × {}", short(magnification));
     let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
     let sheet = Sheet::new(title, Key::new(lines.chain(rest)));
-    let elevation = |view: View, room: [f64; 2]| {
+    let up = time_series.up();
+    let views = View::elevations(up);
+    // All views use the scale of the widest one.
+    let [all, height] = sheet.room();
+    let others = f64::from(LEFT + RIGHT) * (views.len() - 1) as f64;
+    let room = [(all - others) / views.len() as f64, height];
+    let elevation = |&view: &View| {
         let seen: Vec<Vec<[f64; 2]>> = drawn.iter().map(|(_, places)| view.all(places)).collect();
         let mut all = seen.concat();
         all.push([all[0][0], 0.0]);
         (view, ranges(bounds(&all), room), seen)
     };
-    let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
-        let name = if *view == View::AlongX { "y, m" } else { "x, m" };
-        let height = if time_series.in_plan() { "z, m" } else { "y, m" };
-        let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
-        let mut chart = chart(area, &axes.0, &axes.1, false)?;
-        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
-        chart.draw_series([soil])?;
-        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
-        for (k, places) in seen.iter().enumerate() {
-            draw_curve(&mut chart, &outlines(shape, places), stroke(k), 1)?;
-        }
-        Ok(())
-    };
-    if !time_series.in_plan() {
-        let one = elevation(View::AlongY, sheet.room());
-        return sheet.picture(|area| draw(area, &one));
-    }
-    // Both views use the scale of the wider one.
-    let [all, height] = sheet.room();
-    let room = [0.5 * (all - f64::from(LEFT + RIGHT)), height];
-    let mut both = [View::AlongY, View::AlongX].map(|view| elevation(view, room));
+    let mut elevations: Vec<Elevation> = views.iter().map(elevation).collect();
     let width = |own: &Elevation| own.1[0].end - own.1[0].start;
-    let widest = width(&both[0]).max(width(&both[1]));
-    for own in &mut both {
+    let widest = elevations.iter().map(width).fold(0.0, f64::max);
+    for own in &mut elevations {
         let ratio = widest / width(own);
         own.1 = own.1.clone().map(|Range { start, end }| {
             let (middle, half) = (middle([start, end]), 0.5 * ratio * (end - start));
             middle - half..middle + half
         });
     }
+    let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
+        let name = if *view == View::AlongX { "y, m" } else { "x, m" };
+        let height = ["x, m", "y, m", "z, m"][up];
+        let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
+        let mut chart = chart(area, &axes.0, &axes.1, false)?;
+        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
+        chart.draw_series([soil])?;
+        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
+        for (k, places) in seen.iter().enumerate() {
+            draw_shape(&mut chart, shape, (*view, places), stroke(k))?;
+        }
+        Ok(())
+    };
     sheet.picture(|area| {
-        let (left, right) = area.split_horizontally((50).percent_width());
-        draw(&left, &both[0])?;
-        draw(&right, &both[1])
+        let areas = area.split_evenly((1, elevations.len()));
+        areas.iter().zip(&elevations).try_for_each(|(area, own)| draw(area, own))
     })
 }
 
@@ -175,7 +148,7 @@ fn shapes_at(
     times: &[f64],
     magnification: f64,
 ) -> Result<Vec<(String, Vec<[f64; 3]>)>> {
-    let rest: Vec<[f64; 3]> = shape.points().iter().map(at_rest).collect();
+    let rest: Vec<[f64; 3]> = shape.points().iter().map(ShapePoint::place).collect();
     let mut shapes = vec![("at rest".to_owned(), rest)];
     for &time in times {
         finite("time of a deformed shape", time)?;

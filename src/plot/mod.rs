@@ -10,6 +10,7 @@
 //! | contact modes over base and time | [`mode_map`] |
 //! | largest, least and static pressure along the base; in plan the largest under each element | [`pressure_envelope`] |
 //! | pressure, uplift and sliding in plan at an instant | [`contact_plan`] |
+//! | one value for each shell of a mat, such as a bending moment | [`shell_plan`] |
 //! | terms of the energy balance over time | [`energy`] |
 //! | response spectra | [`spectra`] |
 //! | wave speeds and strains of a site over depth, and spectra | [`site_response`] |
@@ -31,6 +32,7 @@ mod animation;
 mod axes;
 mod base;
 mod base_axis;
+mod classes;
 mod deformed;
 mod drawing;
 mod key;
@@ -39,10 +41,12 @@ mod plan;
 #[cfg(feature = "png")]
 mod png;
 mod refinement;
+mod shells;
 mod shown;
 mod site_response;
 mod svg;
 mod text_width;
+mod view;
 
 pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
@@ -50,5 +54,6 @@ pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
 pub use plan::contact_plan;
 pub use refinement::refinement;
+pub use shells::shell_plan;
 pub use site_response::site_response;
 pub use svg::Svg;

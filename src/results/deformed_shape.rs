@@ -1,9 +1,8 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
-use std::collections::{BTreeSet, HashMap};
-
+use super::shape_cell::{ShapeCell, drawn_cells};
 use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
-use crate::fem::{Direction, Element, Mesh};
+use crate::fem::Direction;
 use crate::structure::{
     Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
 };
@@ -40,7 +39,12 @@ pub struct ShapePoint {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeformedShape {
     points: Vec<ShapePoint>,
+    /// Outlines to be drawn.
     cells: Vec<Vec<usize>>,
+    /// Cells for ParaView.
+    grid: Vec<ShapeCell>,
+    /// Whether cells of three and more points are faces of elements in space, which hide those behind them.
+    has_faces: bool,
 }
 
 impl DeformedShape {
@@ -69,32 +73,37 @@ impl DeformedShape {
                 in_bounds("point of a deformed shape's cell", *index, points.len())?;
             }
         }
-        Ok(Self { points, cells })
+        let grid = cells.iter().cloned().map(ShapeCell::flat).collect();
+        Ok(Self { points, cells, grid, has_faces: false })
     }
 
     /// Nodes and elements of a finite-element model.
     ///
-    /// In space solids are drawn by their outer sides.
+    /// Heights are measured from the nodes of the base. In space solids are drawn by their outer sides; files for
+    /// ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
         // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
-        let up = model.mesh().upwards();
+        let (up, surface) = (model.mesh().upwards(), model.base_height());
         let in_space = |node, [x, y, z]: [f64; 3]| {
             ShapePoint::in_space(
-                [x, y, z],
+                [x, y, z - surface],
                 [Direction::X, Direction::Y, up].map(|own| row(node, own)),
             )
         };
         let in_plane = |node, [x, y, _]: [f64; 3]| {
             let (horizontal, vertical) = (row(node, Direction::X), row(node, up));
-            ShapePoint { position: [x, y], horizontal, vertical, ..ShapePoint::default() }
+            let position = [x, y - surface];
+            ShapePoint { position, horizontal, vertical, ..ShapePoint::default() }
         };
         let point = |(node, place): (usize, &[f64; 3])| {
             if model.mesh().has_depth() { in_space(node, *place) } else { in_plane(node, *place) }
         };
         Self {
             points: model.mesh().nodes().iter().enumerate().map(point).collect(),
-            cells: cells(model.mesh()),
+            cells: drawn_cells(model.mesh()),
+            grid: ShapeCell::of_elements(model.mesh()),
+            has_faces: model.mesh().has_depth(),
         }
     }
 
@@ -222,10 +231,21 @@ impl DeformedShape {
         &self.cells
     }
 
-    /// Whether the shape moves along y too.
+    /// Cells for ParaView: for a model its elements, in the order of the mesh.
+    #[cfg(feature = "io")]
+    pub(crate) fn grid(&self) -> &[ShapeCell] {
+        &self.grid
+    }
+
+    /// Whether cells of three and more points hide those behind them.
     #[cfg(feature = "plot")]
-    pub(crate) fn in_plan(&self) -> bool {
-        self.points.iter().any(|point| !point.across.is_empty())
+    pub(crate) fn has_faces(&self) -> bool {
+        self.has_faces
+    }
+
+    /// Axis that points up: y (1) in the plane, z (2) if the shape moves along y too.
+    pub(crate) fn up(&self) -> usize {
+        1 + usize::from(self.points.iter().any(|point| !point.across.is_empty()))
     }
 
     /// Displacement of every point: [horizontal, up, along y].
@@ -265,6 +285,12 @@ impl ShapePoint {
         let [horizontal, across, vertical] = rows;
         Self { position: [x, height], horizontal, vertical, away, across }
     }
+
+    /// Place at rest (x, height, y), m.
+    pub(crate) fn place(&self) -> [f64; 3] {
+        let [x, height] = self.position;
+        [x, height, self.away]
+    }
 }
 
 impl BaseNode {
@@ -273,28 +299,6 @@ impl BaseNode {
         let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
         ShapePoint::in_space([self.x, self.y, 0.0], rows)
     }
-}
-
-/// Nodes of the elements of a mesh; for elements with faces in space, of the faces that no second element has.
-fn cells(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let cells = mesh.elements().map(|element| element.nodes().to_vec());
-    if !mesh.has_depth() {
-        return cells.collect();
-    }
-    let faces = |element: &dyn Element| -> Vec<Vec<usize>> {
-        element.faces().iter().map(|face| face.corners().to_vec()).collect()
-    };
-    let key = |corners: &[usize]| corners.iter().copied().collect::<BTreeSet<usize>>();
-    let mut counts: HashMap<_, usize> = HashMap::new();
-    for face in mesh.elements().flat_map(faces) {
-        *counts.entry(key(&face)).or_default() += 1;
-    }
-    let outer = mesh.elements().zip(cells).flat_map(|(element, cell)| match faces(element) {
-        own if own.is_empty() => vec![cell],
-        own if own.len() == 1 => own,
-        own => own.into_iter().filter(|face| counts[&key(face)] == 1).collect(),
-    });
-    outer.collect()
 }
 
 /// A polygon of points from `first` on; single lines if a cell of this many points would be curved.

@@ -94,6 +94,9 @@ impl ContactFrames {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct MotionFrames {
     pub(super) every: usize,
+    /// Static displacement of the degrees of freedom; empty after reading a file without it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub(super) static_displacement: Vec<f64>,
     times: Vec<f64>,
     displacement: Vec<f64>,
     velocity: Vec<f64>,
@@ -104,8 +107,9 @@ pub(super) struct MotionFrames {
 }
 
 impl MotionFrames {
-    pub(super) fn new(every: usize) -> Self {
-        Self { every, ..Self::default() }
+    pub(super) fn new(every: usize, static_displacement: &[f64]) -> Self {
+        let static_displacement = static_displacement.to_vec();
+        Self { every, static_displacement, ..Self::default() }
     }
 
     pub(super) fn keep(&mut self, state: &State) {
@@ -137,6 +141,7 @@ impl MotionFrames {
         self.every > 0
             && self.free_field.len() == self.times.len()
             && [0, self.times.len()].contains(&self.free_field_across.len())
+            && [0, count].contains(&self.static_displacement.len())
             && [self.displacement.len(), self.velocity.len()].map(Some) == [needed; 2]
     }
 
@@ -153,7 +158,8 @@ impl MotionFrames {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        8 * (4 * self.times.len() + self.displacement.len() + self.velocity.len())
+        let numbers = [&self.static_displacement, &self.displacement, &self.velocity].map(Vec::len);
+        8 * (4 * self.times.len() + numbers.iter().sum::<usize>())
     }
 }
 

@@ -73,6 +73,8 @@ mod frames;
 #[cfg(feature = "npz")]
 mod npz;
 mod recorder;
+#[cfg(any(feature = "io", feature = "plot"))]
+pub(crate) mod shape_cell;
 mod time_series;
 
 pub use crate::coupled::run::{

@@ -107,7 +107,9 @@ impl Recorder {
             probe_values: vec![Vec::new(); state.probes.len()],
             energy_balances: Vec::new(),
             contact: self.contact.map(ContactFrames::new),
-            motion: self.motion.map(MotionFrames::new),
+            motion: self
+                .motion
+                .map(|every| MotionFrames::new(every, simulation.static_displacement())),
             recorder: self,
         };
         series.keep(state);
@@ -272,6 +274,12 @@ impl TimeSeries {
         ContactLayout::for_elements(&self.elements).is_plan()
     }
 
+    /// Axis that points up: y (1) in the plane, z (2) on a ground in plan.
+    #[cfg(any(feature = "io", feature = "plot"))]
+    pub(crate) fn up(&self) -> usize {
+        ContactLayout::for_elements(&self.elements).axes().end
+    }
+
     /// Snapshots of the base; none unless [`Recorder::contact`] was set.
     pub fn contact_frames(&self) -> impl Iterator<Item = ContactFrame<'_>> {
         self.contact.iter().flat_map(|frames| frames.frames(self.elements.len()))
@@ -280,6 +288,13 @@ impl TimeSeries {
     /// Snapshots of the structure; none unless [`Recorder::motion`] was set.
     pub fn motion_frames(&self) -> impl Iterator<Item = MotionFrame<'_>> {
         self.motion.iter().flat_map(|frames| frames.frames(self.dofs))
+    }
+
+    /// Static displacement of the degrees of freedom, m and rad, which the frames of motion do not contain.
+    ///
+    /// As [`Simulation::static_displacement`]; empty unless [`Recorder::motion`] was set.
+    pub fn static_displacement(&self) -> &[f64] {
+        self.motion.as_ref().map_or(&[], |frames| &frames.static_displacement)
     }
 
     /// Memory that time series and frames use now, bytes.

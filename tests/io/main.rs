@@ -5,3 +5,4 @@ mod gmsh_files;
 mod gmsh_space;
 mod matrix_market;
 mod vtk;
+mod vtk_models;

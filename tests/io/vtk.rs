@@ -24,7 +24,7 @@ fn folder(name: &str) -> PathBuf {
 }
 
 /// Checks that tags are nested and closed; returns the arrays by name.
-fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
+pub(super) fn arrays(xml: &str) -> BTreeMap<String, Vec<f64>> {
     let mut open: Vec<String> = Vec::new();
     let mut found = BTreeMap::new();
     for piece in xml.trim_start_matches("<?xml version=\"1.0\"?>").split('<').skip(1) {

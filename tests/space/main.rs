@@ -11,6 +11,7 @@ mod interaction;
 mod limits;
 mod march;
 mod mast;
+mod model_pictures;
 mod motions;
 mod outlines;
 mod pictures;

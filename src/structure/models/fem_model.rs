@@ -225,6 +225,13 @@ impl FemModel {
         &self.mesh
     }
 
+    /// Height of the nodes of the base, m.
+    #[cfg(any(feature = "io", feature = "plot"))]
+    pub(crate) fn base_height(&self) -> f64 {
+        let foot = self.feet.iter().flatten().next();
+        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up()])
+    }
+
     /// The model with other links; base and axial forces of P–Δ follow.
     pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
         let linked = Self { links: Some(links), ..self };

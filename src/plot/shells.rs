@@ -1,0 +1,63 @@
+//! Values of shells on a plan, such as the bending moments of a mat.
+
+use super::classes::Classes;
+use super::key::Sample;
+use super::plan::{Cell, draw};
+use super::svg::Svg;
+use crate::error::{Error, Result, at_least, finite, in_bounds, require_part};
+use crate::fem::{Element, Mesh};
+use crate::geometry::span;
+
+/// Picture of one value for each shell of a mat, seen from above.
+///
+/// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
+/// the corners of a [`Shell`](crate::fem::Shell::resultants). `quantity` is their name with the unit, for the key. Every
+/// shell has the colour of its value, in classes on both sides of zero; other elements are not drawn.
+///
+/// ```
+/// use basemat::fem::{Material, Mesh, Shell};
+///
+/// let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+/// let mut mesh = Mesh::in_space();
+/// let mat = mesh.add_grid(3, 4, |row, column| [2.0 * column as f64, 2.0 * row as f64, 0.0])?;
+/// let mut moments = Vec::new();
+/// for (k, (_, cell)) in mat.cells().enumerate() {
+///     moments.push((mesh.add(Shell::new(cell, concrete, 0.6)?)?, 25.0 * k as f64 - 50.0));
+/// }
+/// let picture = basemat::plot::shell_plan("Mat", "m_x, kNm/m", &mesh, &moments)?;
+/// assert!(picture.as_str().contains("m_x, kNm/m") && picture.as_str().contains("-40 to -20"));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Scene`] for a mesh in the plane; [`Error::Size`] without values; [`Error::Index`] for an element that does
+/// not exist; [`Error::Part`] for an element that is not a shell; [`Error::Input`] and [`Error::NotFinite`] for a value
+/// that is not finite.
+pub fn shell_plan(
+    title: &str,
+    quantity: &str,
+    mesh: &Mesh,
+    values: &[(usize, f64)],
+) -> Result<Svg> {
+    require_part("plan of shells", mesh.has_depth(), "a mesh in space")?;
+    at_least("values of shells", values.len(), 1)?;
+    for &(_, value) in values {
+        finite("value of a shell", value)?;
+    }
+    let classes = Classes::between(span(values.iter().map(|own| own.1).chain([0.0])));
+    let cell = |&(index, value): &(usize, f64)| {
+        let count = mesh.elements().len();
+        in_bounds("element of the mesh", index, count)?;
+        let faces = mesh.elements().nth(index).map_or_else(Vec::new, Element::faces);
+        let [shell] = &faces[..] else {
+            return Err(Error::part(format!("element {index}"), "it is not a shell".to_owned()));
+        };
+        let corner = |&node: &usize| (mesh.nodes()[node][0], mesh.nodes()[node][1]);
+        let corners = shell.corners().iter().map(corner).collect();
+        Ok(Cell { corners, color: classes.color(value), slides: None })
+    };
+    let cells = values.iter().map(cell).collect::<Result<Vec<_>>>()?;
+    let mut key = vec![(quantity.to_owned(), Sample::Nothing)];
+    key.append(&mut classes.key(1.0, ""));
+    draw(title, &cells, &key)
+}

@@ -1,0 +1,71 @@
+//! Views of a structure: directions, places in the picture, and the order of cells that hide each other.
+
+use crate::results::DeformedShape;
+
+/// Directions of view of a structure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum View {
+    /// View along y: x to the right, height up.
+    AlongY,
+    /// View against x: y to the right, height up.
+    AlongX,
+    /// Isometric view from the front, the right and above.
+    ///
+    /// Towards the right, x falls and y rises by 30 degrees, all at one scale.
+    Slanted,
+}
+
+impl View {
+    /// Elevations of a structure whose axis `up` points up: one for each axis of the surface.
+    pub(super) fn elevations(up: usize) -> &'static [Self] {
+        &[Self::AlongY, Self::AlongX][..up]
+    }
+
+    /// One view of a structure whose axis `up` points up, with all axes of the surface in it.
+    pub(super) fn whole(up: usize) -> Self {
+        [Self::AlongY, Self::Slanted][up - 1]
+    }
+
+    /// Place in the picture of a point (x, height, y), m.
+    pub(super) fn project(self, [x, up, y]: [f64; 3]) -> [f64; 2] {
+        match self {
+            Self::AlongY => [x, up],
+            Self::AlongX => [y, up],
+            Self::Slanted => [(x + y) * COS, up + (y - x) * SIN],
+        }
+    }
+
+    /// Places in the picture of all points.
+    pub(super) fn all(self, places: &[[f64; 3]]) -> Vec<[f64; 2]> {
+        places.iter().map(|place| self.project(*place)).collect()
+    }
+
+    /// Distance of a point (x, height, y) from the origin towards the viewer.
+    fn nearness(self, [x, up, y]: [f64; 3]) -> f64 {
+        match self {
+            Self::AlongY => -y,
+            Self::AlongX => x,
+            Self::Slanted => x - y + up,
+        }
+    }
+
+    /// Cells of a shape, the farthest from the viewer first: each hides those before it.
+    ///
+    /// Distances are means of the corners at rest. A shape without faces keeps its order.
+    pub(super) fn far_to_near(self, shape: &DeformedShape) -> Vec<&[usize]> {
+        let cells = shape.cells().iter().map(|cell| DeformedShape::corners(cell));
+        let mut cells: Vec<&[usize]> = cells.collect();
+        let near = |cell: &&[usize]| {
+            let corners = cell.iter().map(|&corner| self.nearness(shape.points()[corner].place()));
+            corners.sum::<f64>() / cell.len() as f64
+        };
+        if shape.has_faces() {
+            cells.sort_by(|a, b| near(a).total_cmp(&near(b)));
+        }
+        cells
+    }
+}
+
+/// Cosine and sine of 30 degrees.
+const COS: f64 = 0.866_025_403_784_438_6;
+const SIN: f64 = 0.5;

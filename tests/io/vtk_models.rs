@@ -1,0 +1,145 @@
+//! Models in space as ParaView's cells: bricks, shells, bars, masses, and a solid of another form.
+
+use std::path::Path;
+
+use basemat::bem::SpringGround;
+use basemat::fem::{
+    BeamSection, Direction, Element, ElementFace, Hex8, LumpedMass, MassKind, Material, Mesh,
+    Shell, SpaceBeam,
+};
+use basemat::interface::Bonded;
+use basemat::io::paraview;
+use basemat::motion::{Triaxial, el_centro_1940};
+use basemat::results::{DeformedShape, Recorder};
+use basemat::structure::{FemModel, Structure};
+use basemat::{Error, Simulation};
+
+use super::vtk::arrays;
+
+/// A weightless tetrahedron without stiffness.
+struct Tetrahedron([usize; 4]);
+
+impl Element for Tetrahedron {
+    fn nodes(&self) -> &[usize] {
+        &self.0
+    }
+    fn directions(&self) -> &[Direction] {
+        &[Direction::X, Direction::Y, Direction::Z]
+    }
+    fn stiffness(&self, _: &[[f64; 3]], _: &mut [f64]) {}
+    fn mass(&self, _: &[[f64; 3]], _: MassKind, _: &mut [f64]) {}
+    fn faces(&self) -> Vec<ElementFace> {
+        let [a, b, c, d] = self.0;
+        [[a, c, b], [a, b, d], [b, c, d], [c, a, d]].map(|side| ElementFace::side(&side)).to_vec()
+    }
+}
+
+/// Two bricks on the ground at z = 5, the second one lying on its side; on them a slab, a wall, a column with a rigid
+/// arm, and a tetrahedron. Nodes: bottom 0 to 5, top 6 to 11, wall 12 and 13, head 14, arm 15, tip 16.
+fn model() -> FemModel {
+    let concrete = Material::new(30.0e9, 0.2, 2400.0).unwrap();
+    let mut mesh = Mesh::in_space();
+    let grid = mesh.add_grid(2, 3, |i, j| [2.0 * j as f64, 3.0 * i as f64, 5.0]).unwrap();
+    let bricks = grid.extrude(&mut mesh, &[1.0]).unwrap();
+    let [a, b, c, d, e, f, g, h] = bricks[1];
+    mesh.add(Hex8::new(bricks[0], concrete)).unwrap();
+    mesh.add(Hex8::new([a, d, h, e, b, c, g, f], concrete)).unwrap();
+    mesh.add(Shell::new(vec![6, 7, 10, 9], concrete, 0.4).unwrap()).unwrap();
+    for x in [0.0, 2.0] {
+        mesh.add_node_at([x, 0.0, 9.0]).unwrap();
+    }
+    mesh.add(Shell::new(vec![6, 7, 13, 12], concrete, 0.4).unwrap()).unwrap();
+    mesh.add(Shell::new(vec![7, 8, 13], concrete, 0.4).unwrap()).unwrap();
+    let head = mesh.add_node_at([0.0, 3.0, 10.0]).unwrap();
+    let arm = mesh.add_node_at([1.0, 2.0, 10.5]).unwrap();
+    let section = BeamSection::new(0.16, [2.1e-3, 2.1e-3], 3.6e-3).unwrap();
+    mesh.add(SpaceBeam::new([9, head], concrete, section, [1.0, 0.0, 0.0]).unwrap()).unwrap();
+    mesh.add(LumpedMass::in_space(arm, 2.0e4, [1.0e4; 3]).unwrap()).unwrap();
+    let tip = mesh.add_node_at([0.5, 0.5, 7.0]).unwrap();
+    mesh.add(Tetrahedron([6, 7, 9, tip])).unwrap();
+    let foot = SpaceBeam::new([6, tip], concrete, section, [1.0, 0.0, 0.0]).unwrap();
+    mesh.add(foot).unwrap();
+    FemModel::on_base(mesh).unwrap().with_rigid_link(head, &[arm]).unwrap()
+}
+
+/// Volume of a brick of VTK: positive if its second side lies where the first one faces, counter-clockwise.
+fn volume(points: &[[f64; 3]]) -> f64 {
+    let along = |a: usize, b: usize| [0, 1, 2].map(|k| points[b][k] - points[a][k]);
+    let ([a, b, c], [d, e, f], [g, h, i]) = (along(0, 1), along(0, 3), along(0, 4));
+    a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+}
+
+#[test]
+fn a_model_in_space_is_written_by_its_elements() {
+    let model = model();
+    let shape = DeformedShape::of_model(&model);
+    let ground = SpringGround::under(&model, 2, 4e7, 3e7).unwrap();
+    let motion = Triaxial { x: Some(el_centro_1940()), ..Triaxial::default() };
+    let mut simulation = Simulation::builder(0.01)
+        .structure(model.clone())
+        .ground(ground)
+        .interface(Bonded)
+        .motion(motion)
+        .build()
+        .unwrap();
+    let rest = simulation.static_displacement().to_vec();
+    let mut series = Recorder::new().motion(20).start(&simulation).unwrap();
+    simulation.run(20, |state| series.record(state)).unwrap();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("vtk_model");
+    assert_eq!(paraview::write_series(&folder, "model", &shape, &series), Ok(2));
+    let read = |name: &str| arrays(&std::fs::read_to_string(folder.join(name)).unwrap());
+    let grid = read("model_0001.vtu");
+
+    // Cells of the elements in their order, by vtkCellType.h.
+    assert_eq!(grid["types"], [12.0, 12.0, 9.0, 9.0, 5.0, 3.0, 1.0, 41.0, 3.0]);
+    assert_eq!(grid["offsets"], [8.0, 16.0, 20.0, 24.0, 27.0, 29.0, 30.0, 34.0, 36.0]);
+    let points: Vec<[f64; 3]> =
+        grid["points"].chunks(3).map(|own| own.try_into().unwrap()).collect();
+    let nodes = model.mesh().nodes();
+    assert!(points.iter().zip(nodes).all(|(own, [x, y, z])| *own == [*x, *y, z - 5.0]));
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "indices")]
+    let cells: Vec<usize> = grid["connectivity"].iter().map(|own| *own as usize).collect();
+    assert_eq!(cells[..8], [0, 1, 4, 3, 6, 7, 10, 9]);
+    for brick in [&cells[..8], &cells[8..16]] {
+        let corners: Vec<[f64; 3]> = brick.iter().map(|&corner| points[corner]).collect();
+        assert!((volume(&corners) - 2.0 * 3.0).abs() < 1e-12, "{brick:?}");
+        // Both sides run the same way round.
+        for k in 0..4 {
+            let edge = |k: usize| [0, 1, 2].map(|a| corners[k + 4][a] - corners[k][a]);
+            assert_eq!(edge(k), edge(0));
+        }
+    }
+    let others = [6, 7, 10, 9, 6, 7, 13, 12, 7, 8, 13, 9, 14, 15, 6, 7, 9, 16, 6, 16];
+    assert_eq!(cells[16..], others);
+
+    // Nodes move by their degrees of freedom; the arm by u + θ × d with its head.
+    let frame = series.motion_frames().nth(1).unwrap();
+    for (name, values) in [
+        ("displacement", frame.displacement),
+        ("velocity", frame.velocity),
+        ("static_displacement", &rest[..]),
+    ] {
+        assert!(values.iter().any(|value| value.abs() > 1e-6), "{name}");
+        let of = |node, own| values[model.dof(node, own).unwrap()];
+        let moved = |node| [Direction::X, Direction::Y, Direction::Z].map(|own| of(node, own));
+        for node in (0..17).filter(|node| *node != 15) {
+            assert_eq!(grid[name][3 * node..3 * node + 3], moved(node), "{name} {node}");
+        }
+        let [u, v, w] = moved(14);
+        let [a, b, c] = [Direction::RotationX, Direction::RotationY, Direction::RotationZ]
+            .map(|own| of(14, own));
+        let (dx, dy, dz) = (1.0, -1.0, 0.5);
+        let arm = [u + b * dz - c * dy, v + c * dx - a * dz, w + a * dy - b * dx];
+        for (found, exact) in grid[name][45..48].iter().zip(arm) {
+            assert!((found - exact).abs() < 1e-15, "{name}");
+        }
+    }
+
+    // One state alone.
+    paraview::write_state(folder.join("rest.vtu"), &shape, &rest).unwrap();
+    let alone = read("rest.vtu");
+    assert_eq!(alone["displacement"], grid["static_displacement"]);
+    assert_eq!(alone["connectivity"], grid["connectivity"]);
+    let short = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..model.dofs() - 1]);
+    assert!(matches!(short, Err(Error::Index { .. })), "{short:?}");
+}
