@@ -81,7 +81,7 @@ pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries
 /// [`Error::Index`](crate::Error::Index) if `shape` has degrees of freedom beyond `dofs`;
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
 pub fn write_state(path: impl AsRef<Path>, shape: &DeformedShape, dofs: &[f64]) -> Result<()> {
-    write_file(path.as_ref(), structure(shape, &[("displacement", dofs)])?)
+    write_file(path.as_ref(), structure(shape, shape.up(), &[("displacement", dofs)])?)
 }
 
 fn write(
@@ -103,7 +103,7 @@ fn write(
         let rates = [("displacement", frame.displacement), ("velocity", frame.velocity)];
         let known = [rest].into_iter().filter(|(_, dofs)| !dofs.is_empty());
         let vectors: Vec<_> = rates.into_iter().chain(known).collect();
-        write_file(&folder.join(&file), structure(shape, &vectors)?)?;
+        write_file(&folder.join(&file), structure(shape, time_series.up(), &vectors)?)?;
         entries.push((frame.time, 0, file));
     }
     let mut corners = 0..;
@@ -129,8 +129,12 @@ fn shown(up: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
 }
 
 /// A grid of the structure with the displacements of its points by these values of the degrees of freedom.
-fn structure(shape: &DeformedShape, vectors: &[(&'static str, &[f64])]) -> Result<String> {
-    let turned = |[right, up, away]: [f64; 3]| shown(shape.up(), [right, away, up]);
+fn structure(
+    shape: &DeformedShape,
+    up: usize,
+    vectors: &[(&'static str, &[f64])],
+) -> Result<String> {
+    let turned = |[right, height, away]: [f64; 3]| shown(up, [right, away, height]);
     let vectors = vectors.iter().map(|&(name, dofs)| {
         Ok((name, shape.displacements(dofs)?.into_iter().map(turned).collect()))
     });
