@@ -240,7 +240,11 @@ fn multiples(range: &Range<f64>, count: usize) -> (f64, Vec<f64>) {
 
 /// Marks at multiples of 1, 2 or 5 times a power of ten, at most about `count`.
 pub(super) fn linear(range: &Range<f64>, count: usize) -> Ticks {
-    let (step, places) = multiples(range, count);
+    let (mut step, mut places) = multiples(range, count);
+    if places.len() < 2 {
+        // One mark alone shows no scale.
+        (step, places) = multiples(range, 3 * count);
+    }
     let write = |values: &[f64]| values.iter().map(|v| number(*v, step)).collect::<Vec<_>>();
     let (mut names, mut offset) = (write(&places), None);
     if names.iter().any(|name| name.chars().count() > LETTERS) {
@@ -330,6 +334,12 @@ mod tests {
         expected(100.000_01..100.000_02, &tiny, Some("100.000010"));
         expected(1e6..1e6 + 4.0, &["1000000", "1000001", "1000002", "1000003", "1000004"], None);
         expected(0.0..3e6, &["0", "1e6", "2e6", "3e6"], None);
+        // Steps of five would leave one mark.
+        let four = linear(&(-4.8..4.8), 4).marks;
+        assert_eq!(
+            four.iter().map(|mark| mark.0).collect::<Vec<_>>(),
+            [-4.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 4.0]
+        );
         expected(-2e-9..2e-9, &["-2e-9", "-1e-9", "0", "1e-9", "2e-9"], None);
         for range in [-1e60..1e60, 1e-60..3e-60, 1e12..1e12 + 2000.0, -1e-300..2e59] {
             let (mut list, _) = names(range.clone());
