@@ -11,8 +11,9 @@ use crate::geometry::span;
 /// Picture of one value for each shell of a mat, seen from above.
 ///
 /// `values` are pairs of an element of the mesh, by its index, and its value, such as the mean of a bending moment over
-/// the corners of a [`Shell`](crate::fem::Shell::resultants). `quantity` is their name with the unit, for the key. Every
-/// shell has the colour of its value, in classes on both sides of zero; other elements are not drawn.
+/// its corners ([`FemModel::shell_resultants`](crate::structure::FemModel::shell_resultants)). `quantity` is their name
+/// with the unit, for the key. Every shell has the colour of its value, in classes on both sides of zero; other elements
+/// are not drawn.
 ///
 /// ```
 /// use basemat::fem::{Material, Mesh, Shell};
@@ -31,8 +32,7 @@ use crate::geometry::span;
 ///
 /// # Errors
 /// [`Error::Scene`] for a mesh in the plane; [`Error::Size`] without values; [`Error::Index`] for an element that does
-/// not exist; [`Error::Part`] for an element that is not a shell; [`Error::Input`] and [`Error::NotFinite`] for a value
-/// that is not finite.
+/// not exist; [`Error::Part`] for an element that is not a shell; [`Error::Input`] for a value that is not finite.
 pub fn shell_plan(
     title: &str,
     quantity: &str,
