@@ -11,7 +11,7 @@ use basemat::interface::Bonded;
 use basemat::io::paraview;
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::{DeformedShape, Recorder};
-use basemat::structure::{FemModel, Structure};
+use basemat::structure::FemModel;
 use basemat::{Error, Simulation};
 
 use super::vtk::arrays;
@@ -140,6 +140,6 @@ fn a_model_in_space_is_written_by_its_elements() {
     let alone = read("rest.vtu");
     assert_eq!(alone["displacement"], grid["static_displacement"]);
     assert_eq!(alone["connectivity"], grid["connectivity"]);
-    let short = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..model.dofs() - 1]);
+    let short = paraview::write_state(folder.join("no.vtu"), &shape, &rest[..10]);
     assert!(matches!(short, Err(Error::Index { .. })), "{short:?}");
 }
