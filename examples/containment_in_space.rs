@@ -9,7 +9,7 @@
 //! the raft.
 //! The moment falls with the size of the cells: 3.9, 3.7 and 3.5 MNm/m on 132, 216 and 332 cells.
 
-use basemat::fem::{Material, Mesh, Shell};
+use basemat::fem::{Material, Mesh};
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::results::Extremes;
@@ -41,11 +41,11 @@ fn containment() -> basemat::Result<(FemModel, Vec<usize>)> {
     }));
     let mut mesh = Mesh::in_space();
     let surface = mesh.revolve([0.0; 2], &meridian, SECTORS)?;
+    let thickness = |row| THICKNESS[usize::from(row >= raft) + usize::from(row >= raft + wall)];
     let mut raft_shells = Vec::new();
-    for (row, cell) in surface.cells() {
-        let place = usize::from(row >= raft) + usize::from(row >= raft + wall);
-        let element = mesh.add(Shell::new(cell, concrete, THICKNESS[place])?)?;
-        if place == 0 {
+    for (shell, (row, _)) in surface.shells(concrete, thickness)?.into_iter().zip(surface.cells()) {
+        let element = mesh.add(shell)?;
+        if row < raft {
             raft_shells.push(element);
         }
     }
