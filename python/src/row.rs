@@ -1,6 +1,6 @@
 //! Weighted sums of degrees of freedom.
 
-use basemat::structure::{DofCombination, SectionRows};
+use basemat::structure::{DofCombination, SectionRows, SpaceSection};
 use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
@@ -116,6 +116,18 @@ impl From<SectionRows> for PySectionRows {
     fn from(rows: SectionRows) -> Self {
         Self(rows, Order::default())
     }
+}
+
+/// Rows of the six resultants of a cut in space.
+pub(crate) fn six(section: SpaceSection) -> [PySectionRows; 6] {
+    let SpaceSection {
+        shear: [along, across],
+        compression,
+        moments: [about_x, about_y],
+        torque,
+        ..
+    } = section;
+    [along, across, compression, about_x, about_y, torque].map(PySectionRows::from)
 }
 
 #[pymethods]

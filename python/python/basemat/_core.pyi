@@ -88,6 +88,10 @@ _Spring: TypeAlias = Union[
     tuple[_RowLike, Union["Hysteresis", UserHysteresis]],
     tuple[_RowLike, _RowLike, "Hysteresis"],
 ]
+_GmshPart: TypeAlias = Union[
+    "Material", tuple["Material", float], tuple["Material", "BeamSection", Sequence[float]], None
+]
+_ShellAxes: TypeAlias = Union[ArrayLike, Callable[[float, float, float], ArrayLike]]
 _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
 
@@ -2360,6 +2364,11 @@ class StoreyBuilding(Structure):
         """The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
         what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
         """
+    def section(self, storey: int, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
+        """The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+        and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
+        inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
+        """
 
 @final
 class RayleighDamping:
@@ -2545,6 +2554,14 @@ class FemModel(Structure):
         ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
         ``reference`` is 0 by default.
         """
+    def section_in_space(self, height: float, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
+        """The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+        and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
+
+        Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
+        element may cross the cut; elements that lie in it count as below. To include the weight above, add the
+        acceleration of gravity to the vertical accelerations.
+        """
     def pressure_row(self, nodes: Sequence[int]) -> DofCombination:
         """The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
         row of a :class:`Load`, whose forces are then pressures (Pa).
@@ -2555,6 +2572,72 @@ class FemModel(Structure):
         """
     def buckling_factor(self) -> float:
         """Factor on the axial forces of its static state at which it buckles."""
+    def shell_resultants(self, element: int, displacement: ArrayLike) -> list[ShellResultants]:
+        """The :class:`ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
+        degrees of freedom, ``displacement`` (array of shape (n,), m and rad).
+
+        The ``displacement`` of a state is the change from the ``static_displacement`` of the simulation.
+        """
+    def shell_rows(self, elements: Sequence[int], axes: _ShellAxes) -> list[ShellRows]:
+        """The :class:`ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
+        nodes: means over these shells. Give the shells of one mat or one wall.
+
+        ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
+        part of the first in the plane of a shell, and the normal n is on the side of the second.
+        """
+
+@final
+class ShellResultants:
+    """Forces and moments of a shell at a point, per metre of width, in its :attr:`axes`: from
+    :meth:`FemModel.shell_resultants` and :meth:`ShellRows.value`.
+    """
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors e1, e2 and n, the normal of the element, as rows: array of shape (3, 3), numbers without unit."""
+    @property
+    def membrane(self) -> NDArray[np.float64]:
+        """Membrane forces n_11, n_22 and n_12: array of shape (3,), N/m; tension is positive."""
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """Moments m_11, m_22 and m_12: array of shape (3,), N·m/m; positive with tension on the side of −n."""
+    @property
+    def principal_moments(self) -> NDArray[np.float64]:
+        """Larger and smaller principal moment: array of shape (2,), N·m/m."""
+    @property
+    def shears(self) -> NDArray[np.float64]:
+        """Shear forces q_1 and q_2: array of shape (2,), N/m; on a section whose outward normal is e1 or e2, along n."""
+    def in_axes(self, along: Sequence[float], outward: Sequence[float]) -> ShellResultants:
+        """The same forces and moments in other axes: e1 is the part of the vector ``along`` in the plane of the element, n the
+        normal on the side of the vector ``outward`` (x, y and z, of any length).
+        """
+
+@final
+class ShellRows:
+    """Forces and moments of shells per metre at a node, as rows of displacements for :meth:`Probe.section`: from
+    :meth:`FemModel.shell_rows`.
+
+    A probe records changes from the static state, whose part is the :meth:`value` of the ``static_displacement`` of the
+    simulation. The rows contain the elastic forces, without damping.
+    """
+
+    @property
+    def node(self) -> int:
+        """Number of the node."""
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors e1, e2 and n as rows, means of the elements' axes: array of shape (3, 3), numbers without unit."""
+    @property
+    def membrane(self) -> list[SectionRows]:
+        """Three :class:`SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive."""
+    @property
+    def moments(self) -> list[SectionRows]:
+        """Three :class:`SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n."""
+    @property
+    def shears(self) -> list[SectionRows]:
+        """Two :class:`SectionRows` of the shear forces q_1 and q_2, N/m."""
+    def value(self, displacement: ArrayLike) -> ShellResultants:
+        """The :class:`ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
 
 @final
 class GmshMesh:
@@ -2582,6 +2665,32 @@ class GmshMesh:
     def foundations(self, name: str) -> list[list[int]]:
         """Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
         :class:`FemModel`.
+        """
+
+@final
+class GmshSpaceMesh:
+    """A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (format 4.1, ASCII) at
+    ``path``.
+    """
+
+    def __new__(cls, path: str | os.PathLike[str]) -> Self: ...
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """Places of the nodes: array of shape (nodes, 3), m. A :meth:`mesh` has the same nodes with the same numbers."""
+    def groups(self, dimension: int) -> list[str]:
+        """List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes."""
+    def cells(self, dimension: int, name: str) -> list[list[int]]:
+        """Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for :meth:`groups`): a list of
+        lists. Surfaces are faces for the ``contact`` of a :class:`FemModel`, points the places of masses, loads and probes.
+        """
+    def mesh(self, parts: Mapping[str, _GmshPart]) -> Mesh:
+        """The elements of the groups as a :class:`Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
+        :meth:`Mesh.from_arrays`.
+
+        The part of volumes is a :class:`Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
+        ``(material, section, orientation)`` as in :meth:`Mesh.add_space_beams`; None leaves a group out. Lines and
+        surfaces that are sides of other elements need no part. Triangles match the sides that they share with
+        quadrilaterals. :attr:`Mesh.elements` leads from the nodes of :meth:`cells` to the numbers of elements.
         """
 
 @disjoint_base
@@ -2916,6 +3025,9 @@ class Mesh:
     @property
     def nodes(self) -> NDArray[np.float64]:
         """Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m."""
+    @property
+    def elements(self) -> list[list[int]]:
+        """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
         """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
         ``z`` is 0 by default.

@@ -31,6 +31,7 @@ _RETURNING = (
     (_core.SoilColumn, "equivalent_linear"),
     (_core.EquivalentLinear, "profile"),
     (_core.GmshMesh, "mesh"),
+    (_core.GmshSpaceMesh, "mesh"),
 )
 """Methods that return descriptions."""
 

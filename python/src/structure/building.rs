@@ -17,7 +17,7 @@ use crate::dof_names::DofNames;
 use crate::error::{OrRaise, WithGiven, refuse};
 use crate::names::choice;
 use crate::recipe::{Make, Recipe};
-use crate::row::{PyDofCombination, PySectionRows, rows};
+use crate::row::{PyDofCombination, PySectionRows, rows, six};
 use crate::several::Several;
 
 /// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
@@ -324,5 +324,13 @@ impl PyStoreyBuilding {
     /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
         Ok(self.made()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
+    }
+
+    /// The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+    /// and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
+    /// inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
+    #[pyo3(signature = (storey, reference=[0.0; 2]), text_signature = "($self, storey, reference=(0.0, 0.0))")]
+    fn section(&self, storey: Count, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
+        Ok(six(self.made()?.section(storey.0, reference).or_raise()?))
     }
 }

@@ -17,7 +17,7 @@ use super::mesh::{PyMesh, direction};
 use crate::array::{Array, Count, whole};
 use crate::error::{OrRaise, WithGiven};
 use crate::recipe::Shared;
-use crate::row::{PyDofCombination, PySectionRows};
+use crate::row::{PyDofCombination, PySectionRows, six};
 
 /// A finite-element structure.
 ///
@@ -128,6 +128,17 @@ impl PyFemModel {
         let section = self.0.section(height, reference).or_raise()?;
         let rows = [section.shear, section.compression, section.moment];
         PyTuple::new(py, rows.map(PySectionRows::from))
+    }
+
+    /// The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+    /// and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
+    ///
+    /// Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
+    /// element may cross the cut; elements that lie in it count as below. To include the weight above, add the
+    /// acceleration of gravity to the vertical accelerations.
+    #[pyo3(signature = (height, reference=[0.0; 2]), text_signature = "($self, height, reference=(0.0, 0.0))")]
+    fn section_in_space(&self, height: f64, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
+        Ok(six(self.0.section_in_space(height, reference).or_raise()?))
     }
 
     /// The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the

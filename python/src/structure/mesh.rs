@@ -279,6 +279,12 @@ impl PyMesh {
         self.add_all(all.map(|own| Ok(Quad4::new(own, material.0, formulation))))
     }
 
+    /// Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists.
+    #[getter]
+    fn elements(&self) -> Vec<&[usize]> {
+        self.0.elements().map(Element::nodes).collect()
+    }
+
     /// Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
     /// ``z`` is 0 by default.
     #[pyo3(signature = (x, y, z=0.0))]

@@ -7,12 +7,14 @@ mod composed;
 mod connectivity;
 mod dof_combination;
 mod fem;
+mod gmsh_space;
 mod grid;
 mod hysteresis;
 mod in_space;
 mod material;
 mod matrices;
 mod mesh;
+mod shells;
 mod superclass;
 
 pub(crate) use beam_section::PyBeamSection;
@@ -22,6 +24,7 @@ pub(crate) use composed::{
     PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
 };
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
+pub(crate) use gmsh_space::PyGmshSpaceMesh;
 pub(crate) use grid::PyGrid;
 pub(crate) use hysteresis::{
     PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,
@@ -29,4 +32,5 @@ pub(crate) use hysteresis::{
 pub(crate) use material::{PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::PyMesh;
+pub(crate) use shells::{PyShellResultants, PyShellRows};
 pub(crate) use superclass::{PyStructure, made, recipe};

@@ -1,0 +1,91 @@
+//! Meshes in space from Gmsh.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use basemat::io::{GmshPart, GmshSpaceMesh};
+use pyo3::PyClass;
+use pyo3::prelude::*;
+
+use super::beam_section::PyBeamSection;
+use super::material::PyMaterial;
+use super::mesh::PyMesh;
+use crate::array::{Count, Rows, real};
+use crate::error::OrRaise;
+use crate::several::no_such;
+
+/// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (format 4.1, ASCII) at
+/// ``path``.
+#[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
+pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
+
+/// Part of a group as Python gives it.
+struct Part(GmshPart);
+
+extracts!(Part, object => {
+    if object.is_none() {
+        return Ok(Self(GmshPart::LeftOut));
+    }
+    if let Ok(material) = object.cast::<PyMaterial>() {
+        return Ok(Self(GmshPart::Solid(material.get().0)));
+    }
+    let entries = object.try_iter().and_then(Iterator::collect::<PyResult<Vec<_>>>);
+    let part = match entries.unwrap_or_default().as_slice() {
+        [material, thickness] => {
+            GmshPart::Shell(own::<PyMaterial>(material)?.get().0, real("thickness", thickness)?)
+        }
+        [material, section, orientation] => {
+            let (material, section) = (own::<PyMaterial>(material)?, own::<PyBeamSection>(section)?);
+            GmshPart::Beam(material.get().0, section.get().0, orientation.extract()?)
+        }
+        _ => {
+            let needed = "a Material, (material, thickness), (material, section, orientation) or None";
+            return Err(no_such(&object, needed));
+        }
+    };
+    Ok(Self(part))
+});
+
+/// An entry of a part, of the class `T`.
+fn own<'a, 'py, T: PyClass>(entry: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, T>> {
+    let name = T::type_object(entry.py()).name()?;
+    entry.cast::<T>().map_err(|_| no_such(entry, &format!("a {name}")))
+}
+
+#[pymethods]
+impl PyGmshSpaceMesh {
+    #[new]
+    fn new(path: PathBuf) -> PyResult<Self> {
+        Ok(Self(GmshSpaceMesh::read(path).or_raise()?))
+    }
+
+    /// Places of the nodes: array of shape (nodes, 3), m. A :meth:`mesh` has the same nodes with the same numbers.
+    #[getter]
+    fn nodes(&self) -> Rows {
+        Rows(self.0.nodes().iter().map(|place| place.to_vec()).collect())
+    }
+
+    /// List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes.
+    fn groups(&self, dimension: Count) -> Vec<&str> {
+        self.0.groups(dimension.0)
+    }
+
+    /// Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for :meth:`groups`): a list of
+    /// lists. Surfaces are faces for the ``contact`` of a :class:`FemModel`, points the places of masses, loads and probes.
+    fn cells(&self, dimension: Count, name: &str) -> PyResult<Vec<Vec<usize>>> {
+        self.0.cells(dimension.0, name).or_raise()
+    }
+
+    /// The elements of the groups as a :class:`Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
+    /// :meth:`Mesh.from_arrays`.
+    ///
+    /// The part of volumes is a :class:`Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
+    /// ``(material, section, orientation)`` as in :meth:`Mesh.add_space_beams`; None leaves a group out. Lines and
+    /// surfaces that are sides of other elements need no part. Triangles match the sides that they share with
+    /// quadrilaterals. :attr:`Mesh.elements` leads from the nodes of :meth:`cells` to the numbers of elements.
+    fn mesh(&self, parts: BTreeMap<String, Part>) -> PyResult<PyMesh> {
+        let parts: Vec<(&str, GmshPart)> =
+            parts.iter().map(|(name, part)| (name.as_str(), part.0)).collect();
+        Ok(PyMesh(self.0.mesh(&parts).or_raise()?))
+    }
+}

@@ -1,0 +1,161 @@
+//! Forces and moments of shells: values, and rows for probes.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use basemat::fem::ShellResultants;
+use basemat::structure::ShellRows;
+use pyo3::prelude::*;
+
+use super::PyFemModel;
+use crate::array::{Array, Count, Numbers, Rows, whole};
+use crate::error::{OrRaise, asked, heard, refuse, returned};
+use crate::row::PySectionRows;
+
+/// Forces and moments of a shell at a point, per metre of width, in its :attr:`axes`: from
+/// :meth:`FemModel.shell_resultants` and :meth:`ShellRows.value`.
+#[pyclass(name = "ShellResultants", module = "basemat", frozen)]
+pub(crate) struct PyShellResultants(ShellResultants);
+
+#[pymethods]
+impl PyShellResultants {
+    /// Unit vectors e1, e2 and n, the normal of the element, as rows: array of shape (3, 3), numbers without unit.
+    #[getter]
+    fn axes(&self) -> Rows {
+        unit_vectors(&self.0.axes)
+    }
+
+    /// Membrane forces n_11, n_22 and n_12: array of shape (3,), N/m; tension is positive.
+    #[getter]
+    fn membrane(&self) -> Array {
+        Array::from(&self.0.membrane[..])
+    }
+
+    /// Moments m_11, m_22 and m_12: array of shape (3,), N·m/m; positive with tension on the side of −n.
+    #[getter]
+    fn moments(&self) -> Array {
+        Array::from(&self.0.moments[..])
+    }
+
+    /// Larger and smaller principal moment: array of shape (2,), N·m/m.
+    #[getter]
+    fn principal_moments(&self) -> Array {
+        Array::from(&self.0.principal_moments()[..])
+    }
+
+    /// Shear forces q_1 and q_2: array of shape (2,), N/m; on a section whose outward normal is e1 or e2, along n.
+    #[getter]
+    fn shears(&self) -> Array {
+        Array::from(&self.0.shears[..])
+    }
+
+    /// The same forces and moments in other axes: e1 is the part of the vector ``along`` in the plane of the element, n the
+    /// normal on the side of the vector ``outward`` (x, y and z, of any length).
+    fn in_axes(&self, along: [f64; 3], outward: [f64; 3]) -> PyResult<Self> {
+        self.0.in_axes(along, outward).or_raise().map(Self)
+    }
+}
+
+/// Forces and moments of shells per metre at a node, as rows of displacements for :meth:`Probe.section`: from
+/// :meth:`FemModel.shell_rows`.
+///
+/// A probe records changes from the static state, whose part is the :meth:`value` of the ``static_displacement`` of the
+/// simulation. The rows contain the elastic forces, without damping.
+#[pyclass(name = "ShellRows", module = "basemat", frozen)]
+pub(crate) struct PyShellRows(ShellRows);
+
+#[pymethods]
+impl PyShellRows {
+    /// Number of the node.
+    #[getter]
+    fn node(&self) -> usize {
+        self.0.node
+    }
+
+    /// Unit vectors e1, e2 and n as rows, means of the elements' axes: array of shape (3, 3), numbers without unit.
+    #[getter]
+    fn axes(&self) -> Rows {
+        unit_vectors(&self.0.axes)
+    }
+
+    /// Three :class:`SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive.
+    #[getter]
+    fn membrane(&self) -> [PySectionRows; 3] {
+        self.0.membrane.clone().map(PySectionRows::from)
+    }
+
+    /// Three :class:`SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n.
+    #[getter]
+    fn moments(&self) -> [PySectionRows; 3] {
+        self.0.moments.clone().map(PySectionRows::from)
+    }
+
+    /// Two :class:`SectionRows` of the shear forces q_1 and q_2, N/m.
+    #[getter]
+    fn shears(&self) -> [PySectionRows; 2] {
+        self.0.shears.clone().map(PySectionRows::from)
+    }
+
+    /// The :class:`ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad.
+    fn value(&self, displacement: Numbers) -> PyResult<PyShellResultants> {
+        let Numbers(own) = displacement;
+        let all = self.0.membrane.iter().chain(&self.0.moments).chain(&self.0.shears);
+        let last = all.flat_map(|rows| rows.displacement.iter()).map(|(dof, _)| *dof).max();
+        match last {
+            Some(dof) if dof >= own.len() => {
+                let found = own.len();
+                Err(refuse(format!("displacement has {found} entries, but must have over {dof}")))
+            }
+            _ => Ok(PyShellResultants(self.0.value(&own))),
+        }
+    }
+}
+
+/// Unit vectors as rows.
+fn unit_vectors(own: &[[f64; 3]; 3]) -> Rows {
+    Rows(own.iter().map(|axis| axis.to_vec()).collect())
+}
+
+/// Directions [along, outward] of the axes of shells.
+type Directions = [[f64; 3]; 2];
+
+#[pymethods]
+impl PyFemModel {
+    /// The :class:`ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
+    /// degrees of freedom, ``displacement`` (array of shape (n,), m and rad).
+    ///
+    /// The ``displacement`` of a state is the change from the ``static_displacement`` of the simulation.
+    fn shell_resultants(
+        &self,
+        element: Count,
+        displacement: Numbers,
+    ) -> PyResult<Vec<PyShellResultants>> {
+        let found = self.0.shell_resultants(element.0, &displacement.0).or_raise()?;
+        Ok(found.into_iter().map(PyShellResultants).collect())
+    }
+
+    /// The :class:`ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
+    /// nodes: means over these shells. Give the shells of one mat or one wall.
+    ///
+    /// ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
+    /// part of the first in the plane of a shell, and the normal n is on the side of the second.
+    fn shell_rows(
+        &self,
+        #[pyo3(from_py_with = whole)] elements: Vec<usize>,
+        axes: &Bound<'_, PyAny>,
+    ) -> PyResult<Vec<PyShellRows>> {
+        let fixed: Option<Directions> =
+            if axes.is_callable() { None } else { Some(axes.extract()?) };
+        let known: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
+        let called = |[x, y, z]: [f64; 3]| {
+            asked([[f64::NAN; 3]; 2], |_| returned("axes", &axes.call1((x, y, z))?))
+        };
+        let directions = |place: [f64; 3]| {
+            let bits = place.map(f64::to_bits);
+            let of_place = || *known.borrow_mut().entry(bits).or_insert_with(|| called(place));
+            fixed.unwrap_or_else(of_place)
+        };
+        let found = heard(|| self.0.shell_rows(&elements, directions).or_raise())?;
+        Ok(found.into_iter().map(PyShellRows).collect())
+    }
+}
