@@ -122,7 +122,7 @@ fn weights_depend_on_the_offset_alone() {
 /// than the way across a cell.
 #[test]
 fn weights_of_short_steps_are_sums_over_directions() {
-    for (profile, step) in [(half_space(), 0.08), (p1(gmb(5), gmb(1)), 0.03)] {
+    for (profile, step) in [(half_space(), 0.02), (p1(gmb(5), gmb(1)), 0.03)] {
         let plan = Plan::masked([0.0; 2], [0.5, 0.4], 3, &[true; 6]).unwrap();
         let make = || {
             let steps = [step, 1e-10];
