@@ -143,12 +143,8 @@ impl<'a> Reduction<'a> {
         let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
-        // Repeats with a lower limit for the directions that were left out.
-        let lower = |least: &mut f64, blocks: &mut Vec<Vec<f64>>| {
-            *least = LEAST_NEW.max(NEW * *least);
-            blocks.fill(rows.clone());
-        };
-        let mut progress = Progress::default();
+        let mut last: Option<StepResponses> = None;
+        let [mut change, mut reached] = [f64::INFINITY; 2];
         for round in 1..=ROUNDS {
             let before = space.count();
             for (factor, block) in factors.iter().zip(&mut blocks) {
@@ -161,29 +157,35 @@ impl<'a> Reduction<'a> {
                 if least <= LEAST_NEW {
                     return Ok(space.basis(&space.ritz()?));
                 }
-                lower(&mut least, &mut blocks);
+                // Repeats with a lower limit for the directions that were left out.
+                least = LEAST_NEW.max(NEW * least);
+                blocks.fill(rows.clone());
                 continue;
             }
             let modes = space.ritz()?;
             let shares = space.shares(&modes, rows);
             let steps = self.steps.clamp(1, LONGEST);
-            progress.see(
-                StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps),
-                tolerance,
-            );
-            if progress.reached <= tolerance || space.count() == self.assembled.dofs() {
+            let responses =
+                StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps);
+            let mut rate = 1.0;
+            if let Some(last) = &last {
+                let by = responses.difference(last, tolerance);
+                if change.is_finite() {
+                    rate = (by / change).clamp(FASTEST, 1.0);
+                }
+                // Estimated change by the next round, at the rate of this round.
+                (change, reached) = (by, by * rate);
+            }
+            if reached <= tolerance || space.count() == self.assembled.dofs() {
                 return Ok(space.basis(&modes));
             }
             let left = i32::try_from(ROUNDS - round).unwrap_or(0);
-            if 2 * round >= ROUNDS && progress.after(left) > tolerance {
-                if least <= LEAST_NEW {
-                    break;
-                }
-                lower(&mut least, &mut blocks);
-                progress.change = f64::INFINITY;
+            if 2 * round >= ROUNDS && reached * rate.powi(left) > tolerance {
+                break;
             }
+            last = Some(responses);
         }
-        Err(inaccurate(progress.reached, tolerance, space.count()))
+        Err(inaccurate(reached, tolerance, space.count()))
     }
 
     /// Mass, damping and stiffness; an error if they cannot be reduced.
@@ -255,42 +257,6 @@ impl<'a> Reduction<'a> {
         let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
         let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
         (rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt())
-    }
-}
-
-/// Change of the responses from round to round.
-struct Progress {
-    last: Option<StepResponses>,
-    /// Change by the last round; infinite if it is unknown.
-    change: f64,
-    /// Estimated change by the next round, at the rate of the last one.
-    reached: f64,
-    /// Ratio of the last round's change to the previous round's.
-    rate: f64,
-}
-
-impl Default for Progress {
-    fn default() -> Self {
-        Self { last: None, change: f64::INFINITY, reached: f64::INFINITY, rate: 1.0 }
-    }
-}
-
-impl Progress {
-    fn see(&mut self, responses: StepResponses, tolerance: f64) {
-        self.rate = 1.0;
-        if let Some(last) = &self.last {
-            let by = responses.difference(last, tolerance);
-            if self.change.is_finite() {
-                self.rate = (by / self.change).clamp(FASTEST, 1.0);
-            }
-            (self.change, self.reached) = (by, by * self.rate);
-        }
-        self.last = Some(responses);
-    }
-
-    /// Estimated change after more rounds.
-    fn after(&self, rounds: i32) -> f64 {
-        self.reached * self.rate.powi(rounds)
     }
 }
 
