@@ -61,7 +61,7 @@ fn resultants(
         let pressure = normal / elements.iter().map(|(_, area)| area).sum::<f64>();
         let strength = |&(e, _): &(usize, f64)| {
             let law = law_of(laws, e);
-            Strength::at_pressure(law, pressure, stage.frictionless)
+            Strength::at_pressure(law, pressure, layout.is_plan(), stage.frictionless)
         };
         // In the plane the nodes of a base lie on one line.
         let outline = hull(nodes.iter().copied());

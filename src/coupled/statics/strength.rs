@@ -1,4 +1,4 @@
-//! Strength of an interface law under static loads: by its limits, or by its modes if it has no limits.
+//! Strength of an interface law under static loads: in the plane by its modes, in plan by its limits.
 
 use crate::interface::{ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
 
@@ -28,10 +28,15 @@ pub(crate) struct Strength {
 impl Strength {
     /// Strength of an element under this mean pressure (Pa).
     ///
-    /// `frictionless` omits friction and cohesion of a law with limits.
-    pub(crate) fn at_pressure(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
-        if let Some(limits) = limits_at_rest(law, pressure.max(0.0)) {
-            return Self::by_limits(law, limits, pressure, frictionless);
+    /// In plan, `frictionless` omits friction and cohesion.
+    pub(crate) fn at_pressure(
+        law: &dyn InterfaceLaw,
+        pressure: f64,
+        is_plan: bool,
+        frictionless: bool,
+    ) -> Self {
+        if is_plan {
+            return Self::by_limits(law, pressure, frictionless);
         }
         let little = LITTLE * pressure.abs().max(1.0);
         Self {
@@ -43,13 +48,9 @@ impl Strength {
         }
     }
 
-    /// Strength of a law with these limits under a mean pressure (Pa).
-    fn by_limits(
-        law: &dyn InterfaceLaw,
-        limits: Limits,
-        pressure: f64,
-        frictionless: bool,
-    ) -> Self {
+    /// Strength in plan.
+    fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
+        let limits = limits_at_rest(law, pressure.max(0.0));
         let limits = if frictionless { limits.frictionless() } else { limits };
         let known = law.friction_coefficient().filter(|_| !frictionless);
         let attracted = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
@@ -67,21 +68,24 @@ impl Strength {
 
 /// Friction coefficient of a law on an element at rest, without cohesion.
 ///
-/// As the law states it; else by its limits, or by the tractions at which the element slides.
-pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw) -> f64 {
-    let limits = limits_at_rest(law, PRESSURE).filter(|_| law.friction_coefficient().is_none());
-    limits.map_or_else(
-        || friction(law, PRESSURE),
-        |limits| if limits.bonded { 0.0 } else { limits.friction },
-    )
+/// As the law states it; else in plan by its limits, in the plane by the tractions at which the element slides.
+pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, is_plan: bool) -> f64 {
+    if !is_plan {
+        return friction(law, PRESSURE);
+    }
+    law.friction_coefficient().unwrap_or_else(|| {
+        let limits = limits_at_rest(law, PRESSURE);
+        if limits.bonded { 0.0 } else { limits.friction }
+    })
 }
 
-/// Limits of a law on an element that has not moved so far; `None` if the law has none.
-fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<Limits> {
+/// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
+/// before.
+fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
     let pressed = ContactState { pressure, ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
     let state_variables = start.first_state_variables(law);
-    law.limits(&start.with_state_variables(&state_variables)).ok()
+    law.limits(&start.with_state_variables(&state_variables)).unwrap_or_default()
 }
 
 /// The friction coefficient of a law, or the ratio of tractions at which an element under this pressure slides.
