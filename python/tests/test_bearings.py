@@ -1,0 +1,38 @@
+"""Springs of bearings that act in two directions."""
+
+from __future__ import annotations
+
+import pickle
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from test_plan_parts import simulation
+
+import basemat as bm
+
+
+def test_bearings_slide_in_any_direction() -> None:
+    """Friction is a circle of radius μ W, less the part W d/R by which the bearing climbs."""
+    mat = bm.RigidBody.cuboid(6.0, 4.0, 1.0, 2400.0)
+    floor = bm.PlanStorey(3.0, 60e3, (6.0, 4.0), (4e7, 3e7, 4e8))
+    pendulum = bm.FrictionPendulum(1.2e6, 2.0, 0.02)
+    building = bm.StoreyBuilding(mat, [floor] * 2, laws={(0, "xy"): pendulum})
+    assert repr(pickle.loads(pickle.dumps(building))) == repr(building)
+    probes = [bm.Probe.section(name, own) for name, own in zip(("Vx", "Vy"), building.shear(0))]
+    drifts = building.drift(0)[:2]
+    probes += [bm.Probe.displacement(name, row) for name, row in zip(("dx", "dy"), drifts)]
+    run = simulation(building, bm.Bonded(), probes=probes).run(300, warn=False)
+    parts = [run[v][1:] - 0.6e6 * 0.5 * (run[d][1:] + run[d][:-1]) for v, d in (("Vx", "dx"), ("Vy", "dy"))]
+    friction = np.hypot(*parts)
+    assert 0.9999 < friction.max() / 0.02 / 1.2e6 < 1.0 + 1e-6 and run.energy_error < 1e-9
+    assert min(np.abs(part).max() for part in parts) > 1e4
+    braced = bm.WithSprings(building, [(*drifts, bm.BoucWen(4e7, 1e5, 0.1)), (drifts[0], pendulum)])
+    assert simulation(braced, bm.Bonded()).run(50).energy_error < 1e-9
+    with pytest.raises(bm.InputError, match="exponent of the coupled Bouc–Wen spring"):
+        bm.WithSprings(building, [(*drifts, bm.BoucWen(4e7, 1e5, 0.1, exponent=1.0, beta=0.5))])
+    own = SimpleNamespace(force=lambda deformation: 1e6 * deformation)
+    with pytest.raises(bm.InputError, match="acts in one direction"):
+        bm.StoreyBuilding(mat, [floor], laws={(0, "xy"): own})
+    with pytest.raises(TypeError, match=r"\(row_x, row_y, law\)"):
+        bm.WithSprings(building, [(pendulum,)])
