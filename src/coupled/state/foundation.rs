@@ -4,7 +4,6 @@
 //! a base that may open and slide cannot exceed its strength: such a factor stays at or above one, and reaches it
 //! when the base slides or stands on its edge. Only on a bonded base it falls below one, and shows the missing
 //! strength of the interface.
-//! much the interface would have lacked.
 
 use std::ops::Range;
 
@@ -175,19 +174,14 @@ impl Foundation {
 
 /// A force as a vector from its components to the right, along y and, as pressure, down.
 pub(crate) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE]) -> [f64; SPACE] {
-    components(in_plan, [along, across, -pressure], [along, -pressure, 0.0])
+    if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
 }
 
 /// A moment or a rotation as a vector from its components about x, about y and about the vertical.
 ///
 /// In the plane only the second counts, about the axis towards the reader.
 pub(crate) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
-    components(in_plan, [x, y, vertical], [0.0, 0.0, y])
-}
-
-/// Components in the axes of a ground in plan (z up), or of a ground in the plane (y up).
-fn components<T>(in_plan: bool, plan: T, plane: T) -> T {
-    if in_plan { plan } else { plane }
+    if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width.
