@@ -64,8 +64,7 @@ fn resultants(
             Strength::at_pressure(law, pressure, layout.is_plan(), stage.frictionless)
         };
         // In the plane the nodes of a base lie on one line.
-        let outline = hull(nodes.iter().copied());
-        let outline = if layout.axes().len() > 1 { outline } else { vec![] };
+        let outline = if layout.axes().len() > 1 { hull(nodes.iter().copied()) } else { vec![] };
         let part = LoadedPart {
             layout,
             edges: Edge::of_base(&outline, bounds[0]),
