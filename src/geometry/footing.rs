@@ -70,10 +70,11 @@ impl Footing {
         outline: &[[f64; 2]],
         origin: [f64; 2],
     ) -> Self {
-        let mut ends = [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])));
-        if outline.is_empty() {
-            ends = [far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0])), [0.0; 2]];
-        }
+        let ends = if outline.is_empty() {
+            [far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0])), [0.0; 2]]
+        } else {
+            [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])))
+        };
         let center = ends.map(middle);
         let edges = [0, 1].map(|axis| {
             let faces =
