@@ -45,9 +45,19 @@ pub struct Hex8 {
 }
 
 impl Hex8 {
+    /// Corners of the six faces, counter-clockwise seen from outside.
+    pub(crate) const FACES: [[usize; 4]; 6] =
+        [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+
     /// Brick between `nodes`: four around the lower face, counter-clockwise from above, and four over them.
     pub fn new(nodes: [usize; 8], material: Material) -> Self {
         Self { nodes, material }
+    }
+
+    /// Whether the Jacobian at the centre is negative: the upper face lies below the lower one.
+    #[cfg(feature = "io")]
+    pub(crate) fn is_inside_out(coordinates: &[[f64; 3]]) -> bool {
+        Slopes::at([0.0; 3], coordinates).determinant < 0.0
     }
 
     /// Stresses at the eight nodes, Pa: `[σ_xx, σ_yy, σ_zz, τ_xy, τ_yz, τ_zx]`, tension positive.
@@ -130,7 +140,7 @@ impl Element for Hex8 {
     }
 
     fn faces(&self) -> Vec<ElementFace> {
-        FACES.map(|face| ElementFace::side(&face.map(|k| self.nodes[k]))).to_vec()
+        Self::FACES.map(|face| ElementFace::side(&face.map(|k| self.nodes[k]))).to_vec()
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
@@ -191,10 +201,6 @@ const CORNERS: [[f64; 3]; 8] = [
     [1.0, 1.0, 1.0],
     [-1.0, 1.0, 1.0],
 ];
-
-/// Nodes of the six faces, counter-clockwise seen from outside.
-const FACES: [[usize; 4]; 6] =
-    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
 /// Gauss points of the 2 × 2 × 2 rule in the order of the nodes; all weights are 1.
 fn gauss_points() -> [[f64; 3]; 8] {

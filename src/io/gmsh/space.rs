@@ -77,7 +77,8 @@ impl GmshSpaceMesh {
         let nodes: Vec<[f64; 3]> = numbered.points.iter().map(|point| point.values).collect();
         let mut cells = numbered.cells;
         for cell in cells.iter_mut().filter(|cell| cell.kind == Kind::Brick) {
-            if is_inside_out(&nodes, &cell.nodes) {
+            let corners: Vec<[f64; 3]> = cell.nodes.iter().map(|&node| nodes[node]).collect();
+            if Hex8::is_inside_out(&corners) {
                 cell.nodes.rotate_left(4);
             }
         }
@@ -202,7 +203,9 @@ impl GmshSpaceMesh {
             let own = &cell.nodes[..];
             let faces: Vec<Vec<usize>> = match cell.kind.dimension() {
                 2 => vec![own.to_vec()],
-                3 => FACES.iter().map(|face| face.map(|corner| own[corner]).to_vec()).collect(),
+                3 => {
+                    Hex8::FACES.iter().map(|face| face.map(|corner| own[corner]).to_vec()).collect()
+                }
                 _ => continue,
             };
             for face in faces {
@@ -234,10 +237,6 @@ impl GmshSpaceMesh {
     }
 }
 
-/// Corners of the six faces of a brick.
-const FACES: [[usize; 4]; 6] =
-    [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
-
 /// Kind and tag of an element.
 fn title(cell: &Cell) -> String {
     format!("{} {}", cell.kind.name(), cell.tag)
@@ -247,19 +246,4 @@ fn sorted(nodes: &[usize]) -> Vec<usize> {
     let mut nodes = nodes.to_vec();
     nodes.sort_unstable();
     nodes
-}
-
-/// Whether the Jacobian in the middle of a brick is negative: its upper face lies below its lower one.
-fn is_inside_out(places: &[[f64; 3]], nodes: &[usize]) -> bool {
-    // Vector from the middle of one face to the middle of the face across, times four.
-    let across = |to: [usize; 4], from: [usize; 4]| -> [f64; 3] {
-        let sum = |corners: [usize; 4], axis: usize| -> f64 {
-            corners.iter().map(|&corner| places[nodes[corner]][axis]).sum()
-        };
-        std::array::from_fn(|axis| sum(to, axis) - sum(from, axis))
-    };
-    let [_, _, south, east, north, west] = FACES;
-    let [a, b, c] = [across(east, west), across(north, south), across(FACES[1], FACES[0])];
-    let area = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    area.iter().zip(c).map(|(x, y)| x * y).sum::<f64>() < 0.0
 }
