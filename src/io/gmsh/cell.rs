@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::kind::Kind;
 use super::parse::{Point, Raw, RawCell, twice};
-use crate::error::FileFault;
+use crate::error::{Error, FileFault};
 
 /// An element: its kind, the names of its groups, the indices of its nodes, its tag and its line in the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,12 @@ impl Cell {
     /// Whether it is in the group `name`.
     pub(super) fn is_in(&self, name: &str) -> bool {
         self.groups.iter().any(|group| group == name)
+    }
+
+    /// Error of an element that is not accepted, with its tag and its line in `file`.
+    pub(super) fn unusable(&self, file: &str, error: Error) -> Error {
+        let error = error.within(format!("element {}", self.tag));
+        FileFault::Unusable(Box::new(error)).of(file, self.line)
     }
 }
 
@@ -50,20 +56,24 @@ pub(super) fn number(
         let nodes: Option<Vec<usize>> =
             cell.nodes.iter().map(|tag| index.get(tag).copied()).collect();
         let Some(nodes) = nodes else { continue };
-        if cell.kind.dimension() > 1 {
-            let mut own = nodes[..cell.kind.corners()].to_vec();
-            own.sort_unstable();
-            if !twins.insert(own) {
-                let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
-                let what = format!("{} of nodes {}", cell.kind.name(), tags.join(" "));
-                return Err((cell.line, twice(what)));
-            }
+        let can_be_twin = cell.kind.dimension() > 1;
+        if can_be_twin && !twins.insert(sorted(&nodes[..cell.kind.corners()])) {
+            let tags: Vec<String> = cell.nodes.iter().map(u64::to_string).collect();
+            let what = format!("{} of nodes {}", cell.kind.name(), tags.join(" "));
+            return Err((cell.line, twice(what)));
         }
         let (groups, tag, line) = (raw.groups(cell), cell.tag, cell.line);
         cells.push(Cell { kind: cell.kind, groups, nodes, tag, line });
     }
     let points = used.keys().map(|&place| &raw.coordinates[place]).collect();
     Ok(Numbered { points, cells })
+}
+
+/// Nodes by their indices, the smallest first.
+pub(super) fn sorted(nodes: &[usize]) -> Vec<usize> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes
 }
 
 /// Names of the groups of cells, sorted.

@@ -152,10 +152,7 @@ impl GmshMesh {
                 }
                 _ => continue,
             };
-            added.map_err(|error| {
-                let error = error.within(format!("element {}", quad.tag));
-                FileFault::Unusable(Box::new(error)).of(&self.file, quad.line)
-            })?;
+            added.map_err(|error| quad.unusable(&self.file, error))?;
         }
         Ok(mesh)
     }

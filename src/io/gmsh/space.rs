@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
-use super::cell::{self, Cell, group_names};
+use super::cell::{self, Cell, group_names, sorted};
 use super::kind::{IN_SPACE, Kind};
 use super::parse::{self, twice};
 use super::part::GmshPart;
@@ -125,7 +125,7 @@ impl GmshSpaceMesh {
         for (cell, part) in &placed {
             if let GmshPart::Shell(material, thickness) = part {
                 let shell = Shell::new(&cell.nodes, *material, *thickness);
-                shells.push(shell.map_err(|error| self.unusable(cell, error))?);
+                shells.push(shell.map_err(|error| cell.unusable(&self.file, error))?);
             }
         }
         Shell::match_sides(&mut shells);
@@ -146,7 +146,7 @@ impl GmshSpaceMesh {
                 (GmshPart::Shell(..), _) => shells.next().map_or(Ok(0), |shell| mesh.add(shell)),
                 _ => continue,
             };
-            added.map_err(|error| self.unusable(cell, error))?;
+            added.map_err(|error| cell.unusable(&self.file, error))?;
         }
         Ok(mesh)
     }
@@ -229,21 +229,9 @@ impl GmshSpaceMesh {
         };
         FileFault::missing(format!("{item} '{name}'")).of(&self.file, 0)
     }
-
-    /// The fault of an element with its tag and its line.
-    fn unusable(&self, cell: &Cell, error: Error) -> Error {
-        let error = error.within(format!("element {}", cell.tag));
-        FileFault::Unusable(Box::new(error)).of(&self.file, cell.line)
-    }
 }
 
 /// Kind and tag of an element.
 fn title(cell: &Cell) -> String {
     format!("{} {}", cell.kind.name(), cell.tag)
-}
-
-fn sorted(nodes: &[usize]) -> Vec<usize> {
-    let mut nodes = nodes.to_vec();
-    nodes.sort_unstable();
-    nodes
 }
