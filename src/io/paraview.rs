@@ -96,13 +96,14 @@ fn write(
     std::fs::create_dir_all(folder).map_err(unwritten(folder))?;
 
     let mut entries = Vec::new();
+    let rest = time_series.static_displacement();
     let moved = time_series.motion_frames().filter_map(|frame| Some((shape?, frame)));
     for (k, (shape, frame)) in moved.enumerate() {
         let file = format!("{name}_{k:04}.vtu");
-        let rest = ("static_displacement", time_series.static_displacement());
-        let rates = [("displacement", frame.displacement), ("velocity", frame.velocity)];
-        let known = [rest].into_iter().filter(|(_, dofs)| !dofs.is_empty());
-        let vectors: Vec<_> = rates.into_iter().chain(known).collect();
+        let mut vectors = vec![("displacement", frame.displacement), ("velocity", frame.velocity)];
+        if !rest.is_empty() {
+            vectors.push(("static_displacement", rest));
+        }
         write_file(&folder.join(&file), structure(shape, time_series.up(), &vectors)?)?;
         entries.push((frame.time, 0, file));
     }
