@@ -127,7 +127,7 @@ impl<'a> PanelForms<'a> {
     /// Forms at `nodes` in −1 … 1 of a panel: node by node, form by form, all classes.
     fn on(&mut self, panel: usize, nodes: &[f64]) -> &[f64] {
         let Self { table, means, wavenumbers, waves } = self;
-        let all = nodes.iter().map(|x| table.width * (panel as f64 + 0.5 * (1.0 + x)));
+        let all = nodes.iter().map(|x| table.wavenumber(panel, *x));
         wavenumbers.clear();
         wavenumbers.extend(all);
         if panel < table.direct {
@@ -198,6 +198,11 @@ impl FormTable {
         on_grid(count)
     }
 
+    /// Wavenumber at a `node` in −1 … 1 of a panel, 1/m.
+    fn wavenumber(&self, panel: usize, node: f64) -> f64 {
+        self.width * (panel as f64 + 0.5 * (1.0 + node))
+    }
+
     /// Diagonal of all cells, m.
     pub(super) fn span(&self) -> f64 {
         self.lattice.diagonal()
@@ -239,7 +244,7 @@ impl FormTable {
             watch.reach(0)?;
             let rows = forms.on(panel, &self.rule.nodes).chunks_exact(FORMS * classes);
             for (i, (node, values)) in self.rule.nodes.iter().zip(rows).enumerate() {
-                let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
+                let k = self.wavenumber(panel, *node);
                 if panel < *kept.end() {
                     tabulated.values.set(panel * POINTS + i, values);
                 }
