@@ -259,20 +259,17 @@ impl FemModel {
     /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node that no element moves in this
     /// direction.
     pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
-        let own = [(self.mesh_dof(node, direction)?, 1.0)];
-        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
-    }
-
-    /// Number of a degree of freedom before nodes follow others.
-    fn mesh_dof(&self, node: usize, direction: Direction) -> Result<usize> {
         in_bounds("node", node, self.mesh.nodes().len())?;
-        self.numbering.dof(node, direction).ok_or_else(|| {
+        let dof = self.numbering.dof(node, direction);
+        let dof = dof.ok_or_else(|| {
             let reason = format!(
                 "it has no degree of freedom in direction {}: no element needs one there",
                 direction.word()
             );
             Error::part(format!("node {node}"), reason)
-        })
+        })?;
+        let own = [(dof, 1.0)];
+        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
     }
 
     /// Displacements of an element's degrees of freedom, in the order of its matrices.
@@ -293,11 +290,7 @@ impl FemModel {
         let mut own = Vec::with_capacity(element.order());
         for &node in element.nodes() {
             for &direction in element.directions() {
-                let dof = self.mesh_dof(node, direction)?;
-                let links = self.links.as_ref();
-                own.push(
-                    links.map_or_else(|| displacement[dof], |links| links.value(dof, displacement)),
-                );
+                own.push(self.row(node, direction)?.value(displacement));
             }
         }
         Ok(own)

@@ -154,12 +154,6 @@ impl RigidLinks {
         sums
     }
 
-    /// Value of a mesh's degree of freedom from the values of the remaining ones.
-    pub(super) fn value(&self, dof: usize, remaining: &[f64]) -> f64 {
-        let row = self.rows.get(dof).into_iter().flatten();
-        row.map(|&(index, weight)| weight * remaining[index]).sum()
-    }
-
     /// Marks all nodes of each rigid body of which one node is marked.
     pub(super) fn mark_bodies(&self, marks: &mut [bool]) {
         let body = |node: usize| match self.leader[node] {
