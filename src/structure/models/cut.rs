@@ -79,10 +79,8 @@ impl<'a> Cut<'a> {
                 weights[dof] = sign * motion[dof];
             }
         }
-        let [displacement, velocity, acceleration] = [0, 1, 2].map(|order| {
-            let row = weighted_rows(&weights, &self.matrices[order]);
-            model.links.as_ref().map_or_else(|| row.clone(), |links| links.row(&row)).into()
-        });
+        let [displacement, velocity, acceleration] = [0, 1, 2]
+            .map(|order| model.remaining_row(weighted_rows(&weights, &self.matrices[order])));
         let unit = match (direction.is_rotation(), has_depth) {
             (false, false) => "N/m",
             (true, false) => "N·m/m",

@@ -268,8 +268,15 @@ impl FemModel {
             );
             Error::part(format!("node {node}"), reason)
         })?;
-        let own = [(dof, 1.0)];
-        Ok(self.links.as_ref().map_or(own.into(), |links| links.row(&own).into()))
+        Ok(self.remaining_row(vec![(dof, 1.0)]))
+    }
+
+    /// A weighted sum of the mesh's degrees of freedom by the remaining ones.
+    pub(super) fn remaining_row(&self, terms: Vec<(usize, f64)>) -> DofCombination {
+        match &self.links {
+            Some(links) => links.row(&terms).into(),
+            None => terms.into(),
+        }
     }
 
     /// Displacements of an element's degrees of freedom, in the order of its matrices.

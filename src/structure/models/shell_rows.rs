@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::error::{Error, Result, in_bounds};
 use crate::fem::{Element, Mesh, Shell, ShellResultants};
-use crate::structure::{DofCombination, FemModel, SectionRows};
+use crate::structure::{FemModel, SectionRows};
 
 /// Forces and moments of shells per metre at a node, as rows over displacements.
 ///
@@ -126,11 +126,7 @@ impl FemModel {
     fn mean_rows(&self, node: usize, sum: Sum) -> ShellRows {
         let count = sum.count;
         let mut means = sum.rows.into_iter().map(|row| {
-            let own: Vec<_> = row.into_iter().map(|(dof, value)| (dof, value / count)).collect();
-            DofCombination::from(match &self.links {
-                Some(links) => links.row(&own),
-                None => own,
-            })
+            self.remaining_row(row.into_iter().map(|(dof, value)| (dof, value / count)).collect())
         });
         let mut next = |unit| SectionRows {
             unit,
