@@ -8,6 +8,8 @@ use crate::structure::{FemModel, SectionRows, Triplets};
 pub(super) struct Cut<'a> {
     model: &'a FemModel,
     height: f64,
+    /// Point of the moments; its y does not matter in the plane.
+    reference: [f64; 2],
     /// Whether a node belongs to the part below; nodes of the cut do.
     is_below: Vec<bool>,
     /// Matrices of the elements above times −1: of displacements, velocities and accelerations.
@@ -15,12 +17,15 @@ pub(super) struct Cut<'a> {
 }
 
 impl<'a> Cut<'a> {
-    /// Cut at `height`.
+    /// Cut at `height` with moments about `reference`.
     ///
     /// # Errors
-    /// [`Error::Input`] when the height is not finite, when no node lies there, when no element lies above it, or
-    /// when an element crosses it.
-    pub(super) fn new(model: &'a FemModel, height: f64) -> Result<Self> {
+    /// [`Error::Input`] when a number is not finite, when no node lies at the height, when no element lies above it,
+    /// or when an element crosses it.
+    pub(super) fn new(model: &'a FemModel, height: f64, reference: [f64; 2]) -> Result<Self> {
+        for place in reference {
+            finite("reference point of the section", place)?;
+        }
         finite("height of the section", height)?;
         let mesh = &model.mesh;
         let (tolerance, up) = (mesh.tolerance(), mesh.up());
@@ -59,14 +64,12 @@ impl<'a> Cut<'a> {
             ],
             vec![sum(MatrixKind::Mass(model.mass_kind), 1.0)],
         ];
-        Ok(Self { model, height, is_below, matrices })
+        Ok(Self { model, height, reference, is_below, matrices })
     }
 
-    /// Resultant in `direction` on the part below, times `sign`; moments about `reference` at the height of the cut.
-    ///
-    /// In the plane the second coordinate of `reference` does not matter.
-    pub(super) fn rows(&self, direction: Direction, [x, y]: [f64; 2], sign: f64) -> SectionRows {
-        let model = self.model;
+    /// Resultant in `direction` on the part below, times `sign`.
+    pub(super) fn rows(&self, direction: Direction, sign: f64) -> SectionRows {
+        let (model, [x, y]) = (self.model, self.reference);
         let number = |node, own| model.numbering.dof(node, own);
         let has_depth = model.mesh.has_depth();
         let point = if has_depth { [x, y, self.height] } else { [x, self.height, 0.0] };

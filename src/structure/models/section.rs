@@ -1,7 +1,7 @@
 //! Forces across a horizontal cut of a finite-element model in the plane.
 
 use super::cut::Cut;
-use crate::error::{Result, finite, require_part};
+use crate::error::{Result, require_part};
 use crate::fem::Direction;
 use crate::structure::{FemModel, SectionRows};
 
@@ -37,14 +37,12 @@ impl FemModel {
     /// space, whose cuts are made by [`section_in_space`](FemModel::section_in_space).
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
         require_part("section of three resultants", !self.mesh.has_depth(), "a mesh in the plane")?;
-        finite("reference point of the section", reference)?;
-        let cut = Cut::new(self, height)?;
-        let rows = |direction, sign| cut.rows(direction, [reference, 0.0], sign);
+        let cut = Cut::new(self, height, [reference, 0.0])?;
         Ok(Section {
             height,
-            shear: rows(Direction::X, 1.0),
-            compression: rows(Direction::Y, -1.0),
-            moment: rows(Direction::Rotation, 1.0),
+            shear: cut.rows(Direction::X, 1.0),
+            compression: cut.rows(Direction::Y, -1.0),
+            moment: cut.rows(Direction::Rotation, 1.0),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Six resultants across a horizontal cut in space.
 
 use super::cut::Cut;
-use crate::error::{Result, finite, require_part};
+use crate::error::{Result, require_part};
 use crate::fem::Direction;
 use crate::structure::{FemModel, SectionRows};
 
@@ -63,15 +63,12 @@ impl FemModel {
     /// plane, whose cuts are made by [`section`](FemModel::section).
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
         require_part("section of six resultants", self.mesh.has_depth(), "a mesh in space")?;
-        for place in reference {
-            finite("reference point of the section", place)?;
-        }
-        let cut = Cut::new(self, height)?;
-        let rows = |direction| cut.rows(direction, reference, 1.0);
+        let cut = Cut::new(self, height, reference)?;
+        let rows = |direction| cut.rows(direction, 1.0);
         Ok(SpaceSection {
             height,
             shear: [Direction::X, Direction::Y].map(rows),
-            compression: cut.rows(Direction::Z, reference, -1.0),
+            compression: cut.rows(Direction::Z, -1.0),
             moments: [Direction::RotationX, Direction::RotationY].map(rows),
             torque: rows(Direction::RotationZ),
         })
