@@ -78,7 +78,7 @@ impl PlanStorey {
 /// ```
 #[derive(Clone)]
 pub struct StoreyBuilding {
-    pub(super) mat: RigidBody,
+    mat: RigidBody,
     pub(super) storeys: Vec<PlanStorey>,
     /// Whether a law replaces a storey's stiffness, by direction.
     has_law: Vec<[bool; 3]>,
@@ -247,6 +247,14 @@ impl StoreyBuilding {
         [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
     }
 
+    /// Displacements of the mass centre of the floor on `storey`, and rotations.
+    pub(super) fn floor_motion(&self, storey: usize) -> [DofCombination; 6] {
+        let place = self.storeys[storey].mass_center;
+        let [along, across, twist] = level(storey + 1, place);
+        let [_, _, up] = self.mat.displacement_at([place[0], place[1], 0.0]);
+        [along, across, up, ABOUT_X.into(), ABOUT_Y.into(), twist]
+    }
+
     /// Adds lᵀl of each storey's deformations times a factor.
     fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> [f64; 3]) -> Result<()> {
         for storey in 0..self.storeys.len() {
@@ -259,12 +267,12 @@ impl StoreyBuilding {
 }
 
 /// Degree of freedom of the mat: rotation about x.
-pub(super) const ABOUT_X: usize = 3;
+const ABOUT_X: usize = 3;
 /// Degree of freedom of the mat: rotation about y.
-pub(super) const ABOUT_Y: usize = 4;
+const ABOUT_Y: usize = 4;
 
 /// Motion of a level at a place: the mat's base 0, floors from 1.
-pub(super) fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
+fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     let first = 3 * level + 3;
     let [along, across, twist] = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
     let point = |own: usize, lever: f64| {
@@ -296,14 +304,8 @@ impl Structure for StoreyBuilding {
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
         self.mat.mass(matrix)?;
         for (index, floor) in self.storeys.iter().enumerate() {
-            let [x, y] = floor.mass_center;
-            let [along, across, twist] = level(index + 1, floor.mass_center);
-            let [_, _, up] = self.mat.displacement_at([x, y, 0.0]);
-            for row in [along, across, up] {
-                matrix.add_outer(row, floor.mass);
-            }
-            let turns = [ABOUT_X.into(), ABOUT_Y.into(), twist];
-            for (row, inertia) in turns.iter().zip(floor.inertia) {
+            let inertias = [floor.mass; 3].into_iter().chain(floor.inertia);
+            for (row, inertia) in self.floor_motion(index).iter().zip(inertias) {
                 matrix.add_outer(row, inertia);
             }
         }

@@ -1,7 +1,7 @@
 //! Resultants of the storeys of a building in plan.
 
 use super::space_section::SpaceSection;
-use super::storey_building::{ABOUT_X, ABOUT_Y, StoreyBuilding, level};
+use super::storey_building::StoreyBuilding;
 use crate::error::{Result, finite, in_bounds};
 use crate::structure::{DofCombination, SectionRows};
 
@@ -55,11 +55,8 @@ impl StoreyBuilding {
         let mut height = 0.0;
         for (index, floor) in self.storeys.iter().enumerate().skip(storey) {
             height += floor.height;
-            let [place_x, place_y] = floor.mass_center;
-            let [x, y] = [place_x - reference[0], place_y - reference[1]];
-            let [along, across, twist] = level(index + 1, floor.mass_center);
-            let [_, _, up] = self.mat.displacement_at([place_x, place_y, 0.0]);
-            let [about_x, about_y] = [ABOUT_X, ABOUT_Y].map(DofCombination::from);
+            let [x, y] = [0, 1].map(|k| floor.mass_center[k] - reference[k]);
+            let [along, across, up, about_x, about_y, twist] = self.floor_motion(index);
             sums[3] -= floor.mass * (y * up.clone() - height * across.clone());
             sums[3] -= floor.inertia[0] * about_x;
             sums[4] -= floor.mass * (height * along.clone() - x * up.clone());
