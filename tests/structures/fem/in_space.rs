@@ -12,6 +12,8 @@ use basemat::structure::{Base, BaseNode, DofCombination, FemModel, Structure};
 use basemat_problems::dense::{form, largest, mass, multiply, stiffness};
 use basemat_problems::stiff_element::StiffElement;
 
+use crate::space_support::CLAMPED as DIRECTIONS;
+
 /// The corners of a cube of 2 m, from the upper ones down.
 fn cube() -> Mesh {
     let mut mesh = Mesh::in_space();
@@ -87,15 +89,6 @@ fn tower() -> FemModel {
     mesh.add(StiffElement::frame(&[7, 6, 4, 5, 3, 2, 0, 1], 1.0e12, 20.0)).unwrap();
     FemModel::on_base(mesh).unwrap()
 }
-
-const DIRECTIONS: [Direction; 6] = [
-    Direction::X,
-    Direction::Y,
-    Direction::Z,
-    Direction::RotationX,
-    Direction::RotationY,
-    Direction::RotationZ,
-];
 
 /// Rigid motions meet no force, and their inertia is that of 30 kg at the base and 20 kg at the top of each corner.
 fn assert_free(model: &FemModel) {

@@ -3,23 +3,14 @@
 //! REFERENCE: statics by hand, and momenta of the part above from the matrices of models of its own.
 
 use basemat::Error;
-use basemat::fem::{
-    BeamSection, Dashpot, Direction, Hex8, LumpedMass, Material, Mesh, Shell, SpaceBeam,
-};
+use basemat::fem::{BeamSection, Dashpot, Hex8, LumpedMass, Material, Mesh, Shell, SpaceBeam};
 use basemat::structure::{
     FemModel, PlanStorey, RayleighDamping, RigidBody, SectionRows, SpaceSection, StoreyBuilding,
     Structure,
 };
 use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
 
-const DIRECTIONS: [Direction; 6] = [
-    Direction::X,
-    Direction::Y,
-    Direction::Z,
-    Direction::RotationX,
-    Direction::RotationY,
-    Direction::RotationZ,
-];
+use crate::space_support::CLAMPED as DIRECTIONS;
 
 /// Forces and moments along the six directions; the compression acts downwards.
 fn rows(section: &SpaceSection) -> [(&SectionRows, f64); 6] {
