@@ -7,10 +7,9 @@ use basemat::bem::{ContactElement, ElasticGround};
 use basemat::coupled::StepError;
 use basemat::coupled::{GravityStage, Load, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
-use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::structure::RigidBody;
 use basemat::{Error, Simulation, Soil};
-use basemat_problems::flexible_scenes::{Outcome, Sines};
+use basemat_problems::flexible_scenes::{Outcome, Sines, profile};
 use basemat_problems::random::Random;
 
 const SCENES: usize = 40;
@@ -34,14 +33,7 @@ fn law(random: &mut Random, friction: f64, pressure: f64) -> Box<dyn InterfaceLa
 
 fn scene(random: &mut Random) -> Result<Simulation, Error> {
     let soil = Soil::new(1.0, random.within(0.0, 0.45), 1.0)?;
-    let mut profile = SoilProfile::from(soil);
-    if random.chance(0.25) {
-        let rock = Soil::new(random.within(2.0, 20.0), 0.3, 1.2)?;
-        let damping = GeneralizedMaxwell::constant_q(random.within(0.01, 0.1), [0.02, 2.0], 0.3)?;
-        profile = SoilProfile::on_half_plane(rock)
-            .with_layer(soil, random.within(1.0, 4.0))?
-            .with_damping(damping);
-    }
+    let profile = profile(random, soil, 0.25)?;
     let sides = [2.0, random.within(1.2, 2.0)];
     let height = random.within(0.5, 5.0);
     let density = random.log_within(0.05, 3.0);
@@ -77,11 +69,7 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
     let friction = if friction < 0.03 { 0.0 } else { friction };
     let friction = if random.chance(0.1) { f64::INFINITY } else { friction };
     let pressure = gravity * density * height;
-    let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
-    let mut strength = || random.within(-2.0, 2.0) * gravity;
-    let accelerations = [strength(), strength(), 0.5 * strength()];
-    let amplitudes = std::array::from_fn(|k| accelerations[k] / frequencies[k].powi(2));
-    let slowness = if random.chance(0.3) { random.within(0.0, 0.7) } else { 0.0 };
+    let motion = Sines::random(random, step, gravity);
     let weight = pressure * sides[0] * sides[1];
     let push = random.within(0.0, 0.05) * friction.min(1.0) * weight;
     let stage =
@@ -90,7 +78,7 @@ fn scene(random: &mut Random) -> Result<Simulation, Error> {
         .structure(body)
         .ground(ElasticGround::in_plan(profile, plan)?)
         .interface(law(random, friction, pressure))
-        .motion(Sines { amplitudes, frequencies, slowness })
+        .motion(motion)
         .gravity(gravity)
         .gravity_stage(stage)
         .load(Load::new(1, move |time: f64| push * (1.0 + (0.3 * time).sin())))

@@ -19,9 +19,21 @@ const STEPS: usize = 60;
 /// Sines in three directions, at rest at t = 0.
 #[derive(Debug, Clone)]
 pub struct Sines {
-    pub amplitudes: [f64; 3],
-    pub frequencies: [f64; 3],
-    pub slowness: f64,
+    amplitudes: [f64; 3],
+    frequencies: [f64; 3],
+    slowness: f64,
+}
+
+impl Sines {
+    /// Accelerations up to twice `gravity`, with frequencies for steps of the length `step`.
+    pub fn random(random: &mut Random, step: f64, gravity: f64) -> Self {
+        let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
+        let mut strength = || random.within(-2.0, 2.0) * gravity;
+        let accelerations = [strength(), strength(), 0.5 * strength()];
+        let amplitudes = std::array::from_fn(|k| accelerations[k] / frequencies[k].powi(2));
+        let slowness = if random.chance(0.3) { random.within(0.0, 0.7) } else { 0.0 };
+        Self { amplitudes, frequencies, slowness }
+    }
 }
 
 impl FreeField for Sines {
@@ -33,6 +45,19 @@ impl FreeField for Sines {
         let time = (time - self.slowness * (place[0] + 4.0)).max(0.0);
         std::array::from_fn(|k| self.amplitudes[k] * (1.0 - (self.frequencies[k] * time).cos()))
     }
+}
+
+/// A half-space of `soil`, or by chance a damped layer of it on rock.
+///
+/// `layered`: probability of the layer.
+pub fn profile(random: &mut Random, soil: Soil, layered: f64) -> Result<SoilProfile, Error> {
+    if !random.chance(layered) {
+        return Ok(soil.into());
+    }
+    let rock = Soil::new(random.within(2.0, 20.0), 0.3, 1.2)?;
+    let damping = GeneralizedMaxwell::constant_q(random.within(0.01, 0.1), [0.02, 2.0], 0.3)?;
+    let profile = SoilProfile::on_half_plane(rock).with_layer(soil, random.within(1.0, 4.0))?;
+    Ok(profile.with_damping(damping))
 }
 
 /// A mesh on its lowest faces.
@@ -197,14 +222,7 @@ impl Building {
 
 fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
     let soil = Soil::new(1.0, random.within(0.0, 0.45), 1.0)?;
-    let mut profile = SoilProfile::from(soil);
-    if random.chance(0.1) {
-        let rock = Soil::new(random.within(2.0, 20.0), 0.3, 1.2)?;
-        let damping = GeneralizedMaxwell::constant_q(random.within(0.01, 0.1), [0.02, 2.0], 0.3)?;
-        profile = SoilProfile::on_half_plane(rock)
-            .with_layer(soil, random.within(1.0, 4.0))?
-            .with_damping(damping);
-    }
+    let profile = profile(random, soil, 0.1)?;
     let sides = [2.0, random.within(1.2, 2.0)];
     let model = Building::new(random, sides, soil.shear_modulus())?.model(random)?;
     let cells = random.pick(&[4, 5, 6, 8]);
@@ -216,11 +234,7 @@ fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
         1 => Box::new(Coulomb::new(f64::INFINITY)?),
         _ => Box::new(Bonded),
     };
-    let frequencies = [0; 3].map(|_| random.log_within(0.02, 0.4) / step.max(0.2));
-    let mut strength = || random.within(-2.0, 2.0) * gravity;
-    let accelerations = [strength(), strength(), 0.5 * strength()];
-    let amplitudes = std::array::from_fn(|k| accelerations[k] / frequencies[k].powi(2));
-    let slowness = if random.chance(0.3) { random.within(0.0, 0.7) } else { 0.0 };
+    let motion = Sines::random(random, step, gravity);
     let is_reduced = random.chance(0.5);
     let coordinates = if is_reduced {
         random.pick(&[Coordinates::Reduced { tolerance: 1e-3 }, Coordinates::Auto])
@@ -231,7 +245,7 @@ fn scene(random: &mut Random) -> Result<(Simulation, bool), Error> {
         .structure(model)
         .ground(ElasticGround::in_plan(profile, plan)?)
         .interface(law)
-        .motion(Sines { amplitudes, frequencies, slowness })
+        .motion(motion)
         .gravity(gravity)
         .coordinates(coordinates)
         .expected_steps(STEPS)
