@@ -137,8 +137,7 @@ class _Base:
     def check_heights(self, tags: Sequence[int], up: str) -> None:
         """An error for base nodes that are not at one height."""
         heights = [self.place(tag)[2] for tag in tags]
-        size = np.ptp(list(self._rows.at.values()), axis=0).max()
-        if heights and max(heights) - min(heights) > 1e-6 * size:
+        if heights and max(heights) - min(heights) > 1e-6 * self._rows.size:
             raise InputError(
                 f"base nodes are at heights of {min(heights)} to {max(heights)} m, but must be at one: heights are along "
                 f"the axis {up}, by the argument up"
@@ -178,12 +177,10 @@ def moves(rows: Rows, used: Any) -> str:
 
     ``used``: whether a degree of freedom has stiffness or mass.
     """
-    size, ties = np.ptp(list(rows.at.values()), axis=0).max(), rows.ties
+    ties = rows.ties
     for name in rows.directions:
-        moved = np.zeros(len(used))
-        for tag, own in rows.places.items():
-            moved[own] = rows.rigid(name, tag)
-        missed = used & (np.abs(ties.sums @ moved[ties.kept] - moved) > 1e-6 * max(size, 1.0))
+        moved = rows.rigid(name)
+        missed = used & (np.abs(ties.sums @ moved[ties.kept] - moved) > 1e-6 * max(rows.size, 1.0))
         for tag, own in rows.places.items():
             for place, direction in zip(own, rows.directions):
                 if not missed[place]:
@@ -200,9 +197,7 @@ def masses(rows: Rows, mass: Any, up: str) -> str:
     names = [name for name in rows.directions if name in ("x", "y", "z")]
     found = {}
     for name in names:
-        moved = np.zeros(mass.shape[0])
-        for tag, own in rows.places.items():
-            moved[own] = rows.rigid(name, tag)
+        moved = rows.rigid(name)
         found[name] = float(moved @ (mass @ moved))
     if max(found.values()) - min(found.values()) <= 1e-3 * max(found.values()):
         return ""

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from . import DofCombination, InputError
 from ._opensees_ties import Ties
 
@@ -18,6 +22,8 @@ class Rows:
     def __init__(self, at: dict[int, tuple[float, ...]], places: dict[int, list[int]], ties: Ties) -> None:
         self.at, self.places, self.ties = at, places, ties
         self.directions = ties.directions
+        #: Largest distance of two nodes along an axis, m.
+        self.size = float(np.ptp(list(at.values()), axis=0).max())
 
     def row(self, node: int, direction: str, need: str = "") -> DofCombination:
         """The row of a node's displacement; ``need`` ends the message where constraints hold it at zero."""
@@ -34,16 +40,23 @@ class Rows:
             raise InputError(f"node {node} is held in the direction {direction}{need} (it is held by {by})")
         return DofCombination(terms)
 
-    def rigid(self, direction: str, node: int) -> list[float]:
-        """Displacements of a node by a unit motion of the whole in a direction, or about the origin's axis."""
-        count, k = len(self.places[node]), self.directions.index(direction)
-        if self.directions[-1] == "rotation":
-            x, y = self.at[node]
-            return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-y, x, 1.0]][k]
-        moved = [0.0] * 6
-        moved[k] = 1.0
-        if k >= 3:
-            # The unit rotation across the place.
-            one, other = (k + 1) % 3, (k + 2) % 3
-            moved[one], moved[other] = -self.at[node][other], self.at[node][one]
-        return moved[:count]
+    def rigid(self, direction: str) -> Any:
+        """Displacements of all nodes by a unit motion of the whole in a direction, or about the origin's axis."""
+        k, moved = self.directions.index(direction), np.zeros(self.ties.sums.shape[0])
+        for node, own in self.places.items():
+            moved[own] = _rigid(k, self.at[node])[: len(own)]
+        return moved
+
+
+def _rigid(k: int, at: tuple[float, ...]) -> list[float]:
+    """Displacements of a place, in all directions, by a unit motion of the whole in the direction ``k``."""
+    if len(at) == 2:
+        x, y = at
+        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-y, x, 1.0]][k]
+    moved = [0.0] * 6
+    moved[k] = 1.0
+    if k >= 3:
+        # The unit rotation across the place.
+        one, other = (k + 1) % 3, (k + 2) % 3
+        moved[one], moved[other] = -at[other], at[one]
+    return moved
