@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ._opensees_ties import fixes, tied
+
 #: Degrees of freedom up to which matrices are dense.
 DENSE = 2400
 
@@ -87,9 +89,9 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
     ends = np.cumsum([0, *counts.values()])
     places = {tag: list(range(int(ends[k]), int(ends[k + 1]))) for k, tag in enumerate(tags)}
     order = int(ends[-1])
-    held = {tag: {int(own) - 1 for own in ops.getFixedDOFs(tag)} for tag in map(int, ops.getFixedNodes() or ())}
+    held = fixes(ops)
     groups, pairs = _groups(ops, tags)
-    tied = {tag for pair in _ties(ops) for tag in pair}
+    in_ties = {tag for pair in tied(ops) for tag in pair}
     parts: list[list[Any]] = [[] for _ in range(5)]
     closed = _Fixes(ops, counts, held)
     done: set[int] = set()
@@ -100,7 +102,7 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
                 continue
             closed.but(own)
             found = _assembled(ops, ("Auto", "-userPenalty", 0.0), np.eye(4))
-            if tied.intersection(own):
+            if in_ties.intersection(own):
                 found += _assembled(ops, ("Auto", "-userPenalty", 1.0), np.zeros((1, 4)))
             numbers = [
                 (place, group, int(number))
@@ -181,11 +183,4 @@ def _neighbours(ops: Any) -> Iterator[tuple[int, int]]:
     for element in ops.getEleTags():
         nodes = [int(tag) for tag in ops.eleNodes(element)]
         yield from ((one, other) for one in nodes for other in nodes if one <= other)
-    yield from _ties(ops)
-
-
-def _ties(ops: Any) -> Iterator[tuple[int, int]]:
-    """Pairs of a node that follows and the node that it follows."""
-    for tag in ops.getConstrainedNodes() or ():
-        for master in ops.getRetainedNodes(tag):
-            yield int(tag), int(master)
+    yield from tied(ops)

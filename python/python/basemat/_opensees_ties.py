@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,19 @@ _REPEATED = 1e-13
 
 #: Constraints that a message names.
 _MOST = 8
+
+
+def fixes(ops: Any) -> dict[int, set[int]]:
+    """Directions, by their numbers, that supports hold of each node (its tag)."""
+    return {int(tag): {int(own) - 1 for own in ops.getFixedDOFs(tag)} for tag in ops.getFixedNodes()}
+
+
+def tied(ops: Any) -> Iterator[tuple[int, int]]:
+    """Pairs of a node that follows and the node that it follows, by their tags."""
+    for tag in ops.getConstrainedNodes():
+        for master in ops.getRetainedNodes(tag):
+            yield int(tag), int(master)
+
 
 class Ties:
     """Displacements of all nodes as weighted sums of the degrees of freedom that are left.
@@ -27,18 +40,14 @@ class Ties:
     def __init__(self, ops: Any, places: dict[int, list[int]], directions: tuple[str, ...], penalty: Any) -> None:
         self._places, self.directions = places, directions
         self._near = {int(own): _nonzero(penalty, int(own)) for own in np.flatnonzero(penalty.diagonal())}
-        self._fixed = {int(tag): [int(own) - 1 for own in ops.getFixedDOFs(tag)] for tag in ops.getFixedNodes()}
-        #: Nodes that follow, the nodes that they follow, and the directions.
-        self._pairs = {
-            (int(tag), int(master)): [int(own) - 1 for own in ops.getConstrainedDOFs(tag, master)]
-            for tag in ops.getConstrainedNodes()
-            for master in ops.getRetainedNodes(tag)
-        }
+        self._fixed = fixes(ops)
+        #: Tied directions of a node that follows, by the pair of nodes; ``retained``: those of the other node.
+        self._pairs = {pair: [int(own) - 1 for own in ops.getConstrainedDOFs(*pair)] for pair in tied(ops)}
+        retained = {pair: [int(own) - 1 for own in ops.getRetainedDOFs(*pair[::-1])] for pair in self._pairs}
         # Sparse matrices leave out what a fixed degree of freedom is tied to.
-        for tag, master in self._pairs:
-            retained = ops.getRetainedDOFs(master, tag)
-            for k, j in zip(self._pairs[tag, master], retained):
-                ends = places[tag][k], places[master][int(j) - 1]
+        for (tag, master), held in self._pairs.items():
+            for k, j in zip(held, retained[tag, master]):
+                ends = places[tag][k], places[master][j]
                 for one, other in (ends, ends[::-1]):
                     if other not in self._near.setdefault(one, [one]):
                         self._near[one] = sorted([*self._near[one], other])
@@ -46,11 +55,7 @@ class Ties:
         for (tag, _), held in self._pairs.items():
             followed.setdefault(tag, set()).update(held)
         #: Ties in a chain: a node that follows a second one, which follows a third.
-        self.chains = [
-            pair
-            for pair in self._pairs
-            if followed.get(pair[1], set()).intersection(int(own) - 1 for own in ops.getRetainedDOFs(pair[1], pair[0]))
-        ]
+        self.chains = [pair for pair, own in retained.items() if followed.get(pair[1], set()).intersection(own)]
         #: Displacements of constrained places as (places, weights) of such as are left.
         self._followed: dict[int, tuple[Any, Any]] = {}
         for part in self._parts():
@@ -66,10 +71,8 @@ class Ties:
         """Constrained places, a list for all that hang together, each in the order of their elimination."""
         part: dict[int, int] = {}
         for first in self._near:
-            edge = [first] if first not in part else []
-            while edge:
-                part.update(dict.fromkeys(edge, first))
-                edge = list({own for far in edge for own in self._near[far] if own not in part})
+            if first not in part:
+                part.update(dict.fromkeys(self._hanging(first), first))
         found: dict[int, list[int]] = {}
         for place in self._order():
             found.setdefault(part[place], []).append(place)
@@ -124,12 +127,17 @@ class Ties:
         places, weights = self._followed.get(place, ((place,), (1.0,)))
         return [(self._number[int(own)], float(weight)) for own, weight in zip(places, weights)]
 
+    def _hanging(self, place: int) -> set[int]:
+        """A place and all that constraints tie to it, one by another."""
+        seen, edge = {place}, {place}
+        while edge:
+            edge = {own for far in edge for own in self._near.get(far, ())} - seen
+            seen |= edge
+        return seen
+
     def about(self, place: int) -> str:
         """The constraints of the degree of freedom at ``place`` and of all that are tied to it, for people."""
-        seen, edge = {place}, [place]
-        while edge:
-            edge = [own for far in edge for own in self._near.get(far, ()) if own not in seen]
-            seen.update(edge)
+        seen = self._hanging(place)
         nodes = {tag: [k for k in range(len(own)) if own[k] in seen] for tag, own in self._places.items() if seen & set(own)}
         found = []
         for tag, directions in nodes.items():
