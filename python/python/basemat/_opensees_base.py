@@ -83,14 +83,11 @@ def faces_of(
 def _outlines(outline: Sequence[Any]) -> list[Any]:
     """A list of outlines, or one by itself, as arrays of corners."""
     try:
-        found = [np.asarray(outline, dtype=float)]
+        found = [np.asarray(own, dtype=float) for own in outline]
+        if found and all(own.ndim == 1 for own in found):
+            found = [np.asarray(found, dtype=float)]
     except (TypeError, ValueError):
-        found = []
-    if not found or found[0].ndim != 2:
-        try:
-            found = [np.asarray(own, dtype=float) for own in outline]
-        except (TypeError, ValueError):
-            found = [np.zeros(0)]
+        found = [np.zeros(0)]
     if any(own.ndim != 2 or own.shape[1] != 2 for own in found):
         raise InputError(f"outline is {outline!r}, but must be a list of corners, each of x and y in m, or a list of such lists")
     return found
