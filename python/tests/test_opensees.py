@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
@@ -56,12 +58,7 @@ def on_springs() -> None:
 
 def marched() -> np.ndarray:
     """Displacement of node 4 to the right under the pattern that is set up, by OpenSees alone."""
-    ops.constraints("Transformation")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.algorithm("Linear")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
+    analysis(HANDLERS["Transformation"], "Newmark")
     found = [0.0]
     for _ in range(STEPS):
         assert ops.analyze(1, STEP) == 0
@@ -221,28 +218,25 @@ def tied_frame(commands: list[tuple[object, ...]]) -> None:
         getattr(ops, str(command))(*values)
 
 
-def springs(base: int) -> list[float]:
-    """Stiffness of the springs under a base node."""
-    return [4e7 * (1 + 0.1 * base), 9e7 * (1 + 0.1 * base), 2e7 * (1 + 0.1 * base)]
-
-
-def deflections(tags: list[int], handler: tuple[object, ...]) -> np.ndarray:
-    """Of all nodes, under 1 MN or MN·m on each, with springs under the base: by OpenSees."""
-    for own in BASE:
+def deflections_in_opensees(tags: list[int], springs: dict[int, list[float]], handler: str) -> np.ndarray:
+    """Of all nodes, under 1 MN or MN·m on each, with springs of these stiffnesses under the base nodes."""
+    [count] = {len(own) for own in springs.values()}
+    directions = range(1, count + 1)
+    for own, stiffnesses in springs.items():
         ops.node(100 + own, *ops.nodeCoord(own))
-        ops.fix(100 + own, 1, 1, 1)
-        for k, stiffness in enumerate(springs(own), 1):
-            ops.uniaxialMaterial("Elastic", 10 * own + k, stiffness)
-        materials = [10 * own + k for k in (1, 2, 3)]
-        ops.element("zeroLength", 100 + own, own, 100 + own, "-mat", *materials, "-dir", 1, 2, 3)
+        ops.fix(100 + own, *[1] * count)
+        materials = [10 * own + k for k in directions]
+        for material, stiffness in zip(materials, stiffnesses):
+            ops.uniaxialMaterial("Elastic", material, stiffness)
+        ops.element("zeroLength", 100 + own, own, 100 + own, "-mat", *materials, "-dir", *directions)
     ops.timeSeries("Constant", 1)
     found = []
-    for tag, k in ((tag, k) for tag in tags for k in range(3)):
+    for tag, k in ((tag, k) for tag in tags for k in range(count)):
         ops.pattern("Plain", 1, 1)
-        ops.load(tag, *(1e6 * np.eye(3)[k]).tolist())
-        analysis(handler, "LoadControl")
+        ops.load(tag, *(1e6 * np.eye(count)[k]).tolist())
+        analysis(HANDLERS[handler], "LoadControl")
         assert ops.analyze(1) == 0
-        found.append([ops.nodeDisp(own, j) for own in tags for j in (1, 2, 3)])
+        found.append([ops.nodeDisp(own, j) for own in tags for j in directions])
         ops.remove("loadPattern", 1)
         ops.reset()
     return np.array(found)
@@ -267,6 +261,19 @@ def row(model: opensees.OpenSeesModel, tag: int, name: str) -> np.ndarray:
         return np.zeros(model.dofs)
 
 
+def deflections(
+    model: opensees.OpenSeesModel, tags: list[int], springs: dict[int, list[float]], names: Sequence[str]
+) -> np.ndarray:
+    """Of all nodes under the same loads: by the structure that basemat took, on these springs."""
+    rows = np.array([row(model, tag, name) for tag in tags for name in names])
+    stiffness = model.stiffness()
+    for own, stiffnesses in springs.items():
+        for name, spring in zip(names, stiffnesses):
+            weights = row(model, own, name)
+            stiffness = stiffness + spring * np.outer(weights, weights)
+    return 1e6 * rows @ np.linalg.solve(stiffness, rows.T)
+
+
 @pytest.mark.filterwarnings("ignore:the structure does not rotate")
 @pytest.mark.parametrize(("ties", "handler"), [(name, own) for name in TIES for own in TIES[name][0]])
 def test_ties_fixes_and_numbers_are_those_of_opensees(ties: str, handler: str) -> None:
@@ -280,14 +287,9 @@ def test_ties_fixes_and_numbers_are_those_of_opensees(ties: str, handler: str) -
             model = opensees.structure(ops, BASE)
     else:
         model = opensees.structure(ops, BASE)
-    rows = np.array([row(model, tag, name) for tag in tags for name in NAMES])
-    stiffness = model.stiffness()
-    for own in BASE:
-        for name, spring in zip(NAMES, springs(own)):
-            weights = row(model, own, name)
-            stiffness = stiffness + spring * np.outer(weights, weights)
-    found = 1e6 * rows @ np.linalg.solve(stiffness, rows.T)
-    expected = deflections(tags, HANDLERS[handler])
+    springs = {own: [stiffness * (1 + 0.1 * own) for stiffness in (4e7, 9e7, 2e7)] for own in BASE}
+    found = deflections(model, tags, springs, NAMES)
+    expected = deflections_in_opensees(tags, springs, handler)
     error = np.abs(found - expected).max() / np.abs(expected).max()
     assert error < (1e-5 if handler == "Penalty" else 1e-9)
     [nodes] = model.base()

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
+from test_opensees import HANDLERS, analysis, deflections, deflections_in_opensees
 
 import basemat as bm
 from basemat import _opensees_matrices, opensees
@@ -93,12 +94,7 @@ def test_a_building_moves_as_in_opensees(up: str, below: float) -> None:
     ops.timeSeries("Path", 1, "-dt", STEP, "-values", *RECORD.accelerations)
     ops.pattern("Plain", 1, 1)
     ops.load(212, *force, 0.0, 0.0, 0.0)
-    ops.constraints("Transformation")
-    ops.numberer("Plain")
-    ops.system("FullGeneral")
-    ops.algorithm("Linear")
-    ops.integrator("Newmark", 0.5, 0.25)
-    ops.analysis("Transient")
+    analysis(HANDLERS["Transformation"], "Newmark")
     found = [[0.0] * 6]
     for _ in range(STEPS):
         assert ops.analyze(1, STEP) == 0
@@ -156,50 +152,15 @@ def tied_frame(commands: list[tuple[object, ...]]) -> None:
         getattr(ops, str(command))(*values)
 
 
-def weights(model: opensees.OpenSeesModel, tag: int, name: str) -> np.ndarray:
-    """Of a displacement; zero where the model says that it is held."""
-    try:
-        return model.row(tag, name).weights(model.dofs)  # type: ignore[arg-type]
-    except bm.InputError as error:
-        assert f"node {tag} is held in the direction {name}" in str(error) and "fix of node" in str(error)
-        return np.zeros(model.dofs)
-
-
 @pytest.mark.filterwarnings("ignore:the structure does not rotate")
 @pytest.mark.parametrize(("ties", "handler"), [(name, own) for name in TIES for own in TIES[name][0]])
 def test_ties_and_fixes_are_those_of_opensees(ties: str, handler: str) -> None:
     tied_frame(TIES[ties][1])
     tags = [int(tag) for tag in ops.getNodeTags()]
     model = opensees.structure(ops, faces=[(1, 2, 3)])
-    rows = np.array([weights(model, tag, name) for tag in tags for name in DIRECTIONS])
-    stiffness, springs = model.stiffness(), [4e7, 5e7, 9e7, 2e7, 3e7, 1e7]
-    for own in (1, 2, 3):
-        for name, spring in zip(DIRECTIONS, springs):
-            row = weights(model, own, name)
-            stiffness = stiffness + spring * np.outer(row, row)
-    found = 1e6 * rows @ np.linalg.solve(stiffness, rows.T)
-    for k, spring in enumerate(springs, 1):
-        ops.uniaxialMaterial("Elastic", k, spring)
-    for own in (1, 2, 3):
-        ops.node(100 + own, *ops.nodeCoord(own))
-        ops.fix(100 + own, 1, 1, 1, 1, 1, 1)
-        ops.element("zeroLength", 100 + own, own, 100 + own, "-mat", *range(1, 7), "-dir", *range(1, 7))
-    ops.timeSeries("Constant", 1)
-    expected = []
-    for tag, k in ((tag, k) for tag in tags for k in range(6)):
-        ops.pattern("Plain", 1, 1)
-        ops.load(tag, *(1e6 * np.eye(6)[k]).tolist())
-        ops.wipeAnalysis()
-        ops.constraints(handler)
-        ops.numberer("RCM")
-        ops.system("FullGeneral")
-        ops.algorithm("Linear")
-        ops.integrator("LoadControl", 1.0)
-        ops.analysis("Static")
-        assert ops.analyze(1) == 0
-        expected.append([ops.nodeDisp(own, j) for own in tags for j in range(1, 7)])
-        ops.remove("loadPattern", 1)
-        ops.reset()
+    springs = {own: [4e7, 5e7, 9e7, 2e7, 3e7, 1e7] for own in (1, 2, 3)}
+    found = deflections(model, tags, springs, DIRECTIONS)
+    expected = deflections_in_opensees(tags, springs, handler)
     assert np.abs(found - expected).max() < 1e-9 * np.abs(expected).max()
 
 
