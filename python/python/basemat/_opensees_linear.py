@@ -18,6 +18,7 @@ _ELEMENTS = {
 }  # fmt: skip
 _SHELLS = {"ShellMITC4", "ShellMITC9", "ShellDKGQ", "ShellDKGT", "ASDShellQ4", "ASDShellT3"}
 _SOLIDS = {"Brick", "BbarBrick", "SSPbrick", "FourNodeTetrahedron", "TenNodeTetrahedron", "Twenty_Node_Brick"}
+_KNOWN = _ELEMENTS | _SHELLS | _SOLIDS
 _SECTIONS = {
     "ElasticSection2d", "ElasticShearSection2d", "SectionAggregator", "FiberSection2d", "ElasticSection3d",
     "ElasticShearSection3d", "FiberSection3d", "ElasticMembranePlateSection",
@@ -82,7 +83,7 @@ class Elements:
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
             reasons = list(dict.fromkeys(self._reasons(tag)))
-            if reasons or self._type(tag) not in _ELEMENTS | _SHELLS | _SOLIDS:
+            if reasons or self._type(tag) not in _KNOWN:
                 found.setdefault(", ".join([self._type(tag), *reasons]), []).append(int(tag))
         return found
 
@@ -141,7 +142,7 @@ class Elements:
             yield from self._solid(text)
         else:
             yield from self._inside(text)
-        if not text and self._type(tag) in _ELEMENTS | _SHELLS | _SOLIDS:
+        if not text and self._type(tag) in _KNOWN:
             yield "unknown properties"
 
     def _solid(self, text: str) -> Iterator[str]:
