@@ -1,6 +1,6 @@
 """A frame from OpenSees on a rigid mat that may uplift and slide: ``pip install openseespy``.
 
-The model is that of OpenSees, free of supports at node 1; the ground and the contact are basemat's.
+The frame is a model of OpenSees, free of supports at node 1; basemat adds the ground and the contact.
 """
 
 from __future__ import annotations

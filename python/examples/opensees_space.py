@@ -1,7 +1,7 @@
 """A frame building in space from OpenSees on a mat of shells that uplifts and slides: ``pip install openseespy``.
 
-The model is that of OpenSees (``-ndm 3 -ndf 6``, z up), free of supports; the ground and the contact are basemat's. On a rigid
-mat, columns hang on one node by ``rigidLink``: ``opensees.structure(ops, [node], outline=[(x, y), …])``.
+The building is a model of OpenSees (``-ndm 3 -ndf 6``, z up), free of supports; basemat adds the ground and the contact. On a
+rigid mat, columns hang on one node by ``rigidLink``: ``opensees.structure(ops, [node], outline=[(x, y), …])``.
 """
 
 from __future__ import annotations

@@ -82,7 +82,7 @@ def test_arrays_and_generators_make_the_same_mesh() -> None:
     chords = 12 * math.sin(math.pi / 12) * 10.0
     volume = 6 * 25.0 * math.sin(math.pi / 6) * 0.5 + chords * 4.0 * 0.3
     assert up @ one.mass() @ up == pytest.approx(2500.0 * volume, rel=1e-12)
-    # Triangles know the quadrilaterals beside them: alone they have other matrices.
+    # Triangles match the quadrilaterals beside them: alone they have other matrices.
     alone = bm.Mesh.in_space(mesh.nodes)
     alone.add_shells(triangles, CONCRETE, 0.5)
     alone.add_shells(quads, CONCRETE, thickness[12:])

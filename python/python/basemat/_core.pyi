@@ -2888,7 +2888,7 @@ class Mesh:
         """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
 
         ``points``: array of shape (nodes, 3), or (nodes, 2) in the plane, m. ``cells``: list of pairs (type, array of node
-        numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as those of a mesh of meshio.
+        numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as the blocks of a mesh of meshio.
         ``parts``: list with an entry for each block; None leaves the block out.
 
         In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
@@ -2930,8 +2930,8 @@ class Mesh:
         lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
         or an array of one per shell.
 
-        The nodes lie in the middle of the thickness. The shells of a call know each other: triangles match the sides that
-        they share with quadrilaterals, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
+        The nodes lie in the middle of the thickness. Triangles match the sides that they share with quadrilaterals of the
+        same call, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
         """
     def add_bricks(self, nodes: ArrayLike, material: Material) -> list[int]:
         """Adds bricks of a ``material`` (:class:`Material`) on ``nodes``, array of shape (bricks, 8): the lower face

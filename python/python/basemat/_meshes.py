@@ -19,7 +19,7 @@ def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -
     """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
 
     ``points``: array of shape (nodes, 3), or (nodes, 2) in the plane, m. ``cells``: list of pairs (type, array of node
-    numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as those of a mesh of meshio.
+    numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as the blocks of a mesh of meshio.
     ``parts``: list with an entry for each block; None leaves the block out.
 
     In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
@@ -56,7 +56,7 @@ def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -
 
 
 def _add_shells(mesh: Mesh, blocks: list[tuple[str, str, Any, Any]]) -> None:
-    """Adds the shells of all blocks at once, so that triangles know the quadrilaterals beside them."""
+    """Adds the shells of all blocks at once, so that triangles match the quadrilaterals beside them."""
     shells: list[list[int]] = []
     materials: list[Material] = []
     thicknesses: list[float] = []

@@ -163,7 +163,7 @@ class _Base:
 
 
 def _sum(row: DofCombination, *terms: tuple[DofCombination, float]) -> DofCombination:
-    """A row and others with their weights, without those of zero."""
+    """A row and others by their weights; a weight of zero adds no term."""
     for other, weight in terms:
         row = row + other * weight if weight else row
     return row

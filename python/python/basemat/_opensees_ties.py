@@ -41,7 +41,7 @@ class Ties:
         self._places, self.directions = places, directions
         self._near = {int(own): _nonzero(penalty, int(own)) for own in np.flatnonzero(penalty.diagonal())}
         self._fixed = fixes(ops)
-        #: Tied directions of a node that follows, by the pair of nodes; ``retained``: those of the other node.
+        #: Tied directions of a node that follows, by the pair of nodes; ``retained``: of the other node.
         self._pairs = {pair: [int(own) - 1 for own in ops.getConstrainedDOFs(*pair)] for pair in tied(ops)}
         retained = {pair: [int(own) - 1 for own in ops.getRetainedDOFs(*pair[::-1])] for pair in self._pairs}
         # Sparse matrices leave out what a fixed degree of freedom is tied to.

@@ -27,9 +27,9 @@ class OpenSeesModel:
 
     It is a structure like any other, for a ground, a simulation or a reduction. Its degrees of freedom
     are called "4 x", "4 y" and "4 rotation" by the node's tag, in space "4 x", "4 y", "4 z", "4 rx", "4 ry" and "4 rz",
-    in frames and in errors, too. A degree of freedom that a tie or a fix of OpenSees takes away is none of them;
-    :meth:`row` knows it all the same. Matrices of more than 2400 degrees of freedom are those of ``scipy.sparse``
-    where SciPy is installed.
+    in frames and in errors, too. A degree of freedom that a tie or a fix of OpenSees takes away has no such
+    name; :meth:`row` gives the sum that a tied one follows. Matrices of more than 2400 degrees of freedom are sparse
+    (``scipy.sparse``) where SciPy is installed.
     """
 
     def __init__(self, model: MatrixModel, rows: Rows, sparse: tuple[Any, Any, Any] | None) -> None:
@@ -89,7 +89,7 @@ def structure(
         faces: a flexible base in space: list of shell elements (their tags), or of the tags of the three
             or four nodes around a face, free of supports and at one height. A shell touches the ground with its
             underside, half its thickness below its nodes.
-        below: distance of the ground's surface below the base nodes or those of the faces, m. Unless given, zero
+        below: distance of the ground's surface below the nodes of the base or of the faces, m. Unless given, zero
             under an outline, half the thickness of its section under a shell.
         up: axis of the model in space that points up, "z" or "y". The ground's and the motion's x, y and z are the
             model's x, y and z, or with "y" its x, −z and y. Weight acts downwards. In the plane y points up.

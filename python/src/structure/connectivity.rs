@@ -15,13 +15,17 @@ extracts!(PerElement, object => match object.extract::<f64>() {
 });
 
 impl PerElement {
-    /// Value for the element `index` of so many; `name` is the argument's.
+    /// Value for the element `index` out of `count`.
+    ///
+    /// An error calls the argument by its `name`.
     pub(super) fn at(&self, name: &str, index: usize, count: usize) -> PyResult<f64> {
         Ok(*one_of(&self.0, name, index, count)?)
     }
 }
 
-/// Entry of a list for the element `index` of so many: of a list of one, the same for all.
+/// Entry of a list for the element `index` out of `count`.
+///
+/// A list of one entry holds for all elements. An error calls the list by its `name`.
 pub(super) fn one_of<'a, T>(
     all: &'a [T],
     name: &str,

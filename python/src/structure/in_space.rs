@@ -28,8 +28,8 @@ impl PyMesh {
     /// lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
     /// or an array of one per shell.
     ///
-    /// The nodes lie in the middle of the thickness. The shells of a call know each other: triangles match the sides that
-    /// they share with quadrilaterals, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
+    /// The nodes lie in the middle of the thickness. Triangles match the sides that they share with quadrilaterals of the
+    /// same call, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
     fn add_shells(
         &mut self,
         nodes: Cells,
