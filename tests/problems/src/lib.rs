@@ -11,6 +11,7 @@
 )]
 
 pub mod block_on_springs;
+pub mod bricks;
 pub mod chatter;
 pub mod check_sum;
 pub mod contact_problems;

@@ -3,6 +3,7 @@
 //! REFERENCE: `tests/data/elements`, from an independent program.
 
 use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
+use basemat_problems::bricks::DISTORTED;
 
 use super::{concrete, sheared};
 use crate::space_support::{Part, RY, RZ};
@@ -26,16 +27,6 @@ const PARALLELEPIPED: [[f64; 3]; 8] = [
     [1.739_792, -0.092_054, -1.102_111],
     [1.480_449, 0.746_333, -1.581_537],
     [0.070_792, 1.096_484, -0.206_669],
-];
-const DISTORTED: [[f64; 3]; 8] = [
-    [0.12, -0.12, 0.06],
-    [1.152, 0.036, 0.12],
-    [1.2, 1.12, -0.12],
-    [0.096, 1.024, 0.036],
-    [-0.12, -0.084, 1.548],
-    [1.236, -0.024, 1.428],
-    [1.26, 1.108, 1.512],
-    [-0.024, 1.072, 1.392],
 ];
 
 /// Compares the matrices of an element with a table of their upper triangles.

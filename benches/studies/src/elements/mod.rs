@@ -9,7 +9,6 @@
 
 mod beam_modes;
 mod beams;
-mod block;
 mod brick_plates;
 mod bricks;
 mod columns;

@@ -1,6 +1,7 @@
 //! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
 
 use basemat::fem::{Beam, BeamSection, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
+use basemat_problems::bricks;
 use basemat_problems::dense::{eigenpairs, largest};
 use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, values};
 
@@ -21,25 +22,6 @@ const POINTS: [[f64; 2]; 8] = [
 ];
 const CELLS: [[usize; 4]; 5] =
     [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
-const INNER: [[f64; 3]; 8] = [
-    [0.249, 0.342, 0.192],
-    [0.826, 0.288, 0.288],
-    [0.850, 0.649, 0.263],
-    [0.273, 0.750, 0.230],
-    [0.320, 0.186, 0.643],
-    [0.677, 0.305, 0.683],
-    [0.788, 0.693, 0.644],
-    [0.165, 0.745, 0.702],
-];
-const BRICKS: [[usize; 8]; 7] = [
-    [8, 9, 10, 11, 12, 13, 14, 15],
-    [0, 1, 2, 3, 8, 9, 10, 11],
-    [12, 13, 14, 15, 4, 5, 6, 7],
-    [0, 1, 9, 8, 4, 5, 13, 12],
-    [1, 2, 10, 9, 5, 6, 14, 13],
-    [2, 3, 11, 10, 6, 7, 15, 14],
-    [3, 0, 8, 11, 7, 4, 12, 15],
-];
 
 /// Largest displacement of inner nodes from a uniform `state` while the nodes before `inner` are held in it, relative
 /// to the largest of all.
@@ -96,18 +78,7 @@ fn patches(rows: &mut Rows) -> Result<(), AnyError> {
         }
     }
     let material = Material::new(1.0e6, 0.25, 1.0)?;
-    let mut scene = Supported::new();
-    for z in [0.0, 1.0] {
-        for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
-            scene.node([x, y, z]);
-        }
-    }
-    for point in INNER {
-        scene.node(point);
-    }
-    for nodes in BRICKS {
-        scene.add(Hex8::new(nodes, material));
-    }
+    let scene = bricks::patch(material);
     let uniform = |&[x, y, z]: &[f64; 3]| {
         [x + 0.5 * (y + z), y + 0.5 * (x + z), z + 0.5 * (x + y), 0.0, 0.0, 0.0]
     };
@@ -134,16 +105,7 @@ fn samples() -> Result<Vec<Sample>, AnyError> {
     }
     let triangle = vec![[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
     all.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
-    let brick = vec![
-        [0.12, -0.12, 0.06],
-        [1.152, 0.036, 0.12],
-        [1.2, 1.12, -0.12],
-        [0.096, 1.024, 0.036],
-        [-0.12, -0.084, 1.548],
-        [1.236, -0.024, 1.428],
-        [1.26, 1.108, 1.512],
-        [-0.024, 1.072, 1.392],
-    ];
+    let brick = bricks::DISTORTED.to_vec();
     all.push(("Hex8 distorted", Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)), brick));
     let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?.with_shear_areas([0.1; 2])?;
     let beam = SpaceBeam::new([0, 1], concrete, section, [1.0, 1.0, 0.2])?
