@@ -2,10 +2,14 @@
 //! SCENE: beams of any direction with offsets and releases.
 //! REFERENCE: the beam of the plane, rigid motions, closed forms.
 
-use basemat::fem::{Beam, BeamSection, Direction, Element, MassKind, Material, SpaceBeam};
-use basemat_problems::dense::eigenvalues;
+use basemat::fem::{Beam, Element, MassKind, SpaceBeam};
+use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::space_beams::{
+    concrete, deep_beam, hinged_cantilever, section, sheared, straight_cantilever,
+    thick_cantilever, twisted_cantilever,
+};
 
-use super::{add, concrete, cross, inner, section, sheared};
+use super::{add, cross, inner};
 use crate::space_support::{CLAMPED, Part, RX, RY, RZ, Supported, X, Y, Z, near};
 
 const POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
@@ -15,10 +19,6 @@ fn matrices(element: &dyn Element, points: &[[f64; 3]]) -> [Vec<f64>; 4] {
     let [consistent, lumped] = [MassKind::Consistent, MassKind::Lumped].map(Part::Mass);
     [Part::Stiffness, Part::GeometricStiffness, consistent, lumped]
         .map(|part| part.of(element, points))
-}
-
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// PROBLEM: beams of the plane x–z with the section's y axis across it. RESULT: the matrices of the
@@ -141,10 +141,8 @@ fn rigid_motions_cause_no_force() {
                 near("mass", momentum, 2500.0 * 0.12 * length, 1e-12);
             }
         }
-        let unit = |i: usize| (0..12).map(|j| f64::from(u8::from(i == j))).collect();
-        let unit: Vec<Vec<f64>> = (0..12).map(unit).collect();
         let rows: Vec<Vec<f64>> = stiffness.chunks(12).map(<[f64]>::to_vec).collect();
-        let values = eigenvalues(&rows, &unit);
+        let (values, _) = eigenpairs(&rows);
         let zeros = values.iter().filter(|value| value.abs() < 1e-9 * scale).count();
         assert_eq!(zeros, 6 + released.len(), "{released:?}: {values:?}");
         assert!(values[0] > -1e-13 * scale, "{values:?}");
@@ -156,14 +154,8 @@ fn rigid_motions_cause_no_force() {
 fn a_hinge_carries_no_moment() {
     for (section, ratio) in [(section(), 0.0), (sheared(), 12.0 * 30.0e9 * 0.9e-3 / 1.25e9 / 16.0)]
     {
-        let mut scene = Supported::new();
-        let ends = [[0.0; 3], [0.0, 0.0, 4.0]].map(|point| scene.node(point));
-        let beam = SpaceBeam::new(ends, concrete(), section, [1.0, 0.0, 0.0]).unwrap();
-        scene.add(beam.with_releases(1, &[RY, RZ]).unwrap());
-        scene.hold(0, &CLAMPED);
-        scene.hold(1, &[RX, RY, RZ]);
         let exact = 64.0 / (3.0 * 30.0e9 * 0.9e-3) * (1.0 + 0.25 * ratio);
-        near("hinged cantilever", scene.work(&[(1, X, 1.0)]), exact, 1e-12);
+        near("hinged cantilever", hinged_cantilever(section), exact, 1e-12);
     }
 }
 
@@ -188,21 +180,8 @@ fn a_deep_beam_vibrates_as_tabulated() {
             ],
         ),
     ];
-    let section = BeamSection::new(4.0, [4.0 / 3.0; 2], 2.24923)
-        .and_then(|section| section.with_shear_areas([10.0 / 3.0; 2]))
-        .unwrap();
-    let steel = Material::new(200.0e9, 0.3, 8000.0).unwrap();
     for (count, table) in tables {
-        let mut scene = Supported::new();
-        for k in 0..=count {
-            scene.node([10.0 * k as f64 / count as f64, 0.0, 0.0]);
-        }
-        for k in 0..count {
-            let beam = SpaceBeam::new([k, k + 1], steel, section, [0.0, 1.0, 0.0]).unwrap();
-            scene.add(beam.with_rotary_inertia());
-        }
-        scene.hold(0, &[X, Y, Z, RX]);
-        scene.hold(count, &[Y, Z]);
+        let scene = deep_beam(count);
         for (found, value) in scene.frequencies(MassKind::Consistent, 9).iter().zip(table) {
             near("FV5, Hz", *found, value, 2e-6);
         }
@@ -214,22 +193,11 @@ fn a_deep_beam_vibrates_as_tabulated() {
 #[test]
 fn a_thick_cantilever_vibrates_as_timoshenko_says() {
     let closed = [4.128_065, 5.436_274, 23.67972, 29.49179];
-    let section = BeamSection::new(12.0, [16.0, 9.0], 20.0)
-        .and_then(|section| section.with_shear_areas([10.0; 2]))
-        .unwrap();
     for (kind, table) in [
         (MassKind::Consistent, [4.128_245, 5.436_675, 23.7123, 29.55256, 59.8951, 71.38831]),
         (MassKind::Lumped, [4.096_018, 5.395_115, 23.05549, 28.77253, 56.83891, 67.75244]),
     ] {
-        let mut scene = Supported::new();
-        for k in 0..9 {
-            scene.node([0.0, 0.0, 2.5 * k as f64]);
-            scene.hold(k, if k == 0 { &CLAMPED } else { &[Z, RZ] });
-        }
-        for k in 0..8 {
-            let beam = SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap();
-            scene.add(beam.with_rotary_inertia());
-        }
+        let scene = thick_cantilever(8, &[Z, RZ]);
         let found = scene.frequencies(kind, 6);
         for (found, value) in found.iter().zip(table) {
             near("cantilever, Hz", *found, value, 1e-6);
@@ -246,32 +214,12 @@ fn a_thick_cantilever_vibrates_as_timoshenko_says() {
 /// tables.
 #[test]
 fn cantilevers_deflect_as_tabulated() {
-    let rectangle = |along_y: f64, along_z: f64, torsion: f64| {
-        let area = along_y * along_z;
-        let moments = [area * along_z * along_z / 12.0, area * along_y * along_y / 12.0];
-        BeamSection::new(area, moments, torsion)
-            .and_then(|section| section.with_shear_areas([5.0 / 6.0 * area; 2]))
-            .unwrap()
-    };
-    let tip = |material: Material, section: BeamSection, length: f64, count: usize, turn: f64| {
-        let mut scene = Supported::new();
-        for k in 0..=count {
-            scene.node([length * k as f64 / count as f64, 0.0, 0.0]);
-        }
-        for k in 0..count {
-            let angle: f64 = turn * (k as f64 + 0.5) / count as f64;
-            let orientation = [0.0, angle.cos(), angle.sin()];
-            scene.add(SpaceBeam::new([k, k + 1], material, section, orientation).unwrap());
-        }
-        scene.hold(0, &CLAMPED);
-        move |direction: Direction| scene.work(&[(count, direction, 1.0)])
-    };
+    let tip = |scene: &Supported, count: usize, direction| scene.work(&[(count, direction, 1.0)]);
     for count in [1, 6] {
-        let material = Material::new(1.0e7, 0.3, 0.0).unwrap();
-        let tip = tip(material, rectangle(0.2, 0.1, 4.58e-5), 6.0, count, 0.0);
+        let beam = straight_cantilever(4.58e-5, count);
         let torsion = 6.0 / (1.0e7 / 2.6 * 4.58e-5);
         for (direction, value) in [(X, 3e-5), (Y, 0.108_093_6), (Z, 0.432_093_6), (RX, torsion)] {
-            near("straight cantilever", tip(direction), value, 1e-7);
+            near("straight cantilever", tip(&beam, count, direction), value, 1e-7);
         }
     }
     // The torsion constant matters little: the load bends.
@@ -279,10 +227,8 @@ fn cantilevers_deflect_as_tabulated() {
     for (count, [along, across]) in
         [(12, [5.424_036e-3, 1.754_909e-3]), (96, [5.429_239e-3, 1.749_705e-3])]
     {
-        let material = Material::new(2.9e7, 0.22, 0.0).unwrap();
-        let section = rectangle(1.1, 0.32, torsion);
-        let tip = tip(material, section, 12.0, count, std::f64::consts::FRAC_PI_2);
-        near("twisted cantilever, along its width", tip(Z), along, 1e-6);
-        near("twisted cantilever, across", tip(Y), across, 1e-6);
+        let beam = twisted_cantilever(0.32, torsion, count);
+        near("twisted cantilever, along its width", tip(&beam, count, Z), along, 1e-6);
+        near("twisted cantilever, across", tip(&beam, count, Y), across, 1e-6);
     }
 }

@@ -3,8 +3,8 @@
 //! REFERENCE: the texts of the errors.
 
 use basemat::fem::{BeamSection, Hex8, LumpedMass, Mesh, SpaceBeam, Spring, Truss};
+use basemat_problems::space_beams::{concrete, section};
 
-use super::{concrete, section};
 use crate::space_support::{CLAMPED, RX, RY, RZ, X, Y, Z};
 
 fn beam(orientation: [f64; 3]) -> basemat::Result<SpaceBeam> {

@@ -4,8 +4,8 @@
 
 use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
 use basemat_problems::bricks::DISTORTED;
+use basemat_problems::space_beams::{concrete, sheared};
 
-use super::{concrete, sheared};
 use crate::space_support::{Part, RY, RZ};
 
 const CUBE: [[f64; 3]; 8] = [

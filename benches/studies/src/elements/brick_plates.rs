@@ -5,7 +5,6 @@ use basemat_problems::bricks::{hard_plate, thick_plate};
 use basemat_problems::supported::{Vibration, Z};
 
 use super::row::Rows;
-use crate::AnyError;
 
 /// Supports along the lower edges only.
 fn lines(rows: &mut Rows, counts: [usize; 3]) {
@@ -52,7 +51,7 @@ fn faces(rows: &mut Rows, counts: [usize; 3]) {
     }
 }
 
-pub(super) fn run(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
+pub(super) fn run(rows: &mut Rows, short: bool) {
     for counts in [[8, 8, 2], [8, 8, 3], [16, 16, 4], [24, 24, 6]] {
         let [count, ..] = counts;
         if short && count > 8 {
@@ -63,5 +62,4 @@ pub(super) fn run(rows: &mut Rows, short: bool) -> Result<(), AnyError> {
             faces(rows, counts);
         }
     }
-    Ok(())
 }

@@ -18,7 +18,6 @@ mod raft;
 mod report;
 mod row;
 mod scenes;
-mod section;
 mod single;
 mod strips;
 mod surface;
@@ -54,10 +53,19 @@ type Group = (&'static str, fn(&mut Rows, bool) -> Result<(), AnyError>);
 const GROUPS: [Group; 11] = [
     ("single", |rows, _| single::run(rows)),
     ("beams", |rows, _| beams::run(rows)),
-    ("beam-modes", |rows, _| beam_modes::run(rows)),
-    ("columns", |rows, _| columns::run(rows)),
+    ("beam-modes", |rows, _| {
+        beam_modes::run(rows);
+        Ok(())
+    }),
+    ("columns", |rows, _| {
+        columns::run(rows);
+        Ok(())
+    }),
     ("bricks", bricks::run),
-    ("brick-plates", brick_plates::run),
+    ("brick-plates", |rows, short| {
+        brick_plates::run(rows, short);
+        Ok(())
+    }),
     ("strips", |rows, _| strips::run(rows)),
     ("vaults", vaults::run),
     ("plates", plates::run),

@@ -1,8 +1,9 @@
 //! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
 
-use basemat::fem::{Beam, BeamSection, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
+use basemat::fem::{Beam, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
 use basemat_problems::bricks;
 use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::space_beams::{concrete, sheared};
 use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, values};
 
 use super::row::Rows;
@@ -92,7 +93,7 @@ fn patches(rows: &mut Rows) -> Result<(), AnyError> {
 type Sample = (&'static str, Box<dyn Element>, Vec<[f64; 3]>);
 
 fn samples() -> Result<Vec<Sample>, AnyError> {
-    let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+    let concrete = concrete();
     let quads = [
         ("Shell4 flat", [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]], [0.0; 4]),
         ("Shell4 distorted", [[0.0, 0.0], [2.0, 0.1], [2.2, 1.5], [-0.2, 1.3]], [0.0; 4]),
@@ -107,8 +108,7 @@ fn samples() -> Result<Vec<Sample>, AnyError> {
     all.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
     let brick = bricks::DISTORTED.to_vec();
     all.push(("Hex8 distorted", Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)), brick));
-    let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?.with_shear_areas([0.1; 2])?;
-    let beam = SpaceBeam::new([0, 1], concrete, section, [1.0, 1.0, 0.2])?
+    let beam = SpaceBeam::new([0, 1], concrete, sheared(), [1.0, 1.0, 0.2])?
         .with_offsets([[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]])?;
     all.push(("SpaceBeam with offsets", Box::new(beam), vec![[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]]));
     Ok(all)
@@ -178,14 +178,12 @@ fn renumbered(rows: &mut Rows) -> Result<(), AnyError> {
 fn in_the_plane(rows: &mut Rows) -> Result<(), AnyError> {
     const PLACES: [usize; 6] = [0, 2, 4, 6, 8, 10];
     const SIGNS: [f64; 6] = [1.0, 1.0, -1.0, 1.0, 1.0, -1.0];
-    let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
-    let section = BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3)?.with_shear_areas([0.1; 2])?;
     for ends in [[[0.0, 0.0], [0.0, 4.0]], [[1.0, -2.0], [4.5, 1.0]], [[0.0, 0.0], [3.0, -0.7]]] {
         let flat = Beam::new([0, 1], 30.0e9, 0.12, 1.6e-3, 2500.0)?
             .with_shear_stiffness(12.5e9 * 0.1)?
             .with_rotary_inertia();
         let beam =
-            SpaceBeam::new([0, 1], concrete, section, [0.0, 1.0, 0.0])?.with_rotary_inertia();
+            SpaceBeam::new([0, 1], concrete(), sheared(), [0.0, 1.0, 0.0])?.with_rotary_inertia();
         let displacement = [1e-3, 2e-3, 1e-3, -2e-3, -1e-3, 3e-3];
         let mut in_space = [0.0; 12];
         for k in 0..6 {

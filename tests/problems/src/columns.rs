@@ -1,0 +1,72 @@
+//! Buckling loads of columns in space, 4 m high, by beams with the tables' section.
+
+use basemat::fem::{BeamSection, Direction, Element, SpaceBeam};
+
+use crate::space_beams::{concrete, section};
+use crate::supported::{CLAMPED, Supported};
+
+pub const LENGTH: f64 = 4.0;
+/// Weight per length, N/m, at a gravity of 1 m/s².
+const WEIGHT: f64 = 2500.0 * 0.12;
+
+/// The beam between a node and the next.
+pub fn beam(k: usize, section: BeamSection) -> SpaceBeam {
+    SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap()
+}
+
+fn nodes(count: usize) -> Supported {
+    let mut scene = Supported::new();
+    for k in 0..=count {
+        scene.node([0.0, 0.0, LENGTH * k as f64 / count as f64]);
+    }
+    scene
+}
+
+/// Buckling load of a column between two supports, N.
+pub fn supported(
+    section: BeamSection,
+    count: usize,
+    foot: &[Direction],
+    head: &[Direction],
+) -> f64 {
+    let mut scene = nodes(count);
+    for k in 0..count {
+        scene.add(beam(k, section).with_compression(1.0).unwrap());
+    }
+    scene.hold(0, foot);
+    scene.hold(count, head);
+    scene.buckling()
+}
+
+/// Weight at which a cantilever buckles under it, N.
+pub fn own_weight(count: usize) -> f64 {
+    let height = LENGTH / count as f64;
+    let mut scene = nodes(count);
+    for k in 0..count {
+        // Shortening of the beam by the weight above its middle.
+        let above = WEIGHT * (LENGTH - height * (k as f64 + 0.5));
+        let mut displacement = [0.0; 12];
+        displacement[8] = -above * height / (30.0e9 * 0.12);
+        let own = beam(k, section());
+        let points = scene.points(own.nodes());
+        scene.add(own.in_static_state(&points, &displacement, 1.0).unwrap());
+    }
+    scene.hold(0, &CLAMPED);
+    scene.buckling() * WEIGHT * LENGTH
+}
+
+/// Buckling load of a cantilever of 2.5 m under a rigid arm of 1.5 m, N.
+pub fn rigid_head(count: usize) -> f64 {
+    let mut scene = Supported::new();
+    for k in 0..count {
+        scene.node([0.0, 0.0, 2.5 * k as f64 / count as f64]);
+    }
+    scene.node([0.0, 0.0, LENGTH]);
+    for k in 0..count {
+        let arm = if k + 1 == count { -1.5 } else { 0.0 };
+        let own = beam(k, section()).with_compression(1.0).unwrap();
+        scene.add(own.with_offsets([[0.0; 3], [0.0, 0.0, arm]]).unwrap());
+    }
+    scene.hold(0, &CLAMPED);
+    scene.buckling()
+}

@@ -1,0 +1,115 @@
+//! Benchmarks of beams in space: cantilevers, a hinge, thick beams.
+
+use std::f64::consts::FRAC_PI_2;
+
+use basemat::fem::{BeamSection, Direction, Material, SpaceBeam};
+
+use crate::supported::{CLAMPED, RX, RY, RZ, Supported, X, Y, Z};
+
+/// Concrete of the tables.
+pub fn concrete() -> Material {
+    Material::new(30.0e9, 0.2, 2500.0).unwrap()
+}
+
+/// Section of the tables' beams, 0.3 m × 0.4 m, without shear deformation.
+pub fn section() -> BeamSection {
+    BeamSection::new(0.12, [1.6e-3, 0.9e-3], 1.94e-3).unwrap()
+}
+
+/// Section of the tables' beams with shear deformation.
+pub fn sheared() -> BeamSection {
+    section().with_shear_areas([0.1; 2]).unwrap()
+}
+
+/// Rectangle with shear deformation, sides along the beam's y and z axes.
+pub fn rectangle(along_y: f64, along_z: f64, torsion_constant: f64) -> BeamSection {
+    let area = along_y * along_z;
+    let moments = [area * along_z * along_z / 12.0, area * along_y * along_y / 12.0];
+    let section = BeamSection::new(area, moments, torsion_constant).unwrap();
+    section.with_shear_areas([5.0 / 6.0 * area; 2]).unwrap()
+}
+
+/// Beams from a clamped node along a curve from 0 to 1, with the orientations of their middles.
+pub fn chain(
+    material: Material,
+    section: BeamSection,
+    count: usize,
+    point: impl Fn(f64) -> [f64; 3],
+    orientation: impl Fn(f64) -> [f64; 3],
+) -> Supported {
+    let mut scene = Supported::new();
+    for k in 0..=count {
+        scene.node(point(k as f64 / count as f64));
+    }
+    for k in 0..count {
+        let middle = (k as f64 + 0.5) / count as f64;
+        let beam = SpaceBeam::new([k, k + 1], material, section, orientation(middle));
+        scene.add(beam.unwrap());
+    }
+    scene.hold(0, &CLAMPED);
+    scene
+}
+
+/// The straight cantilever of `MacNeal` & Harder (Finite Elements in Analysis and Design 1, 1985), along x.
+pub fn straight_cantilever(torsion_constant: f64, count: usize) -> Supported {
+    let material = Material::new(1.0e7, 0.3, 0.0).unwrap();
+    let section = rectangle(0.2, 0.1, torsion_constant);
+    chain(material, section, count, |part| [6.0 * part, 0.0, 0.0], |_| [0.0, 1.0, 0.0])
+}
+
+/// The twisted cantilever of `MacNeal` & Harder, 1.1 wide, turned by 90°.
+pub fn twisted_cantilever(thickness: f64, torsion_constant: f64, count: usize) -> Supported {
+    let material = Material::new(2.9e7, 0.22, 0.0).unwrap();
+    let section = rectangle(1.1, thickness, torsion_constant);
+    let turned = |part: f64| {
+        let (sine, cosine) = (FRAC_PI_2 * part).sin_cos();
+        [0.0, cosine, sine]
+    };
+    chain(material, section, count, |part| [12.0 * part, 0.0, 0.0], turned)
+}
+
+/// Deflection of a cantilever, 4 m high, with a hinge at a guided head, under a unit force.
+pub fn hinged_cantilever(section: BeamSection) -> f64 {
+    let mut scene = Supported::new();
+    let ends = [[0.0; 3], [0.0, 0.0, 4.0]].map(|point| scene.node(point));
+    let beam = SpaceBeam::new(ends, concrete(), section, [1.0, 0.0, 0.0]).unwrap();
+    scene.add(beam.with_releases(1, &[RY, RZ]).unwrap());
+    scene.hold(0, &CLAMPED);
+    scene.hold(1, &[RX, RY, RZ]);
+    scene.work(&[(1, X, 1.0)])
+}
+
+/// The deep beam FV5 of the National Agency for Finite Element Methods and Standards (NAFEMS).
+pub fn deep_beam(count: usize) -> Supported {
+    let section = BeamSection::new(4.0, [4.0 / 3.0; 2], 2.24923).unwrap();
+    let section = section.with_shear_areas([10.0 / 3.0; 2]).unwrap();
+    let steel = Material::new(200.0e9, 0.3, 8000.0).unwrap();
+    let mut scene = Supported::new();
+    for k in 0..=count {
+        scene.node([10.0 * k as f64 / count as f64, 0.0, 0.0]);
+    }
+    for k in 0..count {
+        let beam = SpaceBeam::new([k, k + 1], steel, section, [0.0, 1.0, 0.0]).unwrap();
+        scene.add(beam.with_rotary_inertia());
+    }
+    scene.hold(0, &[X, Y, Z, RX]);
+    scene.hold(count, &[Y, Z]);
+    scene
+}
+
+/// A cantilever 3 m × 4 m × 20 m with some motions held along all its height.
+pub fn thick_cantilever(count: usize, held: &[Direction]) -> Supported {
+    // 3 m along the first axis of the section, 4 m along the second.
+    let section = BeamSection::new(12.0, [16.0, 9.0], 20.0).unwrap();
+    let section = section.with_shear_areas([10.0; 2]).unwrap();
+    let mut scene = Supported::new();
+    for k in 0..=count {
+        scene.node([0.0, 0.0, 20.0 * k as f64 / count as f64]);
+        scene.hold(k, if k == 0 { &CLAMPED } else { held });
+    }
+    for k in 0..count {
+        let beam = SpaceBeam::new([k, k + 1], concrete(), section, [1.0, 0.0, 0.0]).unwrap();
+        scene.add(beam.with_rotary_inertia());
+    }
+    scene
+}
