@@ -1,4 +1,4 @@
-//! Benchmarks of bricks: a patch, cantilevers, a thick cylinder, thick plates.
+//! Benchmarks of bricks: cantilevers, a thick cylinder, thick plates.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -6,27 +6,6 @@ use basemat::fem::{Direction, Hex8, Material, Spring};
 
 use crate::supported::{HINGED, Load, Supported, X, Y, Z};
 
-/// `MacNeal` & Harder's seven bricks (Finite Elements in Analysis and Design 1, 1985) in a unit cube.
-pub const PATCH: [[usize; 8]; 7] = [
-    [8, 9, 10, 11, 12, 13, 14, 15],
-    [0, 1, 2, 3, 8, 9, 10, 11],
-    [12, 13, 14, 15, 4, 5, 6, 7],
-    [0, 1, 9, 8, 4, 5, 13, 12],
-    [1, 2, 10, 9, 5, 6, 14, 13],
-    [2, 3, 11, 10, 6, 7, 15, 14],
-    [3, 0, 8, 11, 7, 4, 12, 15],
-];
-/// Nodes inside the patch, numbers 8 to 15.
-const INNER: [[f64; 3]; 8] = [
-    [0.249, 0.342, 0.192],
-    [0.826, 0.288, 0.288],
-    [0.850, 0.649, 0.263],
-    [0.273, 0.750, 0.230],
-    [0.320, 0.186, 0.643],
-    [0.677, 0.305, 0.683],
-    [0.788, 0.693, 0.644],
-    [0.165, 0.745, 0.702],
-];
 /// Corners of the distorted brick of `tests/data/elements`.
 pub const DISTORTED: [[f64; 3]; 8] = [
     [0.12, -0.12, 0.06],
@@ -38,23 +17,6 @@ pub const DISTORTED: [[f64; 3]; 8] = [
     [1.26, 1.108, 1.512],
     [-0.024, 1.072, 1.392],
 ];
-
-/// The patch; its first eight nodes are the corners of the cube.
-pub fn patch(material: Material) -> Supported {
-    let mut scene = Supported::new();
-    for z in [0.0, 1.0] {
-        for [x, y] in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]] {
-            scene.node([x, y, z]);
-        }
-    }
-    for point in INNER {
-        scene.node(point);
-    }
-    for nodes in PATCH {
-        scene.add(Hex8::new(nodes, material));
-    }
-    scene
-}
 
 /// Bricks whose nodes stand in a grid.
 #[derive(Debug)]

@@ -24,6 +24,7 @@ pub mod headline;
 pub mod impedance;
 pub mod laws_with_memory;
 pub mod passivity;
+pub mod patch;
 pub mod profiles;
 pub mod random;
 pub mod rigid_strip;

@@ -179,6 +179,19 @@ pub struct Vibration {
     pub shape: Vec<[f64; 6]>,
 }
 
+/// Unit motion of a rigid body at a point: along x, y, z, and about axes through the origin.
+pub fn rigid(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
+    let mut own = [0.0; 6];
+    own[motion] = 1.0;
+    match motion {
+        3 => [own[1], own[2]] = [-z, y],
+        4 => [own[0], own[2]] = [z, -x],
+        5 => [own[0], own[1]] = [-y, x],
+        _ => (),
+    }
+    own
+}
+
 /// Values of an element's degrees of freedom from the motions of all nodes.
 pub fn values(element: &dyn Element, all: &[[f64; 6]]) -> Vec<f64> {
     let place = |direction: &Direction| CLAMPED.iter().position(|own| own == direction).unwrap();

@@ -4,8 +4,8 @@
 //! REFERENCE: uniform strain, closed forms, an independent program of the same formulation.
 
 use basemat::fem::{Element, Hex8, MassKind, Material};
-use basemat_problems::bricks;
 use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::{bricks, patch};
 
 use super::{add, cross, inner};
 use crate::space_support::{Part, near};
@@ -15,7 +15,7 @@ use crate::space_support::{Part, near};
 #[test]
 fn a_patch_of_bricks_carries_a_uniform_strain() {
     let material = Material::new(1.0e6, 0.25, 1.0).unwrap();
-    let scene = bricks::patch(material);
+    let scene = patch::bricks(material);
     let exact = |[x, y, z]: [f64; 3]| {
         [2.0 * x + y + z, x + 2.0 * y + z, x + y + 2.0 * z].map(|value| 0.5e-3 * value)
     };
@@ -25,7 +25,7 @@ fn a_patch_of_bricks_carries_a_uniform_strain() {
     for force in &forces[24..] {
         assert!(force.abs() < 1e-13 * scale, "{force} of {scale}");
     }
-    for nodes in bricks::PATCH {
+    for nodes in patch::BRICKS {
         let (brick, points) = (Hex8::new(nodes, material), scene.points(&nodes));
         let displacement: Vec<f64> = points.iter().flat_map(|&point| exact(point)).collect();
         for stress in brick.stresses(&points, &displacement).unwrap() {

@@ -6,19 +6,7 @@
 use basemat::fem::{Direction, Material, Mesh, Quad4, QuadFormulation};
 use basemat::structure::{FemModel, Structure};
 use basemat_problems::dense::{collect, dot, form, largest, multiply, solve_held};
-
-pub(crate) const POINTS: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [0.24, 0.0],
-    [0.24, 0.12],
-    [0.0, 0.12],
-    [0.04, 0.02],
-    [0.18, 0.03],
-    [0.16, 0.08],
-    [0.08, 0.08],
-];
-pub(crate) const QUADS: [[usize; 4]; 5] =
-    [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
+use basemat_problems::patch::{POINTS, QUADS};
 
 fn patch(formulation: QuadFormulation, poisson: f64) -> FemModel {
     let material = Material::new(1.0e6, poisson, 1.0).unwrap();

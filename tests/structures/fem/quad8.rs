@@ -2,11 +2,11 @@
 //! SCENE: the patch of `MacNeal` & Harder, straight and curved; bent rows; bad shapes.
 //! REFERENCE: uniform strain, rigid motions, pure bending, exact mass.
 
-use super::patch::{POINTS, QUADS};
 use basemat::Error;
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Quad8, Quad8Integration};
 use basemat::structure::{FemModel, Structure};
 use basemat_problems::dense::{dot, form, largest, mass, multiply, solve_held, stiffness};
+use basemat_problems::patch::{POINTS, QUADS};
 
 const BOTH: [Quad8Integration; 2] = [Quad8Integration::Reduced, Quad8Integration::Full];
 

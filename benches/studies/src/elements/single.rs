@@ -1,28 +1,15 @@
 //! Single elements and patches: uniform states, rigid motions, renumbered nodes, the beam of the plane.
 
 use basemat::fem::{Beam, Element, Hex8, MassKind, Material, Shell, SpaceBeam};
-use basemat_problems::bricks;
+use basemat_problems::bricks::DISTORTED;
 use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::patch::{POINTS, QUADS, STATES, bricks, field};
 use basemat_problems::space_beams::{concrete, sheared};
-use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, values};
+use basemat_problems::supported::{CLAMPED, Part, RZ, Supported, X, Y, Z, rigid, values};
 
 use super::row::Rows;
 use super::surface::{Pattern, Surface};
 use crate::AnyError;
-
-/// MacNeal & Harder's patches: corners first.
-const POINTS: [[f64; 2]; 8] = [
-    [0.0, 0.0],
-    [0.24, 0.0],
-    [0.24, 0.12],
-    [0.0, 0.12],
-    [0.04, 0.02],
-    [0.18, 0.03],
-    [0.16, 0.08],
-    [0.08, 0.08],
-];
-const CELLS: [[usize; 4]; 5] =
-    [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]];
 
 /// Largest displacement of inner nodes from a uniform `state` while the nodes before `inner` are held in it, relative
 /// to the largest of all.
@@ -52,26 +39,17 @@ fn error(mut scene: Supported, inner: usize, state: &[[f64; 6]]) -> f64 {
 }
 
 fn patches(rows: &mut Rows) -> Result<(), AnyError> {
-    type Field = fn(f64, f64) -> [f64; 6];
-    let states: [(&str, Field); 4] = [
-        ("membrane", |x, y| [x + 0.5 * y, y + 0.5 * x, 0.0, 0.0, 0.0, 0.0]),
-        ("membrane+spin", |x, y| [x - 0.2 * y, 0.3 * y + 0.8 * x, 0.0, 0.0, 0.0, 0.5]),
-        ("bending", |x, y| {
-            [0.0, 0.0, 0.5 * (x * x + x * y + y * y), 0.5 * x + y, -x - 0.5 * y, 0.0]
-        }),
-        ("twist", |x, y| [0.0, 0.0, x * y, x, -y, 0.0]),
-    ];
     for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
         for thickness in [0.001, 0.05] {
-            for (name, field) in states {
+            for name in STATES {
                 let mut patch = Surface::new(Material::new(1.0e6, 0.25, 1.0)?, thickness);
                 for [x, y] in POINTS {
                     patch.scene.node([x, y, 0.0]);
                 }
-                for corners in CELLS.into_iter().flat_map(|cell| pattern.split(cell)) {
+                for corners in QUADS.into_iter().flat_map(|cell| pattern.split(cell)) {
                     patch.shell(&corners, thickness)?;
                 }
-                let state = POINTS.map(|[x, y]| field(x, y));
+                let state = POINTS.map(|[x, y]| field(name, x, y));
                 let error = error(patch.scene, 4, &state);
                 let case = format!("t/size={:.3}", thickness / 0.24);
                 rows.bound(&format!("patch {name} {} {case}", pattern.element()), error, 1e-9);
@@ -79,7 +57,7 @@ fn patches(rows: &mut Rows) -> Result<(), AnyError> {
         }
     }
     let material = Material::new(1.0e6, 0.25, 1.0)?;
-    let scene = bricks::patch(material);
+    let scene = bricks(material);
     let uniform = |&[x, y, z]: &[f64; 3]| {
         [x + 0.5 * (y + z), y + 0.5 * (x + z), z + 0.5 * (x + y), 0.0, 0.0, 0.0]
     };
@@ -106,25 +84,12 @@ fn samples() -> Result<Vec<Sample>, AnyError> {
     }
     let triangle = vec![[5.0, 1.0, 2.0], [5.0, 3.0, 2.0], [4.2, 2.4, 3.6]];
     all.push(("Shell3", Box::new(Shell::new([0, 1, 2], concrete, 0.2)?), triangle));
-    let brick = bricks::DISTORTED.to_vec();
+    let brick = DISTORTED.to_vec();
     all.push(("Hex8 distorted", Box::new(Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], concrete)), brick));
     let beam = SpaceBeam::new([0, 1], concrete, sheared(), [1.0, 1.0, 0.2])?
         .with_offsets([[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]])?;
     all.push(("SpaceBeam with offsets", Box::new(beam), vec![[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]]));
     Ok(all)
-}
-
-/// Unit motion along or about an axis through the origin.
-fn rigid(motion: usize, [x, y, z]: [f64; 3]) -> [f64; 6] {
-    let mut own = [0.0; 6];
-    own[motion] = 1.0;
-    match motion {
-        3 => [own[1], own[2]] = [-z, y],
-        4 => [own[0], own[2]] = [z, -x],
-        5 => [own[0], own[1]] = [-y, x],
-        _ => (),
-    }
-    own
 }
 
 fn rigid_motions(rows: &mut Rows) -> Result<(), AnyError> {

@@ -3,9 +3,9 @@
 //! REFERENCE: the uniform state itself.
 
 use super::{Assembly, material};
-use crate::fem::patch::{POINTS, QUADS};
 use basemat::fem::{Element, Shell};
 use basemat_problems::dense::{largest, multiply};
+use basemat_problems::patch::{POINTS, QUADS, STATES, field};
 
 /// Elements of the patch by their corners: quadrilaterals both ways round, triangles, or both.
 fn elements(kind: &str) -> Vec<Vec<usize>> {
@@ -31,20 +31,6 @@ fn axes() -> [[f64; 3]; 3] {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
     [first, second, cross(first, second)]
-}
-
-/// Displacements u, v, w and rotations about x, y, z in the axes of the patch.
-fn field(state: &str, x: f64, y: f64) -> [f64; 6] {
-    match state {
-        "membrane" => [x + 0.5 * y, y + 0.5 * x, 0.0, 0.0, 0.0, 0.0],
-        "membrane and rotation" => [x - 0.2 * y, 0.3 * y + 0.8 * x, 0.0, 0.0, 0.0, 0.5],
-        "bending" => {
-            // w = ½(x² + xy + y²); θ1 = w,y and θ2 = −w,x.
-            [0.0, 0.0, 0.5 * (x * x + x * y + y * y), 0.5 * x + y, -x - 0.5 * y, 0.0]
-        }
-        "twist" => [0.0, 0.0, x * y, x, -y, 0.0],
-        _ => unreachable!(),
-    }
 }
 
 /// The patch in space, its uniform state, and the state that it finds with its outline held.
@@ -80,7 +66,7 @@ fn states(kind: &str, state: &str, thickness: f64, match_sides: bool) -> (Assemb
 #[test]
 fn uniform_states_are_exact() {
     for kind in ["quads", "triangles", "mixed"] {
-        for state in ["membrane", "membrane and rotation", "bending", "twist"] {
+        for state in STATES {
             for thickness in [0.001, 0.05] {
                 let (patch, [exact, found]) = states(kind, state, thickness, true);
                 let error: Vec<f64> = found.iter().zip(&exact).map(|(a, b)| a - b).collect();
