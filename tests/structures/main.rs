@@ -8,8 +8,6 @@ mod hysteresis;
 mod matrices;
 mod portal;
 
-use basemat_problems::supported as space_support;
-
 /// ∂²f/∂uᵢ∂uⱼ at u = 0, by central differences of this step.
 fn curvature<const N: usize>(f: impl Fn(&[f64; N]) -> f64, [i, j]: [usize; 2], step: f64) -> f64 {
     let at = |a: f64, b: f64| {

@@ -85,6 +85,24 @@ impl Table {
         self.rows(columns)[index]
     }
 
+    /// Symmetric matrix, row by row, of the rows whose column `matrix` holds `name`: they list its upper triangle.
+    pub fn symmetric(&self, name: &str, order: usize) -> Vec<f64> {
+        let index = |column| {
+            let parse = |text: &str| {
+                text.parse().unwrap_or_else(|_| panic!("{}, {column}: '{text}'", self.name))
+            };
+            self.text(column).into_iter().map(parse).collect::<Vec<usize>>()
+        };
+        let [rows, columns] = ["row", "column"].map(index);
+        let (matrices, values) = (self.text("matrix"), self.column("value"));
+        let mut all = vec![0.0; order * order];
+        for k in (0..self.len()).filter(|&k| matrices[k] == name) {
+            all[rows[k] * order + columns[k]] = values[k];
+            all[columns[k] * order + rows[k]] = values[k];
+        }
+        all
+    }
+
     /// Words after `label` in the comments, up to the end of its line.
     pub fn words_after(&self, label: &str) -> Vec<&str> {
         let found = self.comments.iter().find_map(|line| line.split_once(label));

@@ -3,9 +3,9 @@
 //! REFERENCE: closed forms, the elements of the plane.
 
 use basemat::fem::{Dashpot, Element, LumpedMass, MassKind, Spring, Truss};
+use basemat_problems::supported::{CLAMPED, Part, near};
 
 use super::{add, inner};
-use crate::space_support::{CLAMPED, Part, near};
 
 const POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
 

@@ -8,9 +8,9 @@ use basemat_problems::space_beams::{
     concrete, deep_beam, hinged_cantilever, section, sheared, straight_cantilever,
     thick_cantilever, twisted_cantilever,
 };
+use basemat_problems::supported::{CLAMPED, Part, RX, RY, RZ, Supported, X, Y, Z, near};
 
 use super::{add, cross, inner};
-use crate::space_support::{CLAMPED, Part, RX, RY, RZ, Supported, X, Y, Z, near};
 
 const POINTS: [[f64; 3]; 2] = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
 const OFFSETS: [[f64; 3]; 2] = [[0.3, -0.2, 0.4], [0.1, 0.5, -0.3]];

@@ -5,10 +5,10 @@
 
 use basemat::fem::{Element, Hex8, MassKind, Material};
 use basemat_problems::dense::{eigenpairs, largest};
+use basemat_problems::supported::{Part, near};
 use basemat_problems::{bricks, patch};
 
 use super::{add, cross, inner};
-use crate::space_support::{Part, near};
 
 /// PROBLEM: uniform strain on seven distorted bricks, one with a negative Jacobian at a corner. RESULT: no force on
 /// inner nodes, the uniform stress at all corners, six motions without force.

@@ -7,8 +7,7 @@ use basemat::structure::FemModel;
 use basemat_problems::columns::{LENGTH, beam, own_weight, rigid_head, supported};
 use basemat_problems::space_beams::{section, sheared};
 use basemat_problems::stiff_element::StiffElement;
-
-use crate::space_support::{CLAMPED, RX, RY, RZ, X, Y, Z, near};
+use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z, near};
 
 /// Bending stiffness about the weak axis.
 const EI: f64 = 30.0e9 * 0.9e-3;

@@ -4,8 +4,7 @@
 
 use basemat::fem::{BeamSection, Hex8, LumpedMass, Mesh, SpaceBeam, Spring, Truss};
 use basemat_problems::space_beams::{concrete, section};
-
-use crate::space_support::{CLAMPED, RX, RY, RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED, RX, RY, RZ, X, Y, Z};
 
 fn beam(orientation: [f64; 3]) -> basemat::Result<SpaceBeam> {
     SpaceBeam::new([0, 1], concrete(), section(), orientation)

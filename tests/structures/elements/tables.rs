@@ -4,9 +4,10 @@
 
 use basemat::fem::{Element, Hex8, MassKind, Material, SpaceBeam};
 use basemat_problems::bricks::DISTORTED;
+use basemat_problems::dense::largest;
 use basemat_problems::space_beams::{concrete, sheared};
-
-use crate::space_support::{Part, RY, RZ};
+use basemat_problems::supported::{Part, RY, RZ};
+use basemat_problems::table;
 
 const CUBE: [[f64; 3]; 8] = [
     [0.0, 0.0, 0.0],
@@ -30,28 +31,18 @@ const PARALLELEPIPED: [[f64; 3]; 8] = [
 ];
 
 /// Compares the matrices of an element with a table of their upper triangles.
-fn compare(table: &str, element: &dyn Element, points: &[[f64; 3]]) {
+fn compare(file: &str, element: &dyn Element, points: &[[f64; 3]]) {
     element.check(points).unwrap();
-    let order = element.order();
+    let table = table(&format!("elements/matrices_{file}.csv"));
     for (name, part) in [
         ("stiffness", Part::Stiffness),
         ("geometric_stiffness", Part::GeometricStiffness),
         ("mass", Part::Mass(MassKind::Consistent)),
         ("lumped_mass", Part::Mass(MassKind::Lumped)),
     ] {
-        let mut reference = vec![0.0_f64; order * order];
-        for line in table.lines().skip(1) {
-            let [matrix, row, column, value] = line.split(',').collect::<Vec<_>>()[..] else {
-                panic!("{line}")
-            };
-            if matrix == name {
-                let [row, column]: [usize; 2] = [row, column].map(|index| index.parse().unwrap());
-                reference[row * order + column] = value.parse().unwrap();
-                reference[column * order + row] = value.parse().unwrap();
-            }
-        }
+        let reference = table.symmetric(name, element.order());
         let own = part.of(element, points);
-        let scale = reference.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let scale = largest(&reference);
         let pairs = own.iter().zip(&reference);
         let error = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
         println!("{name}: {error:e} of {scale:e}");
@@ -66,8 +57,7 @@ fn beam(orientation: [f64; 3]) -> SpaceBeam {
 #[test]
 fn beams_have_the_matrices_of_the_tables() {
     let level = [[0.0; 3], [4.0, 0.0, 0.0]];
-    let table = include_str!("../../data/elements/matrices_beam3d_1.csv");
-    compare(table, &beam([0.0, 0.0, 1.0]), &level);
+    compare("beam3d_1", &beam([0.0, 0.0, 1.0]), &level);
 
     // 2.5 MN from a shortening, and 0.4 MN more below from gravity.
     let along = [1.5, -1.0, 3.0];
@@ -77,25 +67,21 @@ fn beams_have_the_matrices_of_the_tables() {
     let gravity = 0.4e6 / (2500.0 * 0.12 * along[2]);
     let points = [[1.0, 2.0, 0.0], [2.5, 1.0, 3.0]];
     let compressed = beam([1.0, 1.0, 0.0]).in_static_state(&points, &displacement, gravity);
-    let table = include_str!("../../data/elements/matrices_beam3d_2.csv");
-    compare(table, &compressed.unwrap(), &points);
+    compare("beam3d_2", &compressed.unwrap(), &points);
 
     let hinged = beam([1.0, 0.0, 0.0])
         .with_compression(1.0e6)
         .and_then(|beam| beam.with_offsets([[0.0, 0.0, 0.4], [0.1, -0.2, -0.3]]))
         .and_then(|beam| beam.with_releases(1, &[RY, RZ]));
-    let table = include_str!("../../data/elements/matrices_beam3d_3.csv");
-    compare(table, &hinged.unwrap(), &[[0.0; 3], [0.0, 0.0, 4.0]]);
+    compare("beam3d_3", &hinged.unwrap(), &[[0.0; 3], [0.0, 0.0, 4.0]]);
 }
 
 #[test]
 fn bricks_have_the_matrices_of_the_tables() {
-    for (poisson, points, table) in [
-        (0.2, CUBE, include_str!("../../data/elements/matrices_hex8_1.csv")),
-        (0.2, PARALLELEPIPED, include_str!("../../data/elements/matrices_hex8_2.csv")),
-        (0.3, DISTORTED, include_str!("../../data/elements/matrices_hex8_3.csv")),
-    ] {
+    for (poisson, points, file) in
+        [(0.2, CUBE, "hex8_1"), (0.2, PARALLELEPIPED, "hex8_2"), (0.3, DISTORTED, "hex8_3")]
+    {
         let material = Material::new(30.0e9, poisson, 2500.0).unwrap();
-        compare(table, &Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material), &points);
+        compare(file, &Hex8::new([0, 1, 2, 3, 4, 5, 6, 7], material), &points);
     }
 }

@@ -12,19 +12,8 @@ fn matrices_are_the_tabled_ones() {
     for (name, shell, nodes) in tabled() {
         let table = table(&format!("shells/{name}.csv"));
         let order = shell.order();
-        let index = |column| -> Vec<usize> {
-            table.text(column).into_iter().map(|text| text.parse().unwrap()).collect()
-        };
-        let [rows, columns] = ["row", "column"].map(index);
-        let (matrices, values) = (table.text("matrix"), table.column("value"));
         for matrix in ["stiffness", "mass", "lumped_mass"] {
-            let mut wanted = vec![0.0; order * order];
-            for (k, name) in matrices.iter().enumerate() {
-                if *name == matrix {
-                    wanted[rows[k] * order + columns[k]] = values[k];
-                    wanted[columns[k] * order + rows[k]] = values[k];
-                }
-            }
+            let wanted = table.symmetric(matrix, order);
             let mut found = vec![0.0; order * order];
             match matrix {
                 "stiffness" => shell.stiffness(&nodes, &mut found),

@@ -15,7 +15,7 @@ mod surface;
 use basemat::fem::{Direction, Element, MassKind, Material, Mesh, Shell};
 use basemat_problems::dense::{self, Matrix};
 
-pub(super) use crate::space_support::{CLAMPED as ALL, RX, RY, RZ, X, Y, Z};
+pub(super) use basemat_problems::supported::{CLAMPED as ALL, RX, RY, RZ, X, Y, Z};
 
 /// Shells in space with supports and loads at their nodes.
 pub(super) struct Assembly {
