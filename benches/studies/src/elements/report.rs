@@ -117,10 +117,7 @@ pub(super) fn benchmarks(rows: &Rows) -> Result<String, AnyError> {
     for (benchmark, quantities, meshes) in LINES {
         for mesh in *meshes {
             for quantity in *quantities {
-                let fits = |row: &&Row| {
-                    row.benchmark == *benchmark && row.quantity == *quantity && row.mesh == *mesh
-                };
-                let row = rows.all.iter().find(fits);
+                let row = rows.get(benchmark, quantity, mesh);
                 let row = row.ok_or_else(|| format!("no row {benchmark}, {quantity}, {mesh}"))?;
                 let found = row.found.ok_or("a row of the table was not computed")?;
                 let target = row.target.map_or("–".to_owned(), |(target, _)| digits(target));
@@ -139,7 +136,7 @@ pub(super) fn benchmarks(rows: &Rows) -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// Values of no table, and how far the others are from theirs.
+/// Values without a tabled one, and the largest difference of the others from each table.
 pub(super) fn summary(rows: &Rows) -> Result<String, AnyError> {
     let mut text = "| beside the tables | computed |\n|---|---|\n".to_owned();
     for (name, value) in &rows.others {

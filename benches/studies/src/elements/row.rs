@@ -19,6 +19,18 @@ pub(super) struct Row {
 }
 
 impl Row {
+    /// A value without a target, of six digits.
+    fn new(table: &'static str, [benchmark, quantity, mesh]: [&str; 3], tabled: f64) -> Self {
+        let [benchmark, quantity, mesh] = [benchmark, quantity, mesh].map(str::to_owned);
+        // Half of the last digit.
+        Self { table, benchmark, quantity, mesh, tabled, same: 1e-5, target: None, found: None }
+    }
+
+    /// Whether the row has these names.
+    fn is(&self, benchmark: &str, quantity: &str, mesh: &str) -> bool {
+        self.benchmark == benchmark && self.quantity == quantity && self.mesh == mesh
+    }
+
     /// Relative difference of the value found from the tabled one.
     pub(super) fn difference(&self) -> Option<f64> {
         Some((self.found? / self.tabled - 1.0).abs())
@@ -48,10 +60,10 @@ impl Row {
     }
 }
 
-/// Whether a raft stands on as many cells as it has elements.
-fn is_equal(mesh: &str) -> bool {
-    let words: Vec<&str> = mesh.split([' ', ',']).filter(|word| word.contains('x')).collect();
-    matches!(words[..], [shells, cells] if shells == cells)
+/// Whether each element of a raft has its own cell: "Shell4 16x16, 16x16 cells".
+fn has_cell_for_each_element(mesh: &str) -> bool {
+    let counts: Vec<&str> = mesh.split([' ', ',']).filter(|word| word.contains('x')).collect();
+    matches!(counts[..], [elements, cells] if elements == cells)
 }
 
 /// Limits of the raft: a Ritz solution of degree 36 on springs, extrapolated cells on the half-space. Gates are for
@@ -97,33 +109,17 @@ impl Rows {
         let values = gates.column("value (same formulation: within 1e-5)");
         for (k, &tabled) in values.iter().enumerate() {
             let target: Option<f64> = targets[k].parse().ok();
-            all.push(Row {
-                table: "gates",
-                benchmark: benchmarks[k].to_owned(),
-                quantity: quantities[k].to_owned(),
-                mesh: meshes[k].to_owned(),
-                tabled,
-                // Half of the last of six digits.
-                same: 1e-5,
-                target: target.map(|target| (target, accuracies[k].parse().ok())),
-                found: None,
-            });
+            let names = [benchmarks[k], quantities[k], meshes[k]];
+            let target = target.map(|target| (target, accuracies[k].parse().ok()));
+            all.push(Row { target, ..Row::new("gates", names, tabled) });
         }
         let shells = table("elements/containment.csv");
         let [benchmarks, quantities, masses, meshes] =
             ["benchmark", "quantity", "mass", "mesh around x (cylinder + dome)"]
                 .map(|column| shells.text(column));
         for (k, &tabled) in shells.column("value").iter().enumerate() {
-            all.push(Row {
-                table: "containment",
-                benchmark: benchmarks[k].to_owned(),
-                quantity: quantities[k].to_owned(),
-                mesh: format!("{} {}", meshes[k], masses[k]),
-                tabled,
-                same: 1e-5,
-                target: None,
-                found: None,
-            });
+            let mesh = format!("{} {}", meshes[k], masses[k]);
+            all.push(Row::new("containment", [benchmarks[k], quantities[k], &mesh], tabled));
         }
         let raft = table("elements/raft.csv");
         let [grounds, solutions, quantities] =
@@ -133,17 +129,13 @@ impl Rows {
                 continue;
             }
             let is_winkler = grounds[k].starts_with("Winkler");
-            all.push(Row {
-                table: "raft",
-                benchmark: grounds[k].to_owned(),
-                quantity: quantities[k].to_owned(),
-                mesh: solutions[k].to_owned(),
-                tabled,
+            let mut row = Row::new("raft", [grounds[k], quantities[k], solutions[k]], tabled);
+            if !is_winkler && !has_cell_for_each_element(solutions[k]) {
                 // Two elements a cell: the other program takes other means.
-                same: if is_winkler || is_equal(solutions[k]) { 1e-5 } else { 1e-2 },
-                target: raft_target(is_winkler, quantities[k], solutions[k]),
-                found: None,
-            });
+                row.same = 1e-2;
+            }
+            row.target = raft_target(is_winkler, quantities[k], solutions[k]);
+            all.push(row);
         }
         let plates = table("elements/invariance.csv");
         let [tests, elements] = ["test", "element"].map(|column| plates.text(column));
@@ -151,28 +143,24 @@ impl Rows {
             if !tests[k].starts_with("clamped square") {
                 continue;
             }
-            all.push(Row {
-                table: "invariance",
-                benchmark: tests[k].to_owned(),
-                quantity: String::new(),
-                mesh: elements[k].to_owned(),
-                tabled,
+            let mut row = Row::new("invariance", [tests[k], "", elements[k]], tabled);
+            if tests[k].contains("1e-06") {
                 // The ratio of shear and bending stiffness, 1e12 for the thinnest plate, costs digits.
-                same: if tests[k].contains("1e-06") { 1e-3 } else { 1e-5 },
-                target: None,
-                found: None,
-            });
+                row.same = 1e-3;
+            }
+            all.push(row);
         }
         Self { all, ..Self::default() }
     }
 
+    /// The row of the tables with these names.
+    pub(super) fn get(&self, benchmark: &str, quantity: &str, mesh: &str) -> Option<&Row> {
+        self.all.iter().find(|row| row.is(benchmark, quantity, mesh))
+    }
+
     /// Enters a value of the tables' `benchmark`, `quantity` and `mesh`.
     pub(super) fn put(&mut self, benchmark: &str, quantity: &str, mesh: &str, value: f64) {
-        let row = self
-            .all
-            .iter_mut()
-            .find(|row| row.benchmark == benchmark && row.quantity == quantity && row.mesh == mesh);
-        match row {
+        match self.all.iter_mut().find(|row| row.is(benchmark, quantity, mesh)) {
             Some(row) => {
                 row.found = Some(value);
                 println!(

@@ -104,7 +104,6 @@ fn closed_hemisphere(rows: &mut Rows) -> Result<(), AnyError> {
     for count in [4, 8, 16] {
         for pattern in [Pattern::Quadrilaterals, Pattern::Rising] {
             let mut dome = Surface::new(Material::new(68.25e9, 0.3, 0.0)?, 0.04);
-            let mut known: Vec<([f64; 3], usize)> = Vec::new();
             for axis in 0..3 {
                 let unit = |axis: usize| std::array::from_fn(|k| if k == axis { 1.0 } else { 0.0 });
                 let [a, next, last] = [0, 1, 2].map(|step| unit((axis + step) % 3));
@@ -112,21 +111,16 @@ fn closed_hemisphere(rows: &mut Rows) -> Result<(), AnyError> {
                 let mut node = |i: usize, j: usize| {
                     let [s, t] = [i, j].map(|k| k as f64 / count as f64);
                     let point = on_arc(on_arc(a, b, s), on_arc(d, middle, s), t).map(|x| 10.0 * x);
-                    let same = |(other, _): &&([f64; 3], usize)| {
-                        (0..3).all(|k| (other[k] - point[k]).abs() < 1e-6)
-                    };
-                    if let Some(&(_, node)) = known.iter().find(same) {
-                        return node;
-                    }
-                    let node = dome.scene.node(point);
-                    known.push((point, node));
-                    node
+                    // Patches share the nodes of their edges.
+                    let known = dome.scene.mesh.node_at_point(point);
+                    known.unwrap_or_else(|_| dome.scene.node(point))
                 };
                 let nodes: Vec<Vec<usize>> =
                     (0..=count).map(|i| (0..=count).map(|j| node(i, j)).collect()).collect();
                 dome.fill(&nodes, pattern)?;
             }
-            for &([x, y, _], node) in &known {
+            let points = dome.scene.mesh.nodes().to_vec();
+            for (node, [x, y, _]) in points.into_iter().enumerate() {
                 if x.abs() < 1e-9 {
                     dome.scene.hold(node, &[X, RY, RZ]);
                 }
