@@ -7,7 +7,7 @@ use basemat::coupled::{Load, SimulationBuilder};
 use basemat::fem::{Direction, Element, MassKind, Material};
 use basemat::prelude::*;
 use basemat::structure::FemModel;
-use basemat_problems::supported::{RZ, X, Y, Z};
+use basemat_problems::supported::{CLAMPED, RZ, X, Y, Z};
 
 use super::row::Rows;
 use super::surface::{Pattern, Surface};
@@ -58,20 +58,14 @@ fn raft(count: usize) -> Result<(Surface, Vec<Vec<usize>>), AnyError> {
     Ok((raft, nodes))
 }
 
-/// Overlap of two ranges, if any.
-fn overlap(one: &Range<f64>, other: &Range<f64>) -> Option<Range<f64>> {
-    let (low, high) = (one.start.max(other.start), one.end.min(other.end));
-    (high > low).then_some(low..high)
-}
-
 /// ∫N of both ends of a cell over its part under the load, over the side of the load.
 fn parts(cell: &Range<f64>) -> [f64; 2] {
-    let patch = -0.5 * PATCH..0.5 * PATCH;
-    overlap(cell, &patch).map_or([0.0; 2], |own| {
-        let middle = 0.5 * (own.start + own.end);
-        let far = (middle - cell.start) / (cell.end - cell.start);
-        [1.0 - far, far].map(|part| part * (own.end - own.start) / PATCH)
-    })
+    let (low, high) = (cell.start.max(-0.5 * PATCH), cell.end.min(0.5 * PATCH));
+    if high <= low {
+        return [0.0; 2];
+    }
+    let far = (0.5 * (low + high) - cell.start) / (cell.end - cell.start);
+    [1.0 - far, far].map(|part| part * (high - low) / PATCH)
 }
 
 /// Downward forces at the nodes, by the shape functions.
@@ -157,8 +151,7 @@ fn on_half_space(rows: &mut Rows, count: usize, cells: usize) -> Result<(), AnyE
         .build()?;
     let displacement = simulation.static_displacement();
     let of_node = |node: usize| {
-        basemat_problems::supported::CLAMPED
-            .map(|direction| model.dof(node, direction).map_or(0.0, |dof| displacement[dof]))
+        CLAMPED.map(|direction| model.dof(node, direction).map_or(0.0, |dof| displacement[dof]))
     };
     let all: Vec<[f64; 6]> = (0..model.mesh().nodes().len()).map(of_node).collect();
     let mesh = format!("Shell4 {count}x{count}, {cells}x{cells} cells");

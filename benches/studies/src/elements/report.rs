@@ -136,7 +136,7 @@ pub(super) fn benchmarks(rows: &Rows) -> Result<String, AnyError> {
     Ok(text)
 }
 
-/// Values without a tabled one, and the largest difference of the others from each table.
+/// Values that no table has, and the largest difference from each table.
 pub(super) fn summary(rows: &Rows) -> Result<String, AnyError> {
     let mut text = "| beside the tables | computed |\n|---|---|\n".to_owned();
     for (name, value) in &rows.others {

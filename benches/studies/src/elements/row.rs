@@ -66,8 +66,9 @@ fn has_cell_for_each_element(mesh: &str) -> bool {
     matches!(counts[..], [elements, cells] if elements == cells)
 }
 
-/// Limits of the raft: a Ritz solution of degree 36 on springs, extrapolated cells on the half-space. Gates are for
-/// 16 and 32 elements along a side.
+/// Limits of the raft, with gates for 16 and 32 elements along a side.
+///
+/// On springs a Ritz solution of degree 36, on the half-space the values extrapolated to small cells.
 fn raft_target(is_winkler: bool, quantity: &str, mesh: &str) -> Option<(f64, Option<f64>)> {
     let [springs, half_space] = match quantity {
         "settlement middle, mm" => [3.487_449, 6.037],
@@ -88,7 +89,7 @@ fn raft_target(is_winkler: bool, quantity: &str, mesh: &str) -> Option<(f64, Opt
     target.is_finite().then_some((target, gate))
 }
 
-/// All rows, and values found that stand in no table.
+/// Rows of the tables, and values found that no table has.
 #[derive(Debug, Default)]
 pub(super) struct Rows {
     pub(super) all: Vec<Row>,
@@ -192,8 +193,9 @@ impl Rows {
             .collect()
     }
 
-    /// Rows without a value, but stresses of bricks from strains at the corner: the crate extrapolates them from the
-    /// Gauss points.
+    /// Rows without a value.
+    ///
+    /// Stresses of bricks from strains at the corner do not count: the crate extrapolates stresses from the Gauss points.
     pub(super) fn missing(&self) -> impl Iterator<Item = String> {
         let is_missing =
             |row: &&Row| row.found.is_none() && row.quantity != "syy at D, at the corner, MPa";
@@ -203,7 +205,7 @@ impl Rows {
         self.all.iter().filter(is_missing).map(text)
     }
 
-    /// Enters a value that stands in no table.
+    /// Enters a value that no table has.
     pub(super) fn note(&mut self, name: &str, value: f64) {
         println!("{name} | {value:.7e} | no table");
         self.others.push((name.to_owned(), value));

@@ -7,7 +7,7 @@ use crate::AnyError;
 /// Number of scenes, fewer for continuous integration.
 const SCENES: [usize; 2] = [200, 4];
 
-/// Runs the scenes; the text for the documents.
+/// Runs the scenes and returns their table for the documents.
 pub(super) fn run(short: bool) -> Result<String, AnyError> {
     let mut outcome = Outcome::default();
     for number in 0..SCENES[usize::from(short)] {

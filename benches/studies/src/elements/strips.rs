@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use basemat::fem::Material;
+use basemat::fem::{Material, ShellResultants};
 use basemat_problems::supported::{CLAMPED, Load, X, Y, Z};
 
 use super::row::Rows;
@@ -128,7 +128,7 @@ fn z_beam(rows: &mut Rows) -> Result<(), AnyError> {
             let mut loads = spread(&end[..=factor], Y, 0.6e6);
             loads.extend(spread(&end[around - factor..], Y, -0.6e6));
             let all = beam.scene.displacements(&loads);
-            let stress = |own: &basemat::fem::ShellResultants| 1e-6 * own.membrane[0] / 0.1;
+            let stress = |own: &ShellResultants| 1e-6 * own.membrane[0] / 0.1;
             let mean = beam.mean_at(nodes[2 * factor][0], &all, stress)?;
             let mesh = format!("{} {along}x({factor}+{}+{factor})", pattern.element(), 2 * factor);
             let quantity = "sxx at the flange tip, x = 2.5, MPa";

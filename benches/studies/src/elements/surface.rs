@@ -1,7 +1,7 @@
 //! A surface of shells on supports.
 
-use basemat::fem::{Element, Material, Shell};
-use basemat_problems::supported::{Load, Supported};
+use basemat::fem::{Direction, Element, Material, Shell, ShellResultants};
+use basemat_problems::supported::{Load, Supported, values};
 
 use crate::AnyError;
 
@@ -80,18 +80,18 @@ impl Surface {
         Ok(nodes)
     }
 
-    /// Values at a corner of all elements around a node: their mean.
+    /// Mean, over the elements around a node, of a value at their corners there.
     pub(super) fn mean_at(
         &self,
         node: usize,
         all: &[[f64; 6]],
-        value: impl Fn(&basemat::fem::ShellResultants) -> f64,
+        value: impl Fn(&ShellResultants) -> f64,
     ) -> Result<f64, AnyError> {
         let (mut sum, mut count) = (0.0, 0.0);
         for shell in &self.shells {
             if let Some(corner) = shell.nodes().iter().position(|&own| own == node) {
                 let points = self.scene.points(shell.nodes());
-                let displacement = basemat_problems::supported::values(shell, all);
+                let displacement = values(shell, all);
                 let own = shell.resultants(&points, &displacement)?[corner];
                 sum += value(&own.in_axes([1.0, 0.0, 0.0], [0.0, 0.0, 1.0])?);
                 count += 1.0;
@@ -101,8 +101,8 @@ impl Surface {
     }
 }
 
-/// A force spread over nodes in a row: half of a span's for the ends.
-pub(super) fn spread(nodes: &[usize], direction: basemat::fem::Direction, force: f64) -> Vec<Load> {
+/// A force spread evenly over nodes in a row: half a share for each end.
+pub(super) fn spread(nodes: &[usize], direction: Direction, force: f64) -> Vec<Load> {
     let spans = (nodes.len() - 1) as f64;
     let part = |k: usize| if k == 0 || k + 1 == nodes.len() { 0.5 } else { 1.0 };
     let load = |(k, &node): (usize, &usize)| (node, direction, force / spans * part(k));
