@@ -9,8 +9,7 @@ use basemat::structure::{
     Structure,
 };
 use basemat_problems::dense::{damping, dot, form, mass, multiply, noise, solve_held, stiffness};
-
-use crate::space_support::CLAMPED as DIRECTIONS;
+use basemat_problems::supported::CLAMPED as DIRECTIONS;
 
 /// Forces and moments along the six directions; the compression acts downwards.
 fn rows(section: &SpaceSection) -> [(&SectionRows, f64); 6] {
