@@ -12,7 +12,7 @@ use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::SPACE;
-use crate::interface::{ContactState, Mode, PreviousContact};
+use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
 use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
@@ -280,9 +280,10 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
     if saved.len() != scene.count() {
         return Err(corrupt.into());
     }
+    let takes_limits = LawForm::of(scene.layout()) == LawForm::Limits;
     for (e, &(number, has_opened)) in saved.iter().enumerate() {
         let mode = Mode::ALL.get(number).copied();
-        let known = |mode: &Mode| scene.layout().is_plan() || scene.law(e).modes().contains(mode);
+        let known = |mode: &Mode| takes_limits || scene.law(e).modes().contains(mode);
         let mode = mode.filter(known).ok_or_else(|| corrupt.clone())?;
         state.modes[e] = mode;
         state.start.restore(e, state.contact[e], mode, has_opened);

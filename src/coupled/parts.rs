@@ -17,7 +17,7 @@ use crate::error::{
 };
 use crate::geometry::Patch;
 use crate::interface::{
-    Bonded, ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact, check_list,
+    Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
 use crate::linalg::matrix::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
@@ -170,7 +170,7 @@ impl Parts {
         // The laws may assume gravity only if there is pressure at the start.
         let gravity = if given.is_static() { given.gravity } else { 0.0 };
         check_laws(&given.laws, given.search, &ContactScene { gravity, time_step }, count)?;
-        if elements.is_plan() {
+        if LawForm::of(layout) == LawForm::Limits {
             check_limits(&given)?;
         }
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;

@@ -7,6 +7,7 @@
 mod cohesive;
 mod condition;
 mod coulomb;
+mod law_form;
 mod limits;
 mod mode;
 mod previous_contact;
@@ -18,6 +19,7 @@ pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
+pub(crate) use law_form::LawForm;
 pub use limits::Limits;
 pub use mode::Mode;
 pub(crate) use previous_contact::state_variable_ends;

@@ -170,12 +170,12 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
         assert_eq!(state.value(Quantity::RotationAcross), furthest(|own| own.rotation_across));
     }
     let page = run.to_string();
-    // Four cells a side of the narrower body, and six: 3/4 and 5/6.
+    // Four cells a side of the narrower body: 3/4.
     for text in [
-        "over the edge to the left or the right (x)",
-        "over the front or the back edge (y)",
-        "bear at 0.75 (x) and 0.83 (y) of the half width: a base stands on them at 1.33 and 1.20",
-        "16 cells a side, or graded unions",
+        "over the left or the right edge",
+        "over the front or the back edge",
+        "bear at 0.75 of the half width: a base stands on them at 1.33",
+        "16 elements a side, or graded ones",
     ] {
         assert!(page.contains(text), "{text}\n{page}");
     }

@@ -9,8 +9,8 @@ use crate::coupled::statics::stability::cause;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, LawError, Result, all_finite, finite};
 use crate::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
-    law_of,
+    Condition, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, PreviousContacts,
+    Tolerance, law_of,
 };
 use crate::linalg::largest;
 use crate::structure::{Structure, nonlinear_state};
@@ -85,8 +85,9 @@ pub(crate) fn under_loads(
     all_finite("load at t = 0", &load)?;
     let (structure, frictionless) = (structure.as_ref(), false);
     let stage = Standing { assembled, structure, soil, frictionless };
-    let state = in_stages(&stage, laws, given.gravity_stage, [&weight, &load])?;
-    Ok(StaticState { load: own, ..state })
+    let mut state = in_stages(&stage, laws, given.gravity_stage, [&weight, &load])?;
+    state.load = own;
+    Ok(state)
 }
 
 /// The state under `weight` by the chosen gravity stage, and then under `load` with the interface laws.
@@ -99,8 +100,8 @@ fn in_stages(
     let layout = stage.assembled.base.layout();
     let count = layout.elements();
     let is_placed = gravity_stage == GravityStage::Frictionless;
-    // In plan the laws' own limits apply, without friction and cohesion.
-    let by_limits = is_placed && layout.is_plan();
+    // Limits apply without friction and cohesion.
+    let by_limits = is_placed && LawForm::of(layout) == LawForm::Limits;
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();
     let can_open = laws.iter().any(|law| law.modes().contains(&Mode::Open));
     // A base that never opens is bonded from the start.

@@ -308,7 +308,7 @@ impl Run {
         0..1 + usize::from(self.in_plan)
     }
 
-    /// Largest base shear (in plan, horizontal force) over the weight; `None` without weight.
+    /// Largest horizontal force on the base over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
         let Summary { static_normal_force, horizontal_force, .. } = &self.whole;
         (*static_normal_force > 0.0).then(|| horizontal_force.magnitude() / static_normal_force)

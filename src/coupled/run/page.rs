@@ -12,7 +12,7 @@ use crate::text::table::Table;
 
 /// Number of elements above which the pressure envelope is shortened.
 const MOST_ROWS: usize = 12;
-/// Lever of the outermost elements in plan, over half the width, above which no advice is printed.
+/// Lever of the outermost elements, over half the width, above which no advice is printed.
 const ENOUGH: f64 = 0.93;
 /// Fraction of open base above which small changes of a scene may change its peaks.
 const MOSTLY_OPEN: f64 = 0.5;
@@ -37,8 +37,7 @@ impl fmt::Display for Run {
             writeln!(f, "{}", self.each_foundation().text())?;
         }
         if let Some(coefficient) = self.shear_coefficient() {
-            let name = if self.in_plan { "horizontal force" } else { "base shear" };
-            writeln!(f, "Largest {name}: {coefficient:.3} of the weight")?;
+            writeln!(f, "Largest horizontal force: {coefficient:.3} of the weight")?;
         }
         self.safety(f)?;
         if let Some(met) = self.is_serviceable() {
@@ -120,33 +119,26 @@ impl Run {
             let (name, least) = (quantity.name(), factor(peak.value));
             write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
             match quantity {
-                Quantity::OverturningSafety if self.in_plan => {
-                    writeln!(f, ", over the edge to the left or the right (x)")?;
-                }
+                Quantity::OverturningSafety => writeln!(f, ", over the left or the right edge")?,
                 Quantity::OverturningSafetyAcross => {
-                    writeln!(f, ", over the front or the back edge (y)")?;
+                    writeln!(f, ", over the front or the back edge")?;
                 }
                 _ => writeln!(f)?,
             }
         }
-        if !self.in_plan {
-            return Ok(());
-        }
-        let [along, across] = [0, 1].map(|axis| self.lever(axis));
-        writeln!(
-            f,
-            "  the outermost cells bear at {along:.2} (x) and {across:.2} (y) of the half width: a base stands on them at \
-             {:.2} and {:.2}",
-            1.0 / along,
-            1.0 / across
-        )?;
-        if along.min(across) < ENOUGH {
-            writeln!(f, "  (16 cells a side, or graded unions, bear at 0.94 or more)")?;
+        let near = self.axes().map(|axis| self.lever(axis)).fold(1.0, f64::min);
+        if near < ENOUGH {
+            writeln!(
+                f,
+                "  the outermost elements bear at {near:.2} of the half width: a base stands on them at {:.2}\n  \
+                 (16 elements a side, or graded ones, bear at 0.94 or more)",
+                1.0 / near
+            )?;
         }
         Ok(())
     }
 
-    /// Distance from the middle of a foundation in plan to the middles of its outermost elements, over half its
+    /// Distance from the middle of a foundation to the middles of its outermost elements, over half its
     /// width.
     ///
     /// Along an axis; the smallest of all foundations and both sides.

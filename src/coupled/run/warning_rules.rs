@@ -7,7 +7,7 @@ use crate::coupled::run::{GroundMotion, Quantity, Run};
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::statics::strength::friction_at_rest;
-use crate::interface::{InterfaceLaw, Mode};
+use crate::interface::{InterfaceLaw, LawForm, Mode};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -83,8 +83,8 @@ impl Warning {
         storey: Option<f64>,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let is_plan = scene.layout().is_plan();
-        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), is_plan));
+        let form = LawForm::of(scene.layout());
+        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
         let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
         warnings
             .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
@@ -205,7 +205,8 @@ impl Warning {
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;
         let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
-        let greatest = laws.map(|law| friction_at_rest(law.as_ref(), true)).fold(0.0, f64::max);
+        let greatest =
+            laws.map(|law| friction_at_rest(law.as_ref(), LawForm::Limits)).fold(0.0, f64::max);
         (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
     }
 

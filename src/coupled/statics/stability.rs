@@ -13,7 +13,7 @@ use crate::coupled::statics::loaded_part::LoadedPart;
 use crate::coupled::statics::strength::Strength;
 use crate::error::{Error, StabilityError};
 use crate::geometry::{Edge, middle, resultant, span};
-use crate::interface::{InterfaceLaw, law_of};
+use crate::interface::{InterfaceLaw, LawForm, law_of};
 use crate::linalg::{SparseFactor, dot};
 
 /// The cause of `error`, that there is no equilibrium under `load`; `error` itself if it is unknown.
@@ -59,9 +59,10 @@ fn resultants(
         let elements: Vec<_> = part.elements().iter().map(|&e| (e, base.areas()[e])).collect();
         let (layout, normal) = (base.layout(), -upward);
         let pressure = normal / elements.iter().map(|(_, area)| area).sum::<f64>();
+        let form = LawForm::of(layout);
         let strength = |&(e, _): &(usize, f64)| {
             let law = law_of(laws, e);
-            Strength::at_pressure(law, pressure, layout.is_plan(), stage.frictionless)
+            Strength::at_pressure(law, pressure, form, stage.frictionless)
         };
         // In the plane the nodes of a base lie on one line.
         let outline = if layout.axes().len() > 1 { hull(nodes.iter().copied()) } else { vec![] };

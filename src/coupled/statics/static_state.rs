@@ -1,13 +1,14 @@
 //! State of structure and contact before the first step.
 
 use crate::error::Result;
-use crate::geometry::{ContactLayout, PLANE};
-use crate::interface::{ContactState, InterfaceLaw, Mode, PreviousContacts, law_of};
+use crate::geometry::ContactLayout;
+use crate::interface::{ContactState, InterfaceLaw, LawForm, Mode, PreviousContacts, law_of};
 use crate::structure::InternalEnergy;
 
 /// Static state under weight and loads at t = 0, contact conditions included.
 #[derive(Debug, Clone)]
 pub(crate) struct StaticState {
+    layout: ContactLayout,
     pub(crate) traction: Vec<f64>,
     /// Gaps: of uplifted elements, and (negative) of compressed layers; hard contact has zero.
     pub(crate) gap: Vec<f64>,
@@ -29,6 +30,7 @@ impl StaticState {
     pub(crate) fn weightless(layout: ContactLayout, dofs: usize) -> Self {
         let elements = layout.elements();
         Self {
+            layout,
             traction: vec![0.0; layout.len()],
             gap: vec![0.0; elements],
             displacement: vec![0.0; dofs],
@@ -41,21 +43,17 @@ impl StaticState {
         }
     }
 
-    fn is_plan(&self) -> bool {
-        self.traction.len() > PLANE * self.modes.len()
-    }
-
     /// Modes with which a base continues under `laws`: closed elements stick, whatever placed them.
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
-        let is_plan = self.is_plan();
+        let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
             let known = law_of(laws, e).modes();
             if known.contains(mode) && !mode.is_closed() {
-                *mode
-            } else if is_plan {
-                known[0].in_any_direction()
-            } else {
-                known[0]
+                return *mode;
+            }
+            match form {
+                LawForm::Modes => known[0],
+                LawForm::Limits => known[0].in_any_direction(),
             }
         });
         modes.collect()
@@ -68,17 +66,19 @@ impl StaticState {
         start: &PreviousContacts,
         states: &[ContactState],
     ) -> Result<()> {
-        let is_plan = self.is_plan();
+        let form = LawForm::of(self.layout);
         for (e, gap) in self.gap.iter_mut().enumerate() {
             let (law, start, mode, pressure) =
                 (law_of(laws, e), start.element(e), self.modes[e], self.traction[e]);
-            let pinned = if !is_plan {
-                law.conditions(mode, &start).iter().find_map(|c| c.gap_at(pressure))
-            } else if mode.is_closed() && !mode.is_yield() {
-                let [compliance, _] = law.compliance(Mode::Stick, &start);
-                Some(law.limits(&start)?.gap_offset - compliance * pressure)
-            } else {
-                None
+            let pinned = match form {
+                LawForm::Modes => {
+                    law.conditions(mode, &start).iter().find_map(|own| own.gap_at(pressure))
+                }
+                LawForm::Limits if mode.is_closed() && !mode.is_yield() => {
+                    let [compliance, _] = law.compliance(Mode::Stick, &start);
+                    Some(law.limits(&start)?.gap_offset - compliance * pressure)
+                }
+                LawForm::Limits => None,
             };
             *gap = pinned.unwrap_or(states[e].gap);
         }

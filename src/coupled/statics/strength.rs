@@ -1,6 +1,8 @@
-//! Strength of an interface law under static loads: in the plane by its modes, in plan by its limits.
+//! Strength of an interface law under static loads, by its modes or by its limits.
 
-use crate::interface::{ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance};
+use crate::interface::{
+    ContactState, InterfaceLaw, LawForm, Limits, Mode, PreviousContact, Tolerance,
+};
 
 /// Traction that counts as zero, relative to the pressure.
 const LITTLE: f64 = 1e-6;
@@ -28,16 +30,20 @@ pub(crate) struct Strength {
 impl Strength {
     /// Strength of an element under this mean pressure (Pa).
     ///
-    /// In plan, `frictionless` omits friction and cohesion.
+    /// `frictionless` omits friction and cohesion from limits.
     pub(crate) fn at_pressure(
         law: &dyn InterfaceLaw,
         pressure: f64,
-        is_plan: bool,
+        form: LawForm,
         frictionless: bool,
     ) -> Self {
-        if is_plan {
-            return Self::by_limits(law, pressure, frictionless);
+        match form {
+            LawForm::Modes => Self::by_modes(law, pressure),
+            LawForm::Limits => Self::by_limits(law, pressure, frictionless),
         }
+    }
+
+    fn by_modes(law: &dyn InterfaceLaw, pressure: f64) -> Self {
         let little = LITTLE * pressure.abs().max(1.0);
         Self {
             opens: law.modes().contains(&Mode::Open),
@@ -48,7 +54,6 @@ impl Strength {
         }
     }
 
-    /// Strength in plan.
     fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
         let limits = limits_at_rest(law, pressure.max(0.0));
         let limits = if frictionless { limits.frictionless() } else { limits };
@@ -68,15 +73,15 @@ impl Strength {
 
 /// Friction coefficient of a law on an element at rest, without cohesion.
 ///
-/// As the law states it; else in plan by its limits, in the plane by the tractions at which the element slides.
-pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, is_plan: bool) -> f64 {
-    if !is_plan {
-        return friction(law, PRESSURE);
+/// As the law states it; else by its limits, or by the tractions at which the element slides.
+pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
+    match form {
+        LawForm::Modes => friction(law, PRESSURE),
+        LawForm::Limits => law.friction_coefficient().unwrap_or_else(|| {
+            let limits = limits_at_rest(law, PRESSURE);
+            if limits.bonded { 0.0 } else { limits.friction }
+        }),
     }
-    law.friction_coefficient().unwrap_or_else(|| {
-        let limits = limits_at_rest(law, PRESSURE);
-        if limits.bonded { 0.0 } else { limits.friction }
-    })
 }
 
 /// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
