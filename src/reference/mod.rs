@@ -10,6 +10,7 @@ mod rocking_block;
 mod sliding_block;
 mod sliding_history;
 mod strip;
+mod uplift_law;
 mod winkler_strip;
 
 pub use line_load::{
@@ -21,4 +22,5 @@ pub use rocking_block::RockingBlock;
 pub use sliding_block::SlidingBlock;
 pub use sliding_history::{SlidingEvent, SlidingHistory};
 pub use strip::{NoTensionStrip, StripContact};
+pub use uplift_law::UpliftLaw;
 pub use winkler_strip::WinklerStrip;

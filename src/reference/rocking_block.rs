@@ -52,6 +52,30 @@ impl RockingBlock {
         self.gravity * self.half_width / self.half_height
     }
 
+    /// Duration (s) of a rectangular pulse of this ground acceleration (m/s²) that just overturns a slender block.
+    ///
+    /// p t₁ = ln(x/(x − 1)), x = a/(g α), Housner 1963 (constant acceleration), with sin(α − θ) ≈ α − θ: the block at
+    /// rest lifts at the begin of the pulse, and reaches α without velocity after it. A longer pulse overturns it.
+    ///
+    /// ```
+    /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
+    /// let twice = 2.0 * 9.81 * block.slenderness_angle();
+    /// let duration = block.overturning_pulse(twice)?;
+    /// assert!((block.frequency_parameter() * duration - 2.0_f64.ln()).abs() < 1e-15);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless the acceleration is finite and above g α, where a slender block starts
+    /// to rock.
+    pub fn overturning_pulse(&self, acceleration: f64) -> Result<f64> {
+        let least = self.gravity * self.slenderness_angle();
+        let rocks = acceleration > least && acceleration < f64::INFINITY;
+        require("acceleration of the pulse", acceleration, rocks, "finite and above g α")?;
+        // ln(x/(x − 1)) = −ln(1 − 1/x)
+        Ok(-(-least / acceleration).ln_1p() / self.frequency_parameter())
+    }
+
     /// Ratio 1 − 1.5 sin²α of the angular velocities after and before an impact.
     ///
     /// It follows from the moment of momentum about the new corner. Housner's r is the square of this ratio.

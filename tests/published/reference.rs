@@ -5,7 +5,7 @@
 
 use basemat::motion::{Record, el_centro_1940};
 use basemat::reference::{
-    NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, WinklerStrip,
+    NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, UpliftLaw, WinklerStrip,
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
@@ -31,6 +31,7 @@ fn bad_inputs_are_refused() {
     let strip = NoTensionStrip::new(soil(), 2.0, 0.3).unwrap();
     let springs = WinklerStrip::new(1.0, 1.0).unwrap();
     for bad in BAD {
+        refused(UpliftLaw::new(bad));
         refused(RockingBlock::new(bad, 1.0, 9.81));
         refused(RockingBlock::new(1.0, bad, 9.81));
         refused(RockingBlock::new(1.0, 2.0, bad));
@@ -109,6 +110,78 @@ fn slender_blocks_rock_as_housner_says() {
 }
 
 /// ∫ f dx over the contact, by a substitution that tames both ends.
+/// Whether a slender block at rest overturns by a rectangular pulse, by steps of the linear equation.
+fn overturns(block: &RockingBlock, acceleration: f64, duration: f64) -> bool {
+    let (angle, p) = (block.slenderness_angle(), block.frequency_parameter());
+    let steps = 20_000;
+    let step = duration / f64::from(steps);
+    let (mut tilt, mut rate) = (0.0, 0.0);
+    // Exact for a constant right-hand side: the tilt's distance from its unstable equilibrium grows and falls.
+    let mut advance = |equilibrium: f64, step: f64| {
+        let from = tilt - equilibrium;
+        let (growth, fall) = (0.5 * (from + rate / p), 0.5 * (from - rate / p));
+        tilt = equilibrium + growth * (p * step).exp() + fall * (-p * step).exp();
+        rate = p * (growth * (p * step).exp() - fall * (-p * step).exp());
+        tilt
+    };
+    for _ in 0..steps {
+        advance(angle - acceleration / 9.81, step);
+    }
+    loop {
+        let tilt = advance(angle, 1e-3 / p);
+        if !(0.0..angle).contains(&tilt) {
+            return tilt > 0.0;
+        }
+    }
+}
+
+#[test]
+fn pulses_overturn_from_the_duration_of_housner() {
+    let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
+    for factor in [1.05, 1.5, 4.0, 30.0] {
+        let acceleration = factor * 9.81 * block.slenderness_angle();
+        let duration = block.overturning_pulse(acceleration).unwrap();
+        assert!(overturns(&block, acceleration, 1.0001 * duration), "{factor}");
+        assert!(!overturns(&block, acceleration, 0.9999 * duration), "{factor}");
+    }
+    let least = 9.81 * block.slenderness_angle();
+    for bad in [least, 0.0, -1.0, f64::NAN, f64::INFINITY] {
+        refused(block.overturning_pulse(bad));
+    }
+}
+
+/// The uplift law with α = 6 is the strip on springs, with α = 4 the smooth strip on the half-plane.
+#[test]
+fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
+    let load = 1.3;
+    let (springs, strip) =
+        (WinklerStrip::new(0.7, 2.0).unwrap(), NoTensionStrip::new(soil(), 2.0, 0.0).unwrap());
+    let (on_springs, on_soil) = (UpliftLaw::new(6.0).unwrap(), UpliftLaw::new(4.0).unwrap());
+    let first = springs.uplift_tilt(load).unwrap();
+    let stiffness = RigidStrip::new(soil(), 2.0).unwrap().smooth_rocking_stiffness();
+    for rotation in [0.3, 1.0, 1.2, 3.0, 20.0] {
+        let moment = springs.moment(load, rotation * first).unwrap();
+        let known = on_springs.moment_ratio(rotation).unwrap() * load * 4.0 / 6.0;
+        close("springs", moment, known, 1e-14, 0.0);
+        let length = springs.contact_length(load, rotation * first).unwrap();
+        close("contact", length / 4.0, on_springs.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
+
+        let tilt = rotation * load * 4.0 / 4.0 / stiffness;
+        let moment = strip.moment(load, tilt).unwrap();
+        let known = on_soil.moment_ratio(rotation).unwrap() * load * 4.0 / 4.0;
+        close("half-plane", moment, known, 1e-14, 0.0);
+        let length = strip.contact(load, -moment / load).unwrap().length();
+        close("contact", length / 4.0, on_soil.contact_ratio(rotation).unwrap(), 1e-14, 0.0);
+    }
+    for bad in [2.0, 1.9] {
+        refused(UpliftLaw::new(bad));
+    }
+    for bad in [-0.1, f64::NAN, f64::INFINITY] {
+        refused(on_soil.moment_ratio(bad));
+        refused(on_soil.contact_ratio(bad));
+    }
+}
+
 fn integral(strip: &NoTensionStrip, eccentricity: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let contact = strip.contact(5.0, eccentricity).unwrap();
     let (middle, half) = (f64::midpoint(contact.left, contact.right), contact.length() / 2.0);

@@ -29,6 +29,7 @@ mod passivity;
 mod performance;
 mod precision;
 mod stability;
+mod uplift_law;
 mod validation;
 
 use std::process::ExitCode;
@@ -59,6 +60,7 @@ enum Study {
     LayeredAccuracy(layered_accuracy::Options),
     LayeredCost(layered_cost::Options),
     Mats(mats::Options),
+    UpliftLaw(uplift_law::Options),
     Elements(elements::Options),
 }
 
@@ -88,6 +90,7 @@ fn main() -> ExitCode {
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
         Study::Mats(options) => mats::run(&options),
+        Study::UpliftLaw(options) => uplift_law::run(&options),
         Study::Elements(options) => elements::run(&options),
     };
     match done {
