@@ -27,7 +27,7 @@ impl UpliftLaw {
     /// Law with the coefficient α of the moment N L/α of uplift.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) unless α is finite and above 2, where the moment of uplift is that of a
+    /// [`Error::Input`](crate::Error::Input) unless α is finite and above 2, where uplift would begin with the
     /// base on its edge.
     pub fn new(alpha: f64) -> Result<Self> {
         let fits = alpha > 2.0 && alpha < f64::INFINITY;
@@ -41,7 +41,7 @@ impl UpliftLaw {
     /// [`Error::Input`](crate::Error::Input) unless the rotation is finite and not negative.
     pub fn contact_ratio(&self, rotation: f64) -> Result<f64> {
         let fits = (0.0..f64::INFINITY).contains(&rotation);
-        require("rotation over that of uplift", rotation, fits, "finite and not negative")?;
+        require("rotation over the rotation of uplift", rotation, fits, "finite and not negative")?;
         Ok(rotation.max(1.0).powf(-2.0 / (self.alpha - 2.0)))
     }
 
