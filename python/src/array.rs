@@ -210,6 +210,11 @@ impl Points {
         self.rows.iter().map(|row| [row[0], row[1], z(row)]).collect()
     }
 
+    /// Number of coordinates, two or three, and places [x, y, z].
+    pub(crate) fn places(self) -> (usize, Vec<[f64; 3]>) {
+        (self.columns, self.in_plane())
+    }
+
     /// Places [x, y, z]; an error for points of two coordinates.
     pub(crate) fn in_space(self) -> PyResult<Vec<[f64; 3]>> {
         if self.columns == 3 {
@@ -296,7 +301,7 @@ fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
 }
 
 /// Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
-/// 4 GiB unless :func:`set_memory_limit` was called.
+/// 4 GiB unless `set_memory_limit` was called.
 #[pyfunction]
 pub(crate) fn memory_limit() -> u64 {
     basemat::memory_limit()

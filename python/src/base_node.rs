@@ -9,7 +9,7 @@ use crate::array::wholes;
 use crate::row::{Order, PyDofCombination, RowLike};
 use crate::several::no_such;
 
-/// A node of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
+/// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
 /// (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``.
 #[pyclass(name = "BaseNode", module = "basemat", frozen)]
@@ -95,19 +95,19 @@ impl PyBaseNode {
         self.0.y
     }
 
-    /// The :class:`DofCombination` of its displacement to the right.
+    /// The `DofCombination` of its displacement to the right.
     #[getter]
     fn horizontal(&self) -> PyDofCombination {
         PyDofCombination(self.0.horizontal.clone(), self.1)
     }
 
-    /// The :class:`DofCombination` of its displacement along y; empty in the plane.
+    /// The `DofCombination` of its displacement along y; empty in the plane.
     #[getter]
     fn across(&self) -> PyDofCombination {
         PyDofCombination(self.0.across.clone(), self.1)
     }
 
-    /// The :class:`DofCombination` of its displacement up.
+    /// The `DofCombination` of its displacement up.
     #[getter]
     fn vertical(&self) -> PyDofCombination {
         PyDofCombination(self.0.vertical.clone(), self.1)
@@ -124,7 +124,7 @@ impl PyBaseNode {
     }
 }
 
-/// The base of a structure in plan: ``faces``, a list of lists of :class:`BaseNode`, over which it iterates.
+/// The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
 ///
 /// A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
 /// face, its outline, which may be given without a list. Faces that touch are one foundation.
@@ -144,7 +144,7 @@ impl PyBaseFaces {
         self.0.len()
     }
 
-    /// Goes through the faces, each a list of its corners (:class:`BaseNode`).
+    /// Goes through the faces, each a list of its corners (`BaseNode`).
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyIterator>> {
         self.0.clone().into_pyobject(py)?.try_iter()
     }

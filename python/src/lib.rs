@@ -92,8 +92,8 @@ mod _core {
         refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity, refine, sensitivity},
         restored::restored,
         results::{
-            PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun, PyServiceCheck, PySummary,
-            PySystemMode,
+            PyDeformedShape, PyEnergyBalance, PyExtremes, PyInteraction, PyPeak, PyRun,
+            PyServiceCheck, PySummary, PySystemMode,
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{

@@ -7,11 +7,11 @@ use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 ///
-/// ``name``: name of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+/// ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``:
 /// its label in tables; unless given, the quantity's.
 ///
 /// Displacements are changes against the static state, relative to the translation of the free
-/// field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
+/// field; `absolute_displacement` includes it. Velocities and accelerations are total. No two
 /// probes of a simulation have the same name, and none the name of another time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
 pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) Order);
@@ -59,7 +59,7 @@ impl PyProbe {
         labelled(Probe::acceleration(name, row.0), row.1, unit)
     }
 
-    /// Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
+    /// Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
     /// series ``name``; ``unit``: its label; unless given, the section's.
     #[pyo3(signature = (name, section, *, unit=None))]
     #[staticmethod]
@@ -79,7 +79,7 @@ impl PyProbe {
         &self.0.unit
     }
 
-    /// Three :class:`DofCombination`: of displacements, of velocities and of accelerations.
+    /// Three `DofCombination`: of displacements, of velocities and of accelerations.
     #[getter]
     fn rows(&self) -> [PyDofCombination; 3] {
         let Probe { displacement, velocity, acceleration, .. } = &self.0;

@@ -69,8 +69,8 @@ impl PyDampingLaw {
     }
 }
 
-/// A horizontal layer: its ``soil`` (:class:`Soil`), its ``thickness`` (m), its ``damping``
-/// (:class:`DampingLaw`; none unless given).
+/// A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
+/// (`DampingLaw`; none unless given).
 #[pyclass(name = "SoilLayer", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilLayer(SoilLayer);
 
@@ -82,7 +82,7 @@ impl PySoilLayer {
         Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
     }
 
-    /// :class:`Soil` of the layer.
+    /// `Soil` of the layer.
     #[getter]
     fn soil(&self) -> PySoil {
         PySoil(self.0.soil)
@@ -99,8 +99,8 @@ fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
     given.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 
-/// Horizontal ``layers`` (list of :class:`SoilLayer`) from the surface down, on a half-plane of the soil
-/// ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: :class:`DampingLaw` of the
+/// Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil
+/// ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: `DampingLaw` of the
 /// bedrock; none unless given. Printed, it is a table.
 #[pyclass(name = "SoilProfile", module = "basemat", frozen, dict)]
 pub(crate) struct PySoilProfile(pub(crate) SoilProfile);
@@ -122,13 +122,13 @@ impl PySoilProfile {
         Ok(Self(SoilProfile::new(layers, bedrock).or_raise()?))
     }
 
-    /// The layers from the surface down: list of :class:`SoilLayer`.
+    /// The layers from the surface down: list of `SoilLayer`.
     #[getter]
     fn layers(&self) -> Vec<PySoilLayer> {
         self.0.layers().iter().cloned().map(PySoilLayer).collect()
     }
 
-    /// The :class:`Soil` of the half-plane under the layers; None on rigid bedrock.
+    /// The `Soil` of the half-plane under the layers; None on rigid bedrock.
     #[getter]
     fn bedrock(&self) -> Option<PySoil> {
         match self.0.bedrock() {

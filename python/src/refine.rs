@@ -8,7 +8,7 @@ use pyo3::types::PyDict;
 use crate::array::{Array, Numbers, real};
 use crate::error::{OrRaise, heard, in_python, kept, refuse, returned};
 
-/// Error against run time at six settings: what :func:`refine` returns. Printed, it is a table.
+/// Error against run time at six settings: what `refine` returns. Printed, it is a table.
 #[pyclass(name = "Refinement", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRefinement(Refinement);
@@ -20,12 +20,12 @@ pub(crate) struct PyRefinement(Refinement);
 /// ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
 /// elements, and twice the elements with half the step.
 ///
-/// A dict of numbers by names, such as several peaks, makes :class:`Refinements`: each of the numbers is
+/// A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
 /// extrapolated by itself, so that units may differ.
 ///
 /// An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
 /// settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-/// and may change between the settings; ``stages`` of :class:`ElasticGround` keeps it.
+/// and may change between the settings; ``stages`` of `ElasticGround` keeps it.
 #[pyfunction]
 pub(crate) fn refine(
     py: Python<'_>,
@@ -171,7 +171,7 @@ impl PyRefinement {
     }
 }
 
-/// Error against run time of several peaks: what :func:`refine` returns for a scene that returns a dict. Printed, it is
+/// Error against run time of several peaks: what `refine` returns for a scene that returns a dict. Printed, it is
 /// one table.
 #[pyclass(name = "Refinements", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -185,7 +185,7 @@ impl PyRefinements {
         self.0.peaks.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// The :class:`Refinement` of the peak called ``name``.
+    /// The `Refinement` of the peak called ``name``.
     fn __getitem__(&self, name: &str) -> PyResult<PyRefinement> {
         self.0.peak(name).cloned().or_raise().map(PyRefinement)
     }
@@ -249,20 +249,20 @@ impl PyPeakTwins {
     }
 }
 
-/// Peaks of a run and of its twins: what :func:`sensitivity` returns. Printed, it is a table.
+/// Peaks of a run and of its twins: what `sensitivity` returns. Printed, it is a table.
 #[pyclass(name = "Sensitivity", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PySensitivity(Sensitivity);
 
 #[pymethods]
 impl PySensitivity {
-    /// The peaks, in the order of the scene: list of :class:`PeakTwins`.
+    /// The peaks, in the order of the scene: list of `PeakTwins`.
     #[getter]
     fn peaks(&self) -> Vec<PyPeakTwins> {
         self.0.peaks.iter().cloned().map(PyPeakTwins).collect()
     }
 
-    /// The :class:`PeakTwins` of the peak called ``name``.
+    /// The `PeakTwins` of the peak called ``name``.
     fn __getitem__(&self, name: &str) -> PyResult<PyPeakTwins> {
         self.0.peak(name).cloned().or_raise().map(PyPeakTwins)
     }

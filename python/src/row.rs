@@ -108,7 +108,7 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 }
 
 /// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-/// force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For :meth:`Probe.section`.
+/// force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For `Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
 pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
 
@@ -152,19 +152,19 @@ impl PySectionRows {
         self.0.unit
     }
 
-    /// The :class:`DofCombination` of displacements.
+    /// The `DofCombination` of displacements.
     #[getter]
     fn displacement(&self) -> PyDofCombination {
         PyDofCombination(self.0.displacement.clone(), self.1)
     }
 
-    /// The :class:`DofCombination` of velocities.
+    /// The `DofCombination` of velocities.
     #[getter]
     fn velocity(&self) -> PyDofCombination {
         PyDofCombination(self.0.velocity.clone(), self.1)
     }
 
-    /// The :class:`DofCombination` of accelerations.
+    /// The `DofCombination` of accelerations.
     #[getter]
     fn acceleration(&self) -> PyDofCombination {
         PyDofCombination(self.0.acceleration.clone(), self.1)

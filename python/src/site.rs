@@ -104,8 +104,8 @@ const CONVENTIONS: [(&str, ComplexModulus); 2] =
 
 #[pymethods]
 impl PyColumn {
-    /// Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
-    /// point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
+    /// Response with strain-compatible properties, an `EquivalentLinear`, to the ``record`` of the ``control``
+    /// point, "outcrop" (the default) or "within"; ``curves``: a list of `StrainCurves`, one per layer.
     ///
     /// ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
     /// ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.

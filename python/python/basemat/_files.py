@@ -14,9 +14,9 @@ _KINDS = ("Run",)
 
 
 def save(self: _core.Run, path: str | os.PathLike[str]) -> None:
-    """Writes the run with its time series to a file at ``path``, for :func:`load`.
+    """Writes the run with its time series to a file at ``path``, for `load`.
 
-    The file is for this version of the package; frames, arrays and :meth:`Run.summary` are for
+    The file is for this version of the package; frames, arrays and `Run.summary` are for
     longer keeping.
     """
     # As its pickle has it.
@@ -31,9 +31,9 @@ def save(self: _core.Run, path: str | os.PathLike[str]) -> None:
 
 
 def load(path: str | os.PathLike[str]) -> _core.Run:
-    """The :class:`Run` that :meth:`Run.save` wrote to the file at ``path``, to the same bits.
+    """The `Run` that `Run.save` wrote to the file at ``path``, to the same bits.
 
-    Raises a :class:`FileError` for a file of another version or of something else, and for one that
+    Raises a `FileError` for a file of another version or of something else, and for one that
     was cut off or changed. Unlike a pickle it cannot run anything.
     """
     name = os.fspath(path)

@@ -77,7 +77,7 @@ def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "dis
     """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
 
     ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
-    m/s and rad/s) of the snapshots in :attr:`Run.motion`, by its name in :attr:`Run.dof_names` or its
+    m/s and rad/s) of the snapshots in `Run.motion`, by its name in `Run.dof_names` or its
     number.
     """
     motion = self.motion
@@ -89,15 +89,15 @@ def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "dis
 
 
 def envelope_frame(self: Run) -> Any:
-    """:attr:`Run.envelope` as a pandas frame: a row per element."""
+    """`Run.envelope` as a pandas frame: a row per element."""
     frame = pandas().DataFrame(self.envelope)
     return _with_units(frame.rename_axis("element"), _UNIT, self)
 
 
 def foundation_frame(self: Run) -> Any:
-    """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
+    """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-    Columns are ends (m), the static normal force, residual slip (m), and those of :attr:`Run.series`: of a factor
+    Columns are ends (m), the static normal force, residual slip (m), and those of `Run.series`: of a factor
     of safety the least value; in plan also the directions across: "torque" and others.
     """
     rows = []
@@ -113,7 +113,7 @@ def foundation_frame(self: Run) -> Any:
 
 
 def energy_frame(self: Run) -> Any:
-    """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
+    """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     frame = pandas().DataFrame(self.energy_balances).set_index("time")
     return _with_units(frame, self.units, self)
 

@@ -71,7 +71,7 @@ def plot_run(self: Run, axes: Any = None, *, label: str | None = None, color: st
     """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
     Contact modes are those of the snapshots, if ``contact_every`` was given to
-    :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
+    `Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
     new figure unless given. For several runs in the same axes: ``label``, a name before those of the curves, and
     ``color`` of the base shear.
     """
@@ -105,7 +105,7 @@ def plot_run(self: Run, axes: Any = None, *, label: str | None = None, color: st
 def plot_modes(self: Run, axes: Any = None) -> Any:
     """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
-    It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
+    It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: those of
     matplotlib to draw into; unless given, axes of a new figure.
     """
     [own] = _axes(axes, 1)
@@ -155,7 +155,7 @@ def _sides(run: Run) -> list[tuple[Any, Any]]:
 def plot_contact_plan(self: Run, time: float | None = None, axes: Any = None) -> Any:
     """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
 
-    It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
+    It needs snapshots of the contact on a ground in plan: ``contact_every`` of `Simulation.run`. ``time`` (s): the
     snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
     into; unless given, axes of a new figure.
     """
@@ -207,9 +207,9 @@ def _plan(run: Run, axes: Any) -> tuple[Any, Callable[[int], list[Any]]]:
 
 def animate(self: Run, scale: float | None = None) -> Any:
     """Moving picture of the base, its gaps and the pressure under it, element by element; in plan of what
-    :meth:`plot_contact_plan` draws.
+    `plot_contact_plan` draws.
 
-    It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
+    It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``scale``: factor
     on gaps, which are then drawn in m; in mm, as they are, unless given. Returns a
     ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
     """

@@ -29,8 +29,8 @@ class UserStructure(Protocol):
     """
 
     def base(self) -> Sequence[BaseNode] | Sequence[Sequence[BaseNode]] | BaseFaces:
-        """Nodes of the base, from left to right; a list of such lists for several foundations; :class:`BaseFaces` in
-        plan. A rigid base needs its two ends, :meth:`BaseNode.rigid_base`, or in plan its outline."""
+        """Nodes of the base, from left to right; a list of such lists for several foundations; `BaseFaces` in
+        plan. A rigid base needs its two ends, `BaseNode.rigid_base`, or in plan its outline."""
 
     def mass(self) -> Any:
         """Mass matrix (n × n, dense or of ``scipy.sparse``, kg/m)."""
@@ -46,14 +46,14 @@ class UserLaw(Protocol):
     ``state_variables`` (count of the numbers that it remembers of each element),
     ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
     ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
-    On a ground in plan it is a :class:`UserPlanLaw`.
+    On a ground in plan it is a `UserPlanLaw`.
 
     What they raise comes out of the run; the simulation stays at the last accepted step.
     """
 
     @property
     def modes(self) -> Sequence[str]:
-        """The modes that it uses, of :data:`basemat.MODES`; the first is the mode of an element at rest."""
+        """The modes that it uses, of `basemat.MODES`; the first is the mode of an element at rest."""
 
     def conditions(self, mode: str, start: PreviousContact) -> Sequence[Condition]:
         """The two conditions that ``mode`` imposes on the end of the step."""
@@ -65,11 +65,11 @@ class UserLaw(Protocol):
 
 
 class UserPlanLaw(Protocol):
-    """A law for grounds in plan written in Python; one that is a :class:`UserLaw` too acts on any ground.
+    """A law for grounds in plan written in Python; one that is a `UserLaw` too acts on any ground.
 
     Slip is along the shear traction there, and the law says how far tractions go. If it has them, ``state_variables``,
     ``initial_state_variables``, ``commit``, ``compliance`` (of the mode "stick"), ``friction_coefficient`` and ``check``
-    count as for a :class:`UserLaw`.
+    count as for a `UserLaw`.
     """
 
     def limits(self, start: PreviousContact) -> Limits:
@@ -78,8 +78,8 @@ class UserPlanLaw(Protocol):
 
 
 class UserHysteresis(Protocol):
-    """A spring with a memory written in Python: for storeys and isolators of a :class:`ShearBuilding`
-    and for :class:`WithSprings`.
+    """A spring with a memory written in Python: for storeys and isolators of a `ShearBuilding`
+    and for `WithSprings`.
 
     It is led straight from the deformation of the last committed step to any other, as often as
     Newton's method wants; only ``commit(deformation)``, called if it is there, accepts one and
@@ -88,8 +88,8 @@ class UserHysteresis(Protocol):
     ``energy(deformation)`` (stored, and dissipated until then, J/m; otherwise it is taken to unload
     with its first stiffness, and to store all work if it has no ``commit``), ``save()`` and ``restore(values)`` (internal variables, always as many, for checkpoints).
 
-    Every simulation works on a deep copy; :attr:`Simulation.hysteresis` gives it back with its
-    internal variables. What it raises comes out of the run, as for a :class:`UserStructure`.
+    Every simulation works on a deep copy; `Simulation.hysteresis` gives it back with its
+    internal variables. What it raises comes out of the run, as for a `UserStructure`.
     """
 
     def force(self, deformation: float) -> float:

@@ -88,14 +88,14 @@ def sweep(
     """Runs a scene for every case of a grid; a pandas frame with one row per case.
 
     Args:
-        make: ``make(**case)`` returns a :class:`Simulation` (which is then run), a :class:`Run`, or
+        make: ``make(**case)`` returns a `Simulation` (which is then run), a `Run`, or
             a mapping of results. What it raises goes into the row's ``error``, as does a result
             with the name of a parameter, "warnings" or "error"; others go on.
         grid: names and values, ``{"friction": [0.2, 0.3], "peak": [1.0, 2.0]}``, of which all
             combinations are made, the last name fastest; or a list of cases, each a mapping. No
             parameter is called "warnings" or "error".
         steps, duration: how long to run a simulation (s); the record's length unless given.
-        results: columns of a row, from its run; :meth:`Run.summary` unless given.
+        results: columns of a row, from its run; `Run.summary` unless given.
         jobs: threads (the GIL is released while steps are made); one unless given, all processors
             for 0.
         executor: instead, any executor of ``concurrent.futures``, or a ``Client`` of Dask; ``make`` and
@@ -104,13 +104,13 @@ def sweep(
         shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
             frame's index has the numbers of the cases. All cases unless given.
         file: path of a file of comma-separated values that is written when all cases are done, with
-            a check sum, as Rust's sweeps write it: :func:`merge` and Rust read it. The
+            a check sum, as Rust's sweeps write it: `merge` and Rust read it. The
             grid must be a mapping to numbers or texts, and results must be numbers. If it cannot be
             written, the frame is the attribute ``table`` of the error. None unless given.
 
     Returns:
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
-        :attr:`Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
+        `Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
     """
     pandas()
     given = parameters_of(grid)
@@ -158,14 +158,14 @@ def merge(
     """Puts the files of a sweep's shards together; a pandas frame with one row per case.
 
     Args:
-        files: path of a file that :func:`sweep` or a sweep in Rust wrote, or a list of such paths,
+        files: path of a file that `sweep` or a sweep in Rust wrote, or a list of such paths,
             which hold every case of the grid once.
-        grid: names and values of the whole sweep, a mapping as for :func:`sweep`.
+        grid: names and values of the whole sweep, a mapping as for `sweep`.
 
     Returns:
         Frame with the columns of the parameters, of the results and ``error`` (None, or its text),
         rows in the order of the cases. A file that was cut off or changed, and cases that are there
-        twice or not at all, raise a :class:`FileError`.
+        twice or not at all, raise a `FileError`.
     """
     paths = [files] if isinstance(files, (str, os.PathLike)) else list(files)
     parameters = parameters_of(grid)

@@ -23,12 +23,12 @@ _Direction = Literal["x", "y", "z", "rx", "ry", "rz", "rotation"]
 
 
 class OpenSeesModel:
-    """A structure from OpenSees with the names of its nodes; what :func:`structure` returns.
+    """A structure from OpenSees with the names of its nodes; what `structure` returns.
 
     It is a structure like any other, for a ground, a simulation or a reduction. Its degrees of freedom
     are called "4 x", "4 y" and "4 rotation" by the node's tag, in space "4 x", "4 y", "4 z", "4 rx", "4 ry" and "4 rz",
     in frames and in errors, too. A degree of freedom that a tie or a fix of OpenSees takes away has no such
-    name; :meth:`row` gives the sum that a tied one follows. Matrices of more than 2400 degrees of freedom are sparse
+    name; `row` gives the sum that a tied one follows. Matrices of more than 2400 degrees of freedom are sparse
     (``scipy.sparse``) where SciPy is installed.
     """
 
@@ -45,7 +45,7 @@ class OpenSeesModel:
         return f"OpenSeesModel({len(self.nodes)} nodes, {self.dofs} degrees of freedom)"
 
     def row(self, node: int, direction: _Direction = "x") -> DofCombination:
-        """The :class:`DofCombination` of a ``node`` (its tag) in a ``direction`` of OpenSees, "x" by default.
+        """The `DofCombination` of a ``node`` (its tag) in a ``direction`` of OpenSees, "x" by default.
 
         For probes and loads. Directions are "x", "y" and "rotation"; in space "x", "y", "z" and, about these axes, "rx",
         "ry" and "rz". The row of a tied node is the sum of the degrees of freedom that it follows.
@@ -76,7 +76,7 @@ def structure(
             (nodes of solids may have 3). Its elements give stiffness, mass and damping in SI units, per metre of
             thickness in the plane, of the whole body in space. Every ``fix``, ``equalDOF``,
             ``rigidLink`` and other constraint holds exactly, whatever constraint handler and numberer
-            are set; ties in chains, too, with a :class:`BasematWarning`, as not every handler of OpenSees
+            are set; ties in chains, too, with a `BasematWarning`, as not every handler of OpenSees
             holds them. The analysis that is set up there is wiped; recorders
             write the present state twice more, of large models more often.
         base_nodes: tags of the nodes on the ground at one height, free of supports. In the plane two or more, or
@@ -101,9 +101,9 @@ def structure(
         The structure at rest, without the loads of OpenSees and without its ``modalDamping``; a
         displacement that a load pattern prescribes (``sp``) is held at zero.
 
-    Elements that are not linear, or are not known to be, give a :class:`BasematWarning` with their tags
+    Elements that are not linear, or are not known to be, give a `BasematWarning` with their tags
     and types. Elements without a tangent at rest are an error: contact, gaps, springs that only push,
-    dashpots of a power of the velocity. Masses in total that differ by direction give a :class:`BasematWarning`: floors
+    dashpots of a power of the velocity. Masses in total that differ by direction give a `BasematWarning`: floors
     whose mass acts along x and y only have no weight. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
     ``-corotational``: it counts as linear.
 

@@ -41,14 +41,14 @@ impl PySharedKernels {
     }
 }
 
-/// Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
-/// elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
+/// Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
+/// elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
 ///
 /// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
 /// half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
 /// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
 /// given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
-/// unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
+/// unless given). ``kernels``: `SharedKernels` of several simulations; own ones unless given.
 /// Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
 /// ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
 /// ``kernel_file``: path of a file that keeps them (none unless given).
@@ -100,7 +100,7 @@ impl PyElasticGround {
     }
 
     /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-    /// structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base, cut at an
+    /// structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
     /// outline that is oblique to them.
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
     ///
@@ -124,8 +124,8 @@ impl PyElasticGround {
         structure.py().get_type::<Self>().call((soil, elements), options)
     }
 
-    /// Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
-    /// of shape (m,), Hz); in plan the array of :meth:`Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
+    /// Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array
+    /// of shape (m,), Hz); in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
     /// "relaxed" (vertical motions without shear, horizontal ones without pressure).
     #[pyo3(signature = (frequencies, *, contact="bonded"))]
     fn impedances(

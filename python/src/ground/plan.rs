@@ -10,7 +10,7 @@ use crate::error::{OrRaise, refuse};
 use crate::profile::Profile;
 use crate::ticker::watched;
 
-/// Square cells of contact under a mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
+/// Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
 /// cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
 /// Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
@@ -102,7 +102,7 @@ impl PyPlan {
         self.0.count()
     }
 
-    /// Dynamic stiffness of the mat as one rigid body on a ``soil`` (:class:`Soil` or :class:`SoilProfile`) for motions
+    /// Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
     /// e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
     /// moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
     /// "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).

@@ -11,7 +11,7 @@ use crate::error::WithGiven;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
-/// ``strips``: a :class:`Strip` or a list of them, or a :class:`Plan`, whose outer cells then end with the mat.
+/// ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end with the mat.
 /// ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
 /// given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
 /// given.

@@ -165,7 +165,7 @@ impl PyThinLayer {
 }
 
 /// Coulomb friction whose coefficient is a function of the start of the step:
-/// ``coefficient(start)`` returns a number for a :class:`PreviousContact`. It may raise: the exception
+/// ``coefficient(start)`` returns a number for a `PreviousContact`. It may raise: the exception
 /// comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
 #[pyclass(name = "VariableFriction", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyVariableFriction;

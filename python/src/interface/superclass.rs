@@ -12,7 +12,7 @@ use crate::several::no_class;
 use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
 /// A law between base and ground: what an element of the contact does in a step, its mode (see
-/// :data:`MODES`), and which conditions that imposes.
+/// `MODES`), and which conditions that imposes.
 #[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyInterfaceLaw {
     pub(crate) make: Recipe<dyn InterfaceLaw>,
@@ -33,8 +33,8 @@ impl PyInterfaceLaw {
         Ok((self.make)().or_raise()?.modes().iter().map(|mode| mode_name(*mode)).collect())
     }
 
-    /// The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
-    /// (:class:`PreviousContact`) is.
+    /// The two `Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
+    /// (`PreviousContact`) is.
     fn conditions(
         &self,
         mode: &str,
@@ -47,7 +47,7 @@ impl PyInterfaceLaw {
         })
     }
 
-    /// The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
+    /// The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step
     /// that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
     /// ``tolerance`` left aside.
     fn next_mode(
@@ -64,8 +64,8 @@ impl PyInterfaceLaw {
         })
     }
 
-    /// The :class:`Limits` of an element's tractions on a ground in plan, in the step after ``start``
-    /// (:class:`PreviousContact`).
+    /// The `Limits` of an element's tractions on a ground in plan, in the step after ``start``
+    /// (`PreviousContact`).
     fn limits(&self, start: &PyPreviousContact) -> PyResult<PyLimits> {
         heard(|| (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits))
     }

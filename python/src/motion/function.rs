@@ -11,8 +11,8 @@ use crate::error::{self, OrRaise, has_raised, heard, refuse};
 use crate::recipe::Recipe;
 use crate::several::no_class;
 
-/// Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
-/// :func:`free_field` makes of a function. Until t = 0 the ground rests.
+/// Motion of the ground's surface without the structure: a `Record`, a wave, or what
+/// `free_field` makes of a function. Until t = 0 the ground rests.
 #[pyclass(name = "FreeField", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
@@ -71,7 +71,7 @@ pub(crate) fn given<'a, 'py>(
 ///
 /// ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
 /// sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
-/// a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
+/// a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
 /// velocity stays what it is by then.
 ///
 /// ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at

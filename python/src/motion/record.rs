@@ -39,7 +39,7 @@ impl PyRecord {
     }
 }
 
-/// The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
+/// The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s.
 #[pyfunction]
 pub(crate) fn el_centro_1940() -> PyResult<PyRecord> {
     PyRecord::from_core(Ok(basemat::motion::el_centro_1940()))
@@ -157,9 +157,9 @@ impl PyRecord {
     }
 
     /// Reads all components of the file at ``path``, such as the three directions of a station: a
-    /// dict from the name of each to its :class:`Record`, in the order of the file.
+    /// dict from the name of each to its `Record`, in the order of the file.
     ///
-    /// ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but
+    /// ``format``, ``unit``, ``time_step`` and ``header_lines`` as for `read`, none unless given; of columns all but
     /// the one of times are read.
     #[staticmethod]
     #[pyo3(signature = (path, *, format="columns", unit=None, time_step=None, header_lines=None))]
@@ -226,8 +226,8 @@ impl PyRecord {
     }
 
     /// Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
-    /// forwards and backwards, so without phase shift; longer as by :meth:`high_pass`. Deconvolution needs it
-    /// (:meth:`SoilColumn.from_surface`).
+    /// forwards and backwards, so without phase shift; longer as by `high_pass`. Deconvolution needs it
+    /// (`SoilColumn.from_surface`).
     #[pyo3(signature = (corner, *, order=4))]
     fn low_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
         Self::from_core(self.0.low_pass(corner, order))
@@ -243,7 +243,7 @@ impl PyRecord {
         Self::from_core(self.0.padded(before, after))
     }
 
-    /// Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
+    /// Elastic response `Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
     /// ``damping`` (0.05 by default).
     #[pyo3(signature = (periods, damping=0.05))]
     fn response_spectrum(

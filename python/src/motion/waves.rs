@@ -21,7 +21,7 @@ use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
 use crate::ticker::watched;
 
-/// Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
+/// Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
 /// same everywhere at once; the one that is None rests.
 #[pyfunction]
 #[pyo3(signature = (horizontal=None, vertical=None))]
@@ -52,7 +52,7 @@ fn records(given: [Option<Bound<'_, PyRecord>>; 3]) -> Triaxial {
     Triaxial { x, y, up }
 }
 
-/// Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
+/// Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
 /// once, for a ground in plan; what is None rests.
 #[pyfunction]
 #[pyo3(signature = (x=None, y=None, up=None))]
@@ -70,7 +70,7 @@ pub(crate) fn triaxial(
     Ok(PyFreeField { duration, ..field(move || Ok(motion.clone()))? })
 }
 
-/// A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
+/// A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
 /// negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
 /// from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
 #[pyfunction]
@@ -113,7 +113,7 @@ pub(crate) fn ricker(
 }
 
 /// A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
-/// :meth:`field_from_horizontal` and :meth:`field_from_vertical` make it a motion.
+/// `field_from_horizontal` and `field_from_vertical` make it a motion.
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
 
@@ -140,14 +140,14 @@ macro_rules! fields_from {
 }
 
 fields_from! {
-    /// The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-    /// :func:`travelling_wave`.
+    /// The `FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+    /// `travelling_wave`.
     field_from_horizontal;
-    /// The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-    /// :func:`travelling_wave`.
+    /// The `FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+    /// `travelling_wave`.
     field_from_vertical;
-    /// The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-    /// (rad; 0 by default) is as in :func:`travelling_wave`.
+    /// The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+    /// (rad; 0 by default) is as in `travelling_wave`.
     field_from_across;
 }
 
@@ -192,7 +192,7 @@ impl PyPlaneWave {
     }
 }
 
-/// A soil ``profile`` (:class:`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
+/// A soil ``profile`` (`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
 /// (the default) or "pressure".
 #[pyclass(name = "SoilColumn", module = "basemat", frozen, dict)]
 pub(crate) struct PyColumn(pub(crate) SoilColumn);
@@ -254,8 +254,8 @@ impl PyColumn {
     }
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-    /// "within", as long. A :class:`BasematWarning` gives the size of what comes before or after and is
-    /// cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
+    /// "within", as long. A `BasematWarning` gives the size of what comes before or after and is
+    /// cut off, from 1e-4 of the peak on: `Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own, observer| {
@@ -264,8 +264,8 @@ impl PyColumn {
     }
 
     /// The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
-    /// surface (deconvolution); it warns as :meth:`to_surface`, and of a motion that is mostly noise which the way down
-    /// amplifies more than a hundredfold: :meth:`Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
+    /// surface (deconvolution); it warns as `to_surface`, and of a motion that is mostly noise which the way down
+    /// amplifies more than a hundredfold: `Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
@@ -275,7 +275,7 @@ impl PyColumn {
     }
 
     /// Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
-    /// default) or "within", of a ``profile`` (:class:`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
+    /// default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
     /// is None stays so.
     #[staticmethod]
     #[pyo3(signature = (profile, x=None, y=None, up=None, *, control="outcrop"))]
@@ -296,7 +296,7 @@ impl PyColumn {
     }
 }
 
-/// A plane wave from the half-plane under a layered profile; :meth:`field` makes it a motion.
+/// A plane wave from the half-plane under a layered profile; `field` makes it a motion.
 #[pyclass(name = "InclinedWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyInclinedWave(InclinedWave);
 
@@ -309,7 +309,7 @@ impl PyInclinedWave {
         InclinedWave::sv(profile.0.clone(), angle).or_raise().map(Self)
     }
 
-    /// SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
+    /// SH wave as of `sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
     /// direction.
     #[staticmethod]
     fn sh(profile: &PySoilProfile, angle: f64) -> PyResult<Self> {
@@ -329,10 +329,10 @@ impl PyInclinedWave {
         self.0.apparent_velocity()
     }
 
-    /// The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
+    /// The `FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
     /// (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
     /// "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-    /// default) is as in :func:`travelling_wave`.
+    /// default) is as in `travelling_wave`.
     #[pyo3(signature = (record, origin, *, control="outcrop_horizontal", azimuth=0.0))]
     fn field(
         &self,

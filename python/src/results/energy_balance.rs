@@ -79,13 +79,13 @@ impl PyEnergyBalance {
         self.0.relative_input
     }
 
-    /// Error bound of :attr:`soil` by an approximate history, J.
+    /// Error bound of `soil` by an approximate history, J.
     #[getter]
     fn soil_error_bound(&self) -> f64 {
         self.0.soil_error_bound
     }
 
-    /// Largest energy so far, to which :attr:`residual` is relative, J.
+    /// Largest energy so far, to which `residual` is relative, J.
     #[getter]
     fn largest(&self) -> f64 {
         self.0.largest

@@ -67,7 +67,7 @@ impl PySystemMode {
     }
 }
 
-/// A scene on its ground and on a fixed base: what :meth:`Simulation.interaction` returns. Printed, it is a table for a
+/// A scene on its ground and on a fixed base: what `Simulation.interaction` returns. Printed, it is a table for a
 /// report.
 #[pyclass(name = "Interaction", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -78,19 +78,19 @@ pub(crate) struct PyInteraction {
 
 #[pymethods]
 impl PyInteraction {
-    /// The :class:`Run` on the ground, without time series.
+    /// The `Run` on the ground, without time series.
     #[getter]
     fn on_ground(&self) -> PyRun {
         PyRun::new(self.found.on_ground.clone(), None, self.names.clone())
     }
 
-    /// The :class:`Run` on the fixed base, without time series.
+    /// The `Run` on the fixed base, without time series.
     #[getter]
     fn on_fixed_base(&self) -> PyRun {
         PyRun::new(self.found.on_fixed_base.clone(), None, self.names.clone())
     }
 
-    /// The mode with the most mass along x, in plan also that along y: list of :class:`SystemMode`; empty for a structure
+    /// The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
     /// that is rigid.
     #[getter]
     fn modes(&self) -> Vec<PySystemMode> {

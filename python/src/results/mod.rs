@@ -5,6 +5,7 @@ mod interaction;
 mod peak;
 mod run;
 mod series;
+mod shape;
 mod summary;
 
 pub(crate) use energy_balance::PyEnergyBalance;
@@ -12,4 +13,5 @@ pub(crate) use interaction::{PyInteraction, PySystemMode};
 pub(crate) use peak::{PyExtremes, PyPeak};
 pub(crate) use run::PyRun;
 pub(crate) use series::element_units;
+pub(crate) use shape::PyDeformedShape;
 pub(crate) use summary::{PyServiceCheck, PySummary};

@@ -38,26 +38,26 @@ pub(crate) struct PyExtremes(pub(crate) Extremes);
 
 #[pymethods]
 impl PyExtremes {
-    /// The smallest value, a :class:`Peak` in the quantity's unit.
+    /// The smallest value, a `Peak` in the quantity's unit.
     #[getter]
     fn lowest(&self) -> PyPeak {
         PyPeak(self.0.lowest)
     }
 
-    /// The largest value, a :class:`Peak` in the quantity's unit.
+    /// The largest value, a `Peak` in the quantity's unit.
     #[getter]
     fn highest(&self) -> PyPeak {
         PyPeak(self.0.highest)
     }
 
-    /// Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
+    /// Whichever of the two is further from zero, with its sign: a `Peak` in the
     /// quantity's unit.
     #[getter]
     fn largest(&self) -> PyPeak {
         PyPeak(self.0.largest())
     }
 
-    /// Magnitude of :attr:`largest`, in the quantity's unit.
+    /// Magnitude of `largest`, in the quantity's unit.
     #[getter]
     fn magnitude(&self) -> f64 {
         self.0.magnitude()

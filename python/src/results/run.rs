@@ -4,35 +4,19 @@ use std::path::PathBuf;
 
 use basemat::coupled::EnergyTerm;
 use basemat::io::paraview;
-use basemat::results::{DeformedShape, Quantity, Run, Summary, TimeSeries};
+use basemat::results::{Quantity, Run, Summary, TimeSeries};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
+use super::shape::shape;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
 use crate::array::{Array, Named, Numbers};
 use crate::error::{OrRaise, in_python, refuse, warn};
 use crate::html::preformatted;
 use crate::motion::{PyRecord, PySpectrum, coarse};
-use crate::structure::{PyFemModel, PyShearBuilding, PyStoreyBuilding, recipe};
 use crate::ticker::watched;
 
-/// The shape of a structure for pictures: its elements or storeys, of another one a box of this `height`.
-fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
-    if let Ok(own) = object.cast::<PyFemModel>() {
-        return Ok(DeformedShape::of_model(&own.get().0));
-    }
-    if let Ok(own) = object.cast::<PyShearBuilding>() {
-        return DeformedShape::of_building(&own.get().made()?).or_raise();
-    }
-    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
-        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
-    }
-    let needed = "height: give that of the box that stands for the structure";
-    let height = height.ok_or_else(|| refuse(needed))?;
-    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
-}
-
-/// A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
+/// A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
 /// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
 /// a page for a report.
@@ -121,7 +105,7 @@ impl PyRun {
         ["peak", "duration", "time_step", "passed"].into_iter().zip(numbers).collect()
     }
 
-    /// Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`.
+    /// Whether the run ended because a base turned beyond the ``rotation_limit`` of the `Simulation`.
     #[getter]
     fn is_overturned(&self) -> bool {
         self.run.is_overturned
@@ -145,13 +129,13 @@ impl PyRun {
         self.names.clone()
     }
 
-    /// Largest gap of any element, m: its :class:`Peak`.
+    /// Largest gap of any element, m: its `Peak`.
     #[getter]
     fn largest_gap(&self) -> PyPeak {
         PyPeak(self.run.largest_gap())
     }
 
-    /// Largest pressure of any element, Pa, a :class:`Peak`; None without elements.
+    /// Largest pressure of any element, Pa, a `Peak`; None without elements.
     #[getter]
     fn largest_pressure(&self) -> Option<PyPeak> {
         self.run.largest_pressure().map(|(_, peak)| PyPeak(peak))
@@ -163,13 +147,13 @@ impl PyRun {
         self.run.shear_coefficient()
     }
 
-    /// Each foundation by itself: list of :class:`Summary`, from left to right.
+    /// Each foundation by itself: list of `Summary`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PySummary> {
         self.run.foundations.iter().cloned().map(PySummary).collect()
     }
 
-    /// A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`.
+    /// A check of each limit of service that the simulation was given: list of `ServiceCheck`.
     #[getter]
     fn serviceability(&self) -> Vec<PyServiceCheck> {
         self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
@@ -187,7 +171,7 @@ impl PyRun {
         self.run.mode_changes
     }
 
-    /// The :class:`EnergyBalance` at the end.
+    /// The `EnergyBalance` at the end.
     #[getter]
     fn energy_balance(&self) -> PyEnergyBalance {
         PyEnergyBalance(self.run.energy_balance)
@@ -229,7 +213,7 @@ impl PyRun {
         Ok(series::energy_balances(self.kept()?))
     }
 
-    /// Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit.
+    /// Smallest and largest value of each probe: dict of `Extremes` by its name, in its unit.
     #[getter]
     fn probes(&self) -> Named<String, PyExtremes> {
         self.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
@@ -283,7 +267,7 @@ impl PyRun {
     }
 
     /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-    /// (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+    /// (Pa), "mode" (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
     /// "shear_across" (Pa), along y.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
@@ -297,17 +281,28 @@ impl PyRun {
         series::motion(py, self.kept()?)
     }
 
+    /// Static displacement of the degrees of freedom, under weight and loads at the start: array of shape (n,), m and rad. It
+    /// is kept with the motion: give ``motion_every`` to `Simulation.run`.
+    #[getter]
+    fn static_displacement(&self) -> PyResult<Array> {
+        let kept = self.kept()?;
+        if kept.motion_frames().next().is_none() {
+            return Err(refuse("no motion was kept: give `motion_every` to `run`"));
+        }
+        Ok(Array::from(kept.static_displacement()))
+    }
+
     fn _repr_html_(&self) -> String {
         preformatted(&self.run.to_string())
     }
 
-    /// The :class:`Record` of the acceleration probe called ``probe``.
+    /// The `Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, probe: &str) -> PyResult<PyRecord> {
         PyRecord::from_core(self.probed(probe)?.acceleration_record(probe))
     }
 
-    /// Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
-    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A :class:`BasematWarning`
+    /// Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
+    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A `BasematWarning`
     /// tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
     #[pyo3(signature = (probe, periods, damping=0.05))]
     fn floor_spectrum(
@@ -361,9 +356,9 @@ impl PyRun {
     /// Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
     /// contact. Returns the number of grids.
     ///
-    /// With the simulation's ``structure`` there is also a grid of it for each snapshot of the motion; none unless
-    /// given. ``height`` (m): height of a rigid block or body, which is drawn as a box, and of any structure but a
-    /// :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
+    /// With the simulation's ``structure``, or its `DeformedShape`, there is also a grid of it for each snapshot of the
+    /// motion; none unless given. ``height`` (m): height of the box that stands for a rigid block or body, as for
+    /// `DeformedShape`; None for structures with a shape of their own.
     #[pyo3(signature = (folder, name, structure=None, *, height=None))]
     fn save_paraview(
         &self,

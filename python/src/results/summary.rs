@@ -33,31 +33,31 @@ impl PySummary {
         self.0.static_normal_force
     }
 
-    /// Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`.
+    /// Horizontal force on the soil, positive to the right, N/m: its `Extremes`.
     #[getter]
     fn base_shear(&self) -> PyExtremes {
         PyExtremes(self.0.base_shear)
     }
 
-    /// Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its :class:`Extremes`.
+    /// Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its `Extremes`.
     #[getter]
     fn base_moment(&self) -> PyExtremes {
         PyExtremes(self.0.base_moment)
     }
 
-    /// Total pressure on the soil, N/m: its :class:`Extremes`.
+    /// Total pressure on the soil, N/m: its `Extremes`.
     #[getter]
     fn normal_force(&self) -> PyExtremes {
         PyExtremes(self.0.normal_force)
     }
 
-    /// Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its :class:`Extremes`.
+    /// Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its `Extremes`.
     #[getter]
     fn base_rotation(&self) -> PyExtremes {
         PyExtremes(self.0.base_rotation)
     }
 
-    /// Largest ratio of the open length to the length: its :class:`Peak`.
+    /// Largest ratio of the open length to the length: its `Peak`.
     #[getter]
     fn uplifted_fraction(&self) -> PyPeak {
         PyPeak(self.0.uplifted_fraction.highest)
@@ -69,7 +69,7 @@ impl PySummary {
         self.0.uplift.duration
     }
 
-    /// Slip averaged over the foundation, m: its :class:`Extremes`.
+    /// Slip averaged over the foundation, m: its `Extremes`.
     #[getter]
     fn mean_slip(&self) -> PyExtremes {
         PyExtremes(self.0.mean_slip)
@@ -87,7 +87,7 @@ impl PySummary {
         self.0.residual_slip_across
     }
 
-    /// Largest slip of any element, m: its :class:`Peak`.
+    /// Largest slip of any element, m: its `Peak`.
     #[getter]
     fn largest_slip(&self) -> PyPeak {
         PyPeak(self.0.largest_slip.highest)
@@ -105,14 +105,14 @@ impl PySummary {
         self.0.sliding.path
     }
 
-    /// Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient.
+    /// Least factor of safety against sliding, a `Peak`; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
         let least = self.0.sliding_safety.lowest;
         (!least.value.is_nan()).then_some(PyPeak(least))
     }
 
-    /// Least factor of safety against overturning, a :class:`Peak`; in plan the lesser of "overturning_safety", over the
+    /// Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
     /// left or the right edge, and "overturning_safety_across", over the front or the back one.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
@@ -120,7 +120,7 @@ impl PySummary {
         PyPeak(if across.lowest.value < along.lowest.value { across.lowest } else { along.lowest })
     }
 
-    /// The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
+    /// The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
     /// "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
         Ok(PyExtremes(self.0.extremes(quantity.parse().or_raise()?)))
@@ -146,7 +146,7 @@ impl PyServiceCheck {
         self.0.limit
     }
 
-    /// The run's value furthest from zero, a :class:`Peak` in SI units.
+    /// The run's value furthest from zero, a `Peak` in SI units.
     #[getter]
     fn largest(&self) -> PyPeak {
         PyPeak(self.0.largest)

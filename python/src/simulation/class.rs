@@ -29,22 +29,22 @@ use crate::ticker::{progress_function, watched};
 ///
 /// Args:
 ///     time_step: time step, s.
-///     structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
-///     ground: an :class:`ElasticGround` or a :class:`SpringGround`.
-///     interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
+///     structure: a `Structure`, or any object with the methods of `UserStructure`.
+///     ground: an `ElasticGround` or a `SpringGround`.
+///     interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for
 ///         all contact elements, or a list of one each, from left to right.
-///     motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
-///         :func:`free_field` makes of a function. The ground rests unless given.
-///     loads: forces from outside, a list of :class:`Load`; none unless given.
-///     probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
+///     motion: ground motion, a `FreeField`: a `Record`, a wave, or what
+///         `free_field` makes of a function. The ground rests unless given.
+///     loads: forces from outside, a list of `Load`; none unless given.
+///     probes: quantities to record at every step, a list of `Probe` with names of their own;
 ///         none unless given.
-///     initial: weight and motion at the start, :class:`InitialConditions`; weight and rest unless given.
-///     solver: time scheme, coordinates and so on, :class:`SolverOptions`; the defaults unless given.
-///     results: quantities that a run evaluates, :class:`ResultOptions`; the defaults unless given.
-///     service_limits: limits of service, :class:`ServiceLimits`; none unless given.
+///     initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
+///     solver: time scheme, coordinates and so on, `SolverOptions`; the defaults unless given.
+///     results: quantities that a run evaluates, `ResultOptions`; the defaults unless given.
+///     service_limits: limits of service, `ServiceLimits`; none unless given.
 ///     fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
 ///         under it. Ground and interface are then left out, but for the places of the contact elements.
-///         False by default; :meth:`interaction` compares both.
+///         False by default; `interaction` compares both.
 ///     progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
 ///         layered ground are computed for the expected steps; none unless given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
@@ -71,7 +71,7 @@ impl PySimulation {
 
 #[pymethods]
 impl PySimulation {
-    /// The :class:`State` at the end of the last accepted step (at first: the static state).
+    /// The `State` at the end of the last accepted step (at first: the static state).
     #[getter]
     fn state(&self) -> PyResult<PyState> {
         Ok(PyState(self.lock()?.state().clone()))
@@ -114,7 +114,7 @@ impl PySimulation {
         &self.structure
     }
 
-    /// The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+    /// The springs of the structure that are written in Python (`UserHysteresis`): list of the
     /// copies that this simulation works on, with their internal variables, in the order of storeys or
     /// springs.
     #[getter]
@@ -189,21 +189,21 @@ impl PySimulation {
     }
 
     /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
-    /// motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
-    /// :meth:`reset` goes back to the start.
+    /// motion. If that is past, as many as it has, under rest, with a `BasematWarning`:
+    /// `reset` goes back to the start.
     ///
     /// ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
     /// function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
     /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
-    /// a :class:`BasematWarning` says that the process ignores it. In all three cases the
+    /// a `BasematWarning` says that the process ignores it. In all three cases the
     /// simulation stays at the last accepted step.
     ///
     /// ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
     /// default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-    /// motion every ``motion_every``th (none unless given). They must fit into :func:`memory_limit`: all
+    /// motion every ``motion_every``th (none unless given). They must fit into `memory_limit`: all
     /// of them before the first step; with ``observe``, which may end the run, those of the steps made.
     ///
-    /// ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
+    /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
     /// by default.
     #[pyo3(signature = (
         steps=None, *, duration=None, progress=None, observe=None, observe_every=1, series=true,
@@ -265,7 +265,7 @@ impl PySimulation {
         Ok(run)
     }
 
-    /// Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
+    /// Makes one step and returns the new state. Raises `StepError` if the step could not be
     /// solved; the simulation is then as it was before.
     fn step(&self, py: Python<'_>) -> PyResult<PyState> {
         take_raised();
@@ -293,7 +293,7 @@ impl PySimulation {
     ///
     /// ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
     /// None returns to that function. A controller computes it from the last state and sets it before each
-    /// :meth:`step`. A checkpoint holds it; :meth:`reset` returns to the functions.
+    /// `step`. A checkpoint holds it; `reset` returns to the functions.
     fn set_load(
         &self,
         #[pyo3(from_py_with = whole)] index: usize,
@@ -302,7 +302,7 @@ impl PySimulation {
         self.lock()?.set_load(index, value).or_raise()
     }
 
-    /// The :class:`Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
+    /// The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
     /// of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
     /// first mode (ASCE 7, chapter 19). This simulation stays where it is.
     ///
@@ -327,14 +327,14 @@ impl PySimulation {
         build::steps_for(&*self.lock()?, duration)
     }
 
-    /// Saves what the steps so far have left behind as a :class:`Checkpoint`, for :meth:`resume`.
+    /// Saves what the steps so far have left behind as a `Checkpoint`, for `resume`.
     fn checkpoint(&self) -> PyResult<PyCheckpoint> {
         take_raised();
         settled(self.lock()?.checkpoint()).map(PyCheckpoint)
     }
 
-    /// Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
-    /// the same way; raises :class:`CheckpointError` in another one, with what differs: sizes, time step,
+    /// Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
+    /// the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
     /// elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
     ///
     /// Args:
@@ -350,7 +350,7 @@ impl PySimulation {
 
     /// Goes back to the start: what follows has the bits that it had from there.
     ///
-    /// Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
+    /// Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
     /// ``save`` and ``restore``.
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
         take_raised();

@@ -13,7 +13,7 @@ use crate::row::{Order, RowLike};
 
 /// A force that acts on a structure from outside.
 ///
-/// ``row``: where it acts, a :class:`DofCombination` or what makes one. ``value``: a function of time
+/// ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
 /// (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
 /// belongs to the static state.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]

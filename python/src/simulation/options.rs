@@ -54,7 +54,7 @@ impl PyInitialConditions {
 /// Method by which a simulation steps.
 ///
 /// Args:
-///     scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
+///     scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
 ///     coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
 ///         time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
 ///         coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
@@ -104,7 +104,7 @@ impl PySolverOptions {
 ///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
 ///         unless given.
 ///     energy_balance: whether energies are booked; True by default. Without them a step takes less
-///         time, and :attr:`Run.energy_error` is NaN.
+///         time, and `Run.energy_error` is NaN.
 ///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
 ///         interface law unless given.
 #[pyclass(name = "ResultOptions", module = "basemat", frozen, dict, from_py_object)]
@@ -124,7 +124,7 @@ impl PyResultOptions {
     }
 }
 
-/// Limits of service, which :attr:`Run.serviceability` compares with the run; they change nothing in it.
+/// Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
 ///
 /// Args:
 ///     slip: limit of |mean slip|, m; none unless given.

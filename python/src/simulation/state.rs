@@ -13,7 +13,7 @@ use crate::results::PyEnergyBalance;
 ///
 /// Displacements are changes against the static state, relative to the free field's translation
 /// unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
-/// It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
+/// It belongs to its simulation and does not pickle: a `Checkpoint` does.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
 
@@ -244,7 +244,7 @@ impl PyState {
         self.0.free_field
     }
 
-    /// The :class:`EnergyBalance` since the start.
+    /// The `EnergyBalance` since the start.
     #[getter]
     fn energy_balance(&self) -> PyEnergyBalance {
         PyEnergyBalance(self.0.energy_balance)
@@ -281,7 +281,7 @@ impl PyState {
         self.0.acceleration().into()
     }
 
-    /// Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`.
+    /// Mode of each element: array of shape (elements,) of numbers into `basemat.MODES`.
     #[getter]
     fn modes(&self) -> Array<u8> {
         self.0.modes.iter().map(|mode| *mode as u8).collect()
@@ -294,7 +294,7 @@ impl PyState {
         changes.map(|own| (own.element, mode_name(own.from), mode_name(own.to))).collect()
     }
 
-    /// Each foundation by itself: list of :class:`FoundationState`, from left to right.
+    /// Each foundation by itself: list of `FoundationState`, from left to right.
     #[getter]
     fn foundations(&self) -> Vec<PyFoundation> {
         self.0.foundations.iter().cloned().map(PyFoundation).collect()
@@ -328,8 +328,8 @@ impl PyState {
     }
 }
 
-/// An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
-/// as ``len()`` of them are left: see :meth:`Simulation.steps`.
+/// An iterator that makes a step whenever it is asked and yields the `State` at its end, as long
+/// as ``len()`` of them are left: see `Simulation.steps`.
 #[pyclass(name = "Steps", module = "basemat")]
 pub(crate) struct PySteps {
     /// Simulation, which has a method `step`.
@@ -358,8 +358,8 @@ impl PySteps {
     }
 }
 
-/// A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
-/// on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
+/// A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
+/// on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
 #[pyclass(name = "Checkpoint", module = "basemat", frozen, eq)]
 #[derive(PartialEq)]
 pub(crate) struct PyCheckpoint(pub(super) Checkpoint);

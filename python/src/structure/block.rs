@@ -9,7 +9,7 @@ use crate::error::{OrRaise, WithGiven};
 use crate::row::{PyDofCombination, rows};
 
 /// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-/// the right, displacement up, rotation: "x", "y", "rotation" for :meth:`dof`.
+/// the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
 ///
 /// ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
 /// ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
@@ -83,20 +83,20 @@ impl PyRigidBlock {
     #[classattr]
     const ROTATION: usize = RigidBlock::ROTATION;
 
-    /// The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base.
+    /// The `DofCombination` of the displacement to the right at a ``height`` (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyDofCombination {
         self.0.horizontal_at(height).into()
     }
 
-    /// The :class:`DofCombination` of the displacement up at ``x`` (m).
+    /// The `DofCombination` of the displacement up at ``x`` (m).
     fn vertical_at(&self, x: f64) -> PyDofCombination {
         self.0.vertical_at(x).into()
     }
 }
 
 /// A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
-/// x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
-/// a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid`, :meth:`cylinder` and :meth:`from_mass` make one.
+/// x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on
+/// a ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` make one.
 #[pyclass(name = "RigidBody", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
@@ -139,7 +139,7 @@ impl PyRigidBody {
     }
 
     /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-    /// ``center`` and ``p_delta`` are as in :meth:`cuboid`, if given.
+    /// ``center`` and ``p_delta`` are as in `cuboid`, if given.
     #[pyo3(
         signature = (radius, height, density, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(radius, height, density, *, center=(0.0, 0.0), p_delta=None)"
@@ -158,7 +158,7 @@ impl PyRigidBody {
     /// Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
     /// freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
     /// the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
-    /// those of :meth:`cuboid`, if given.
+    /// those of `cuboid`, if given.
     #[pyo3(
         signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"
@@ -181,7 +181,7 @@ impl PyRigidBody {
         self.0.total_mass()
     }
 
-    /// The three :class:`DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
+    /// The three `DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
     /// from the middle of the base (m).
     fn displacement_at(&self, x: f64, y: f64, z: f64) -> [PyDofCombination; 3] {
         rows(self.0.displacement_at([x, y, z]))

@@ -20,7 +20,7 @@ use crate::recipe::{Make, Recipe};
 use crate::row::{PyDofCombination, PySectionRows, rows, six};
 use crate::several::Several;
 
-/// A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
+/// A storey of a `ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
 /// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
 /// default), ``damping`` by a dashpot between the floors (N s/m; 0 by default).
 #[pyclass(name = "Storey", module = "basemat", frozen, dict)]
@@ -64,13 +64,13 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 /// Rigid floors on columns that shear, on a rigid base.
 ///
 /// Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-/// horizontal displacement of every floor from below; for :meth:`dof` "base_x", "base_y", "base_rotation",
+/// horizontal displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation",
 /// "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
-/// ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
+/// ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the lowest first. ``damping``: ratio
 /// in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
 /// ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-/// effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (:class:`Hysteresis`, or your own:
-/// :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
+/// effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis`, or your own:
+/// `UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
 /// unless given.
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyShearBuilding(Make<ShearBuilding>);
@@ -116,7 +116,7 @@ impl PyShearBuilding {
     }
 
     /// The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-    /// (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
+    /// (`Hysteresis` or `UserHysteresis`); they become storey 0, and the building's storeys count from 1.
     ///
     /// ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
     /// ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
@@ -160,26 +160,26 @@ impl PyShearBuilding {
         self.made()?.floor(storey.0).or_raise()
     }
 
-    /// The :class:`DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
+    /// The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
     /// displacement less what the base's rotation makes of it.
     fn drift(&self, storey: Count) -> PyResult<PyDofCombination> {
         Ok(self.made()?.drift(storey.0).or_raise()?.into())
     }
 
-    /// The :class:`DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
+    /// The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
     /// less the motion of the base, its rotation included, m.
     fn total_drift(&self, storey: Count) -> PyResult<PyDofCombination> {
         Ok(self.made()?.total_drift(storey.0).or_raise()?.into())
     }
 
-    /// The :class:`SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
+    /// The `SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
     /// lowest) on what is below; of a storey that follows a law, from the inertia above.
     fn shear(&self, storey: Count) -> PyResult<PySectionRows> {
         Ok(self.made()?.shear(storey.0).or_raise()?.into())
     }
 }
 
-/// A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
+/// A storey of a `StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
 /// ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 ///
 /// ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
@@ -225,15 +225,15 @@ enum StoreyLaw {
     Biaxial(Make<BiaxialSpring>),
 }
 
-/// Rigid floors on flexible columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y
+/// Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
 /// and twist, and tilt with the mat.
 ///
 /// Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-/// floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
-/// "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+/// floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
+/// "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first. ``p_delta``:
 /// gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
-/// (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-/// given. In the direction "xy" a :class:`Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
+/// (`Hysteresis` or `UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
+/// given. In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
 /// has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
 /// diagonal.
 #[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
@@ -295,14 +295,14 @@ impl PyStoreyBuilding {
         Ok(self.made()?.total_mass())
     }
 
-    /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+    /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
     fn floor(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
         Ok(rows(self.made()?.floor(storey.0, place).or_raise()?))
     }
 
-    /// The three :class:`DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
+    /// The three `DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
     /// at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
     #[pyo3(signature = (storey, place=None))]
     fn drift(&self, storey: Count, place: Option<[f64; 2]>) -> PyResult<[PyDofCombination; 3]> {
@@ -313,20 +313,20 @@ impl PyStoreyBuilding {
         Ok(rows(found.or_raise()?))
     }
 
-    /// The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
-    /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for :meth:`floor`.
+    /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+    /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
     fn total_drift(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
         Ok(rows(self.made()?.total_drift(storey.0, place).or_raise()?))
     }
 
-    /// The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
+    /// The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
     /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
         Ok(self.made()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
     }
 
-    /// The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+    /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
     /// and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
     /// inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
     #[pyo3(signature = (storey, reference=[0.0; 2]), text_signature = "($self, storey, reference=(0.0, 0.0))")]

@@ -54,7 +54,11 @@ impl PyRayleighDamping {
 /// the list ``keep`` (none unless given) and the lowest ``modes`` modes of the rest. ``damping_ratio``:
 /// of these modes, in place of the structure's damping, which stays unless given.
 #[pyclass(name = "ReducedModel", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyReducedModel(Arc<ReducedModel>);
+pub(crate) struct PyReducedModel {
+    pub(crate) reduced: Arc<ReducedModel>,
+    /// The full structure.
+    pub(crate) structure: Py<PyAny>,
+}
 
 #[pymethods]
 impl PyReducedModel {
@@ -74,35 +78,38 @@ impl PyReducedModel {
         });
         let reduced = Arc::new(reduced.or_raise()?);
         let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
-        Ok(PyClassInitializer::from(base).add_subclass(Self(reduced)))
+        let own = Self { reduced, structure: structure.unbind() };
+        Ok(PyClassInitializer::from(base).add_subclass(own))
     }
 
     /// Frequencies of the modes: array of shape (modes,), Hz.
     #[getter]
     fn frequencies(&self) -> Array {
-        self.0.frequencies().into()
+        self.reduced.frequencies().into()
     }
 
-    /// A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
+    /// A ``row`` of the full structure as a `DofCombination` of the reduced one, for a probe or a
     /// load.
     fn row(&self, row: RowLike) -> PyResult<PyDofCombination> {
-        row.1.check("the row", self.0.recovery().full_dofs())?;
-        Ok(self.0.recovery().row(row.0).or_raise()?.into())
+        row.1.check("the row", self.reduced.recovery().full_dofs())?;
+        Ok(self.reduced.recovery().row(row.0).or_raise()?.into())
     }
 
     /// Degrees of freedom of the full structure, array of shape (n,), m and rad, from those of the
     /// ``reduced`` one, array of shape (dofs,).
     fn full(&self, reduced: Numbers) -> PyResult<Array> {
-        self.0.recovery().full(&reduced.0).or_raise().map(Array::from)
+        self.reduced.recovery().full(&reduced.0).or_raise().map(Array::from)
     }
 }
 
 /// Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
 /// ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
-/// each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
+/// each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStructureGroup {
-    make: Make<StructureGroup>,
+    pub(crate) make: Make<StructureGroup>,
+    /// Structures and their shifts, m.
+    pub(crate) members: Vec<(Py<PyAny>, f64)>,
     /// Degrees of freedom of each structure.
     dofs: Vec<usize>,
 }
@@ -111,8 +118,9 @@ pub(crate) struct PyStructureGroup {
 impl PyStructureGroup {
     #[new]
     fn new(members: Pairs<Bound<'_, PyAny>, f64>) -> PyResult<PyClassInitializer<Self>> {
-        let members: Vec<(Recipe<dyn Structure>, f64)> = members
-            .0
+        let own = members.0.iter().map(|(structure, shift)| (structure.clone().unbind(), *shift));
+        let (own, given) = (own.collect(), members.0);
+        let members: Vec<(Recipe<dyn Structure>, f64)> = given
             .iter()
             .map(|(structure, shift)| Ok((recipe(structure)?, *shift)))
             .collect::<PyResult<_>>()?;
@@ -129,12 +137,12 @@ impl PyStructureGroup {
             Ok(group)
         });
         make().or_raise()?;
-        let own = Arc::clone(&make);
-        let base = PyStructure::new(move || own());
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make, dofs }))
+        let again = Arc::clone(&make);
+        let base = PyStructure::new(move || again());
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make, members: own, dofs }))
     }
 
-    /// A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group.
+    /// A ``row`` of the structure ``member`` (0: the first) as a `DofCombination` of the group.
     fn row(&self, member: Count, row: RowLike) -> PyResult<PyDofCombination> {
         if let Some(dofs) = self.dofs.get(member.0) {
             row.1.check("the row", *dofs)?;
@@ -149,7 +157,11 @@ impl PyStructureGroup {
 /// With ``fixed_base`` the modes are those on a fixed base, which codes and tests speak of. Without (the default) they
 /// are those of the structure by itself, far higher: of 5 %, the first mode of five storeys on a base then has 0.9 %.
 #[pyclass(name = "WithModalDamping", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyWithModalDamping(Vec<f64>);
+pub(crate) struct PyWithModalDamping {
+    frequencies: Vec<f64>,
+    /// The structure without this damping.
+    pub(crate) structure: Py<PyAny>,
+}
 
 #[pymethods]
 impl PyWithModalDamping {
@@ -172,12 +184,13 @@ impl PyWithModalDamping {
         let frequencies = py.detach(|| damped(own).map(|own| own.frequencies().to_vec()));
         let frequencies = frequencies.or_raise()?;
         let base = PyStructure::new(move || damped(structure()?)).named(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self(frequencies)))
+        let own = Self { frequencies, structure: object.unbind() };
+        Ok(PyClassInitializer::from(base).add_subclass(own))
     }
 
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
     #[getter]
     fn frequencies(&self) -> Array {
-        self.0.as_slice().into()
+        self.frequencies.as_slice().into()
     }
 }

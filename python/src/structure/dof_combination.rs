@@ -65,7 +65,7 @@ impl PyDofCombination {
         Ok(weights.into())
     }
 
-    /// The three :class:`DofCombination` of the displacements along x, along y and up of a point that the base of the
+    /// The three `DofCombination` of the displacements along x, along y and up of a point that the base of the
     /// ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
     #[staticmethod]
     fn of_base(structure: Bound<'_, PyAny>, place: [f64; 3]) -> PyResult<[Self; 3]> {
@@ -74,7 +74,7 @@ impl PyDofCombination {
     }
 
     /// This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
-    /// :meth:`of_base`.
+    /// `of_base`.
     fn relative_to_base(&self, structure: Bound<'_, PyAny>) -> PyResult<Self> {
         let structure = self.in_plane(&structure)?;
         Ok(Self(self.0.relative_to_base(structure.as_ref()).or_raise()?, self.1))

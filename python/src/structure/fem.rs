@@ -21,10 +21,10 @@ use crate::row::{PyDofCombination, PySectionRows, six};
 
 /// A finite-element structure.
 ///
-/// ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
+/// ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
 /// a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
 /// corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
-/// :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
+/// `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
 /// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
 /// unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
 /// y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
@@ -89,7 +89,7 @@ impl PyFemModel {
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 
-    /// The :class:`DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x".
+    /// The `DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x".
     fn row(&self, node: Count, direction: &str) -> PyResult<PyDofCombination> {
         Ok(self.0.row(node.0, self::direction(direction)?).or_raise()?.into())
     }
@@ -115,7 +115,7 @@ impl PyFemModel {
         Ok(self.0.rigid_motion(direction, point.unwrap_or_default()).into())
     }
 
-    /// The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
+    /// The `SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
     /// ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
     /// ``reference`` is 0 by default.
     #[pyo3(signature = (height, reference=0.0))]
@@ -130,7 +130,7 @@ impl PyFemModel {
         PyTuple::new(py, rows.map(PySectionRows::from))
     }
 
-    /// The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+    /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
     /// and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
     ///
     /// Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
@@ -141,8 +141,8 @@ impl PyFemModel {
         Ok(six(self.0.section_in_space(height, reference).or_raise()?))
     }
 
-    /// The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
-    /// row of a :class:`Load`, whose forces are then pressures (Pa).
+    /// The `DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
+    /// row of a `Load`, whose forces are then pressures (Pa).
     fn pressure_row(
         &self,
         #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
@@ -150,8 +150,8 @@ impl PyFemModel {
         Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
 
-    /// The :class:`DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
-    /// of ``nodes`` (list of numbers): as the row of a :class:`Load` in N/m, in space in N.
+    /// The `DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
+    /// of ``nodes`` (list of numbers): as the row of a `Load` in N/m, in space in N.
     fn resultant_row(
         &self,
         #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
@@ -189,8 +189,8 @@ impl PyGmshMesh {
         self.0.lines()
     }
 
-    /// The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
-    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in :class:`Layer`.
+    /// The quadrilaterals as a `Mesh`, each with the material of its group: ``materials`` is a dict
+    /// ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in `Layer`.
     #[pyo3(signature = (materials, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn mesh(
         &self,
@@ -210,7 +210,7 @@ impl PyGmshMesh {
     }
 
     /// Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
-    /// :class:`FemModel`.
+    /// `FemModel`.
     fn foundations(&self, name: &str) -> PyResult<Vec<Vec<usize>>> {
         self.0.foundations(name).or_raise()
     }

@@ -59,7 +59,7 @@ impl PyGmshSpaceMesh {
         Ok(Self(GmshSpaceMesh::read(path).or_raise()?))
     }
 
-    /// Places of the nodes: array of shape (nodes, 3), m. A :meth:`mesh` has the same nodes with the same numbers.
+    /// Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers.
     #[getter]
     fn nodes(&self) -> Rows {
         Rows(self.0.nodes().iter().map(|place| place.to_vec()).collect())
@@ -70,19 +70,19 @@ impl PyGmshSpaceMesh {
         self.0.groups(dimension.0)
     }
 
-    /// Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for :meth:`groups`): a list of
-    /// lists. Surfaces are faces for the ``contact`` of a :class:`FemModel`, points the places of masses, loads and probes.
+    /// Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for `groups`): a list of
+    /// lists. Surfaces are faces for the ``contact`` of a `FemModel`, points the places of masses, loads and probes.
     fn cells(&self, dimension: Count, name: &str) -> PyResult<Vec<Vec<usize>>> {
         self.0.cells(dimension.0, name).or_raise()
     }
 
-    /// The elements of the groups as a :class:`Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
-    /// :meth:`Mesh.from_arrays`.
+    /// The elements of the groups as a `Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
+    /// `Mesh.from_arrays`.
     ///
-    /// The part of volumes is a :class:`Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-    /// ``(material, section, orientation)`` as in :meth:`Mesh.add_space_beams`; None leaves a group out. Lines and
+    /// The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
+    /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
     /// surfaces that are sides of other elements need no part. Triangles match the sides that they share with
-    /// quadrilaterals. :attr:`Mesh.elements` leads from the nodes of :meth:`cells` to the numbers of elements.
+    /// quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
     fn mesh(&self, parts: BTreeMap<String, Part>) -> PyResult<PyMesh> {
         let parts: Vec<(&str, GmshPart)> =
             parts.iter().map(|(name, part)| (name.as_str(), part.0)).collect();

@@ -7,7 +7,7 @@ use super::mesh::PyMesh;
 use crate::array::{Array, Count, Numbers, Pairs, Surface};
 use crate::error::refuse;
 
-/// Nodes of a surface in rows, and the cells between them: from :meth:`Mesh.add_grid` and :meth:`Mesh.revolve`.
+/// Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`.
 #[pyclass(name = "Grid", module = "basemat", frozen)]
 pub(crate) struct PyGrid(Grid);
 
@@ -27,22 +27,22 @@ impl PyGrid {
         self.0.rows()
     }
 
-    /// Corner nodes of the cells between neighbouring rows, for :meth:`Mesh.add_shells`: a list of lists of four numbers,
+    /// Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
     /// of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
-    /// upwards; of a wall that :meth:`Mesh.revolve` made, from outside.
+    /// upwards; of a wall that `Mesh.revolve` made, from outside.
     #[getter]
     fn cells(&self) -> Vec<Vec<usize>> {
         self.0.cells().map(|(_, cell)| cell).collect()
     }
 
-    /// Number of the lower row of each of :attr:`cells`: array of shape (cells,).
+    /// Number of the lower row of each of `cells`: array of shape (cells,).
     #[getter]
     fn cell_rows(&self) -> Array<u64> {
         self.0.cells().map(|(row, _)| row as u64).collect()
     }
 
     /// Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
-    /// above; returns the list of the nodes of the bricks between them, for :meth:`Mesh.add_bricks`.
+    /// above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
     fn extrude(
         &self,
         mut mesh: PyRefMut<'_, PyMesh>,
@@ -58,14 +58,14 @@ impl PyGrid {
 
 #[pymethods]
 impl PyMesh {
-    /// Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its :class:`Grid`.
+    /// Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`.
     fn add_grid(&mut self, points: Surface) -> PyResult<PyGrid> {
         let Surface { shape: [rows, columns], points } = points;
         let point = |row, column| points[row * columns + column];
         self.changed(|mesh| mesh.add_grid(rows, columns, point)).map(PyGrid)
     }
 
-    /// Adds the nodes of a surface of revolution; returns its :class:`Grid`.
+    /// Adds the nodes of a surface of revolution; returns its `Grid`.
     ///
     /// ``axis``: x and y (m) of the vertical axis. ``meridian``: radius and height (m) of each row of nodes, array of shape
     /// (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of

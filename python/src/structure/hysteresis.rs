@@ -210,12 +210,15 @@ enum Spring {
 }
 
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-/// freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
-/// In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a :class:`Hysteresis`
+/// freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
+/// In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
 /// (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
 /// along x and y act independently, and carry √2 times their limit on the diagonal.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
-pub(crate) struct PyWithSprings;
+pub(crate) struct PyWithSprings(
+    /// The structure without the springs.
+    pub(crate) Py<PyAny>,
+);
 
 #[pymethods]
 impl PyWithSprings {
@@ -249,6 +252,6 @@ impl PyWithSprings {
         };
         make().or_raise()?;
         let base = PyStructure::new(make).named(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self))
+        Ok(PyClassInitializer::from(base).add_subclass(Self(object.unbind())))
     }
 }

@@ -25,7 +25,7 @@ impl PyMesh {
     }
 
     /// Adds shells of three or four ``nodes``, listed around each: array of shape (shells, 3) or (shells, 4), or a list of
-    /// lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
+    /// lists of 3 or 4 numbers. ``material``: `Material`, or a list of one per shell; ``thickness`` (m): one number
     /// or an array of one per shell.
     ///
     /// The nodes lie in the middle of the thickness. Triangles match the sides that they share with quadrilaterals of the
@@ -46,15 +46,15 @@ impl PyMesh {
         self.add_all(shells.into_iter().map(Ok))
     }
 
-    /// Adds bricks of a ``material`` (:class:`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
+    /// Adds bricks of a ``material`` (`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
     /// counter-clockwise seen from above, then the nodes above these.
     fn add_bricks(&mut self, nodes: Connectivity, material: &PyMaterial) -> PyResult<Vec<usize>> {
         let all = nodes.rows::<8>()?.into_iter();
         self.add_all(all.map(|own| Ok(Hex8::new(own, material.0))))
     }
 
-    /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (:class:`Material`) and a
-    /// ``section`` (:class:`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
+    /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a
+    /// ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
     /// vector, or an array of shape (beams, 3)).
     ///
     /// ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of

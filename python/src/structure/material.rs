@@ -35,7 +35,7 @@ impl PyMaterial {
 }
 
 /// Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
-/// ``material`` (:class:`Material`).
+/// ``material`` (`Material`).
 ///
 /// ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
 /// "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one

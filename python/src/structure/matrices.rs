@@ -17,11 +17,11 @@ use crate::recipe::Shared;
 ///
 /// ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
 /// (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-/// :class:`BaseNode` from left to right; a list of such lists for several foundations; :class:`BaseFaces` for a ground
+/// `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
 /// in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-/// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
-/// list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
+/// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
+/// list of n names, each another one, for `dof`, frames and errors; none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 

@@ -27,7 +27,7 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
 }
 
 /// Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
-/// :meth:`in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
+/// `in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
 /// elements' numbers.
 ///
 /// In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
@@ -119,7 +119,7 @@ impl PyMesh {
     }
 
     /// Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
-    /// :class:`Layer` from y = 0 upwards.
+    /// `Layer` from y = 0 upwards.
     #[staticmethod]
     fn layered_block(
         left: f64,
@@ -131,7 +131,7 @@ impl PyMesh {
     }
 
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
-    /// ``layers`` is a list of :class:`Layer` from y = 0 upwards.
+    /// ``layers`` is a list of `Layer` from y = 0 upwards.
     #[staticmethod]
     fn graded_block(grid: Numbers, layers: Several<'_, PyLayer>) -> PyResult<Self> {
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
@@ -261,7 +261,7 @@ impl PyMesh {
 
     /// Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
     /// (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
-    /// those of :class:`Layer`, are for four nodes.
+    /// those of `Layer`, are for four nodes.
     #[pyo3(signature = (nodes, material, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn add_quads(
         &mut self,

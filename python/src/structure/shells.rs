@@ -12,8 +12,8 @@ use crate::array::{Array, Count, Numbers, Rows, whole};
 use crate::error::{OrRaise, asked, heard, refuse, returned};
 use crate::row::PySectionRows;
 
-/// Forces and moments of a shell at a point, per metre of width, in its :attr:`axes`: from
-/// :meth:`FemModel.shell_resultants` and :meth:`ShellRows.value`.
+/// Forces and moments of a shell at a point, per metre of width, in its `axes`: from
+/// `FemModel.shell_resultants` and `ShellRows.value`.
 #[pyclass(name = "ShellResultants", module = "basemat", frozen)]
 pub(crate) struct PyShellResultants(ShellResultants);
 
@@ -56,10 +56,10 @@ impl PyShellResultants {
     }
 }
 
-/// Forces and moments of shells per metre at a node, as rows of displacements for :meth:`Probe.section`: from
-/// :meth:`FemModel.shell_rows`.
+/// Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
+/// `FemModel.shell_rows`.
 ///
-/// A probe records changes from the static state, whose part is the :meth:`value` of the ``static_displacement`` of the
+/// A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
 /// simulation. The rows contain the elastic forces, without damping.
 #[pyclass(name = "ShellRows", module = "basemat", frozen)]
 pub(crate) struct PyShellRows(ShellRows);
@@ -78,25 +78,25 @@ impl PyShellRows {
         unit_vectors(&self.0.axes)
     }
 
-    /// Three :class:`SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive.
+    /// Three `SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive.
     #[getter]
     fn membrane(&self) -> [PySectionRows; 3] {
         self.0.membrane.clone().map(PySectionRows::from)
     }
 
-    /// Three :class:`SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n.
+    /// Three `SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n.
     #[getter]
     fn moments(&self) -> [PySectionRows; 3] {
         self.0.moments.clone().map(PySectionRows::from)
     }
 
-    /// Two :class:`SectionRows` of the shear forces q_1 and q_2, N/m.
+    /// Two `SectionRows` of the shear forces q_1 and q_2, N/m.
     #[getter]
     fn shears(&self) -> [PySectionRows; 2] {
         self.0.shears.clone().map(PySectionRows::from)
     }
 
-    /// The :class:`ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad.
+    /// The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad.
     fn value(&self, displacement: Numbers) -> PyResult<PyShellResultants> {
         let Numbers(own) = displacement;
         let all = self.0.membrane.iter().chain(&self.0.moments).chain(&self.0.shears);
@@ -121,7 +121,7 @@ type Directions = [[f64; 3]; 2];
 
 #[pymethods]
 impl PyFemModel {
-    /// The :class:`ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
+    /// The `ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
     /// degrees of freedom, ``displacement`` (array of shape (n,), m and rad).
     ///
     /// The ``displacement`` of a state is the change from the ``static_displacement`` of the simulation.
@@ -134,7 +134,7 @@ impl PyFemModel {
         Ok(found.into_iter().map(PyShellResultants).collect())
     }
 
-    /// The :class:`ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
+    /// The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
     /// nodes: means over these shells. Give the shells of one mat or one wall.
     ///
     /// ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the

@@ -128,7 +128,7 @@ impl PyStructure {
         self.names.as_ref().map(DofNames::to_vec)
     }
 
-    /// The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`.
+    /// The `DofCombination` of the degree of freedom called ``name``, one of `dof_names`.
     fn dof(&self, name: &str) -> PyResult<PyDofCombination> {
         let names = self.names.as_ref().ok_or_else(|| {
             refuse(format!(
@@ -138,8 +138,8 @@ impl PyStructure {
         Ok(DofCombination::from(names.number(name)?).into())
     }
 
-    /// Base of the structure: a list for each foundation, of its :class:`BaseNode` from left to right; in plan
-    /// :class:`BaseFaces`.
+    /// Base of the structure: a list for each foundation, of its `BaseNode` from left to right; in plan
+    /// `BaseFaces`.
     fn base(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         shown(py, (self.make)().or_raise()?.base())
     }

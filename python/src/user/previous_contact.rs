@@ -64,9 +64,9 @@ impl PyContactState {
     }
 }
 
-/// An element at the start of a step: its :class:`ContactState`, and the rest of its past.
+/// An element at the start of a step: its `ContactState`, and the rest of its past.
 ///
-/// A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
+/// A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
 /// its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
 /// ``state_variables`` (array of shape (m,); none unless given).
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
@@ -115,7 +115,7 @@ impl PyPreviousContact {
         Ok(base.add_subclass(Self { own, state_variables }))
     }
 
-    /// Mode of the step before, as in :data:`basemat.MODES`.
+    /// Mode of the step before, as in `basemat.MODES`.
     #[getter]
     fn mode(&self) -> &'static str {
         mode_name(self.own.mode)
@@ -152,8 +152,8 @@ impl PyPreviousContact {
     }
 }
 
-/// Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
-/// :meth:`UserPlanLaw.limits` returns.
+/// Limits of an element's tractions on a ground in plan, in the step after a `PreviousContact`: what
+/// `UserPlanLaw.limits` returns.
 ///
 /// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
 /// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
