@@ -248,7 +248,27 @@ def test_a_block_of_bricks_stands_on_its_sides() -> None:
     faces = [(1, 2, 5, 4), (2, 3, 6, 5), (4, 5, 8, 7), (5, 6, 9, 8)]
     model = opensees.structure(ops, faces=faces)
     assert model.dofs == 81 and model.dof_names is not None and model.dof_names[:3] == ["1 x", "1 y", "1 z"]
+    # Each side of the cube has four.
+    assert len(bm.DeformedShape(model).cells) == 24
     along = sum(model.row(tag, "y").weights(81) for tag in model.nodes)
     assert along @ model.mass() @ along == pytest.approx(2400.0 * 64.0, rel=1e-12)
     with pytest.raises(bm.InputError, match="there is no direction 'rx', only x, y, z"):
         opensees.structure(ops, faces=faces, below=0.1)
+
+
+@pytest.mark.parametrize("up", ["z", "y"])
+def test_shapes_are_nodes_and_elements(up: str) -> None:
+    building(up)
+    model = opensees.structure(ops, [1], outline=OUTLINE, up=up)
+    shape = bm.DeformedShape(model)
+    assert shape.in_space and len(shape.points) == len(ops.getNodeTags()) and len(shape.cells) == 16
+    node = dict(zip(model.nodes, range(len(model.nodes))))
+    assert shape.points[node[213]] == pytest.approx([4.0, 3.0, 6.0])
+    assert shape.points[node[1]] == pytest.approx([1.7, 1.1, 0.0])
+    u = np.random.default_rng(5).normal(size=model.dofs)
+    # A column's foot follows the mat's node; axes of the shape are to the right, away and up.
+    moved, own = shape.displacements(u), [model.row(11, name) for name in DIRECTIONS[:3]]
+    right, away, up_ = turned([row.value(u) for row in own], "z") if up == "z" else (own[0].value(u), -own[2].value(u), own[1].value(u))
+    assert moved[node[11]] == pytest.approx([right, away, up_], rel=1e-12)
+    ends = sorted(model.nodes[k] for k in next(cell for cell in shape.cells if node[213] in cell and node[113] in cell))
+    assert ends == [113, 213]

@@ -282,10 +282,10 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
     moving = run.animate()
     moving._draw_was_started = True
     for frame in (0, 40, 100):
-        base, pressure = moving._func(frame)
-    gap, own = np.asarray(base.get_ydata()), run.contact["gap"]
-    np.testing.assert_allclose(gap[::2], 1e3 * own[100], rtol=1e-12)
-    np.testing.assert_allclose(pressure.get_ydata()[::2], 1e-3 * run.contact["pressure"][100])
+        gap, slip, pressure, _, clock = moving._func(frame)
+    for line, factor, name in ((gap, 1e3, "gap"), (slip, 1e3, "slip"), (pressure, 1e-3, "pressure")):
+        np.testing.assert_allclose(line.get_ydata()[::3], factor * run.contact[name][100], rtol=1e-12)
+    assert clock.get_text() == f"{run.contact['time'][100]:.2f} s"
     axes = run.floor_spectrum("roof", PERIODS).plot()
     assert axes.get_xlabel() == "period, s" and "m/s²" in axes.get_ylabel()
     soft, hard = bm.Soil(30e6, 0.33, 1900.0), bm.Soil(800e6, 0.3, 2000.0)

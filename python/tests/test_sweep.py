@@ -10,6 +10,7 @@ import time
 import warnings
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import basemat as bm
@@ -68,6 +69,38 @@ def test_processes_change_nothing() -> None:
     with concurrent.futures.ProcessPoolExecutor(2) as executor:
         many = bm.sweep(make, GRID, steps=100, results=results, executor=executor)
     pandas.testing.assert_frame_equal(one, many, check_exact=True)
+
+
+def on_a_raft(thickness: float, friction: float) -> bm.Simulation:
+    """A mat of shells with a mass on a pole, which bends, lifts and slides."""
+    mesh, line, concrete = bm.Mesh.in_space(), np.linspace(-3.0, 3.0, 4), bm.Material(30e9, 0.2, 2500.0)
+    x, y = np.meshgrid(line, line)
+    mesh.add_shells(mesh.add_grid(np.stack([x, y, 0.0 * x], axis=2)).cells, concrete, thickness)
+    foot, top = mesh.node_at(1.0, 1.0), mesh.add_node(1.0, 1.0, 8.0)
+    mesh.add_space_beams([[foot, top]], concrete, bm.BeamSection(1.0, (0.1, 0.1), 0.15), (1.0, 0.0, 0.0))
+    mesh.add_mass(top, 30e3)
+    model = bm.FemModel(mesh)
+    ground = bm.ElasticGround.under(bm.Soil(80e6, 0.25, 1900.0), model, 4)
+    motion = bm.triaxial(x=bm.el_centro_1940(), y=bm.el_centro_1940().scaled(0.6))
+    probe = bm.Probe.displacement("top", model.row(top, "x"))
+    return bm.Simulation(0.01, model, ground, bm.Coulomb(friction), motion=motion, probes=[probe])
+
+
+def raft_results(run: bm.Run) -> dict[str, float]:
+    return {"top": run.probes["top"].magnitude, "torque": run.extremes("torque").magnitude, "open": run.uplifted_fraction.value}
+
+
+def test_models_in_space_sweep_in_processes_to_the_same_bits(tmp_path: Path) -> None:
+    grid = {"thickness": [0.4, 0.8], "friction": [0.2, 0.5]}
+    with concurrent.futures.ProcessPoolExecutor(2) as executor:
+        table = bm.sweep(on_a_raft, grid, steps=250, results=raft_results, executor=executor, file=tmp_path / "rafts.csv")
+    assert table["error"].isna().all()
+    for _, row in table.iterrows():
+        own = raft_results(on_a_raft(row["thickness"], row["friction"]).run(250))
+        assert {name: row[name] for name in own} == own
+    # The cases differ, and the mats lift and turn.
+    assert table["top"].nunique() == 4 and (table[["open", "torque"]] > 0.0).all(axis=None)
+    pandas.testing.assert_frame_equal(bm.merge(tmp_path / "rafts.csv", grid)[list(own)], table[list(own)], check_exact=True)
 
 
 def dies(case: int) -> dict[str, int]:

@@ -7,13 +7,13 @@ soil. ``python -m basemat`` says what there is; the README of the package has a 
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
-from . import _frames, _meshes, _pickling as _pickling, _plots
+from . import _animation, _frames, _meshes, _pickling as _pickling, _plots, _report, _shapes
 from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *
-from ._files import load, save as _save
+from ._files import load as load, save as _save
 from ._protocols import *
-from ._sweep import merge, sweep
+from ._sweep import merge as merge, sweep as sweep
 
 for _class, _name, _method in (
     (Run, "to_frame", _frames.to_frame),
@@ -26,7 +26,8 @@ for _class, _name, _method in (
     (Run, "plot", _plots.plot_run),
     (Run, "plot_modes", _plots.plot_modes),
     (Run, "plot_contact_plan", _plots.plot_contact_plan),
-    (Run, "animate", _plots.animate),
+    (Run, "animate", _animation.animate),
+    (Run, "report", _report.report),
     (Run, "save", _save),
     (Spectrum, "to_frame", _frames.spectrum_frame),
     (Spectrum, "plot", _plots.plot_spectrum),
@@ -34,6 +35,8 @@ for _class, _name, _method in (
     (EquivalentLinear, "to_frame", _frames.equivalent_linear_frame),
     (Impedances, "to_frame", _frames.impedance_frame),
     (Impedances, "plot", _plots.plot_impedances),
+    (DeformedShape, "plot", _shapes.plot_shape),
+    (Mesh, "plot_shells", _shapes.plot_shells),
 ):
     _method.__name__, _method.__qualname__ = _name, f"{_class.__name__}.{_name}"
     setattr(_class, _name, _method)

@@ -15,7 +15,7 @@ def main() -> None:
     print("  help(basemat.Simulation)          what a simulation is made of")
     for title, belongs in (
         ("Classes", inspect.isclass),
-        ("Functions", lambda value: callable(value) and not inspect.isclass(value)),
+        ("Functions", inspect.isroutine),
     ):
         print(f"\n{title}:")
         for name in basemat.__all__:

@@ -4,25 +4,25 @@ Written by ``tools/stubs.py``; types stand in ``tools/annotations.txt``.
 """
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Literal, Union, final, overload
 
 import numpy as np
+from matplotlib.animation import FuncAnimation
+from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
+from pandas import DataFrame
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import UserHysteresis, UserLaw, UserPlanLaw, UserStructure
+from ._protocols import Mode as Mode, UserHysteresis, UserLaw, UserPlanLaw, UserStructure
 
 __version__: str
-MODES: list[_Mode]
+MODES: list[Mode]
 """Names of the contact modes, in the order of their numbers in arrays."""
 _ELEMENT_UNITS: dict[str, str]
 STANDARD_GRAVITY: float
 """9.80665 m/s²."""
 
-_Mode: TypeAlias = Literal[
-    "stick", "slip_left", "slip_right", "open", "yield", "yield_left", "yield_right", "slip", "yield_slip"
-]
 _History: TypeAlias = Literal["auto", "direct", "relaxed_fft", "exponentials"]
 _Grading: TypeAlias = Literal["cosine", "uniform"]
 _StripContact: TypeAlias = Literal["bonded", "relaxed"]
@@ -97,7 +97,7 @@ _MatrixLike: TypeAlias = Any
 
 @final
 class Refinement:
-    """Error against run time at six settings: what :func:`refine` returns. Printed, it is a table."""
+    """Error against run time at six settings: what `refine` returns. Printed, it is a table."""
 
     @property
     def elements(self) -> list[int]:
@@ -138,7 +138,7 @@ class Refinement:
 
 @final
 class Refinements:
-    """Error against run time of several peaks: what :func:`refine` returns for a scene that returns a dict. Printed, it is
+    """Error against run time of several peaks: what `refine` returns for a scene that returns a dict. Printed, it is
     one table.
     """
 
@@ -176,11 +176,11 @@ class PeakTwins:
 
 @final
 class Sensitivity:
-    """Peaks of a run and of its twins: what :func:`sensitivity` returns. Printed, it is a table."""
+    """Peaks of a run and of its twins: what `sensitivity` returns. Printed, it is a table."""
 
     @property
     def peaks(self) -> list[PeakTwins]:
-        """The peaks, in the order of the scene: list of :class:`PeakTwins`."""
+        """The peaks, in the order of the scene: list of `PeakTwins`."""
     def __getitem__(self, key: str, /) -> PeakTwins: ...
 
 @final
@@ -212,19 +212,19 @@ class SystemMode:
 
 @final
 class Interaction:
-    """A scene on its ground and on a fixed base: what :meth:`Simulation.interaction` returns. Printed, it is a table for a
+    """A scene on its ground and on a fixed base: what `Simulation.interaction` returns. Printed, it is a table for a
     report.
     """
 
     @property
     def on_ground(self) -> Run:
-        """The :class:`Run` on the ground, without time series."""
+        """The `Run` on the ground, without time series."""
     @property
     def on_fixed_base(self) -> Run:
-        """The :class:`Run` on the fixed base, without time series."""
+        """The `Run` on the fixed base, without time series."""
     @property
     def modes(self) -> list[SystemMode]:
-        """The mode with the most mass along x, in plan also that along y: list of :class:`SystemMode`; empty for a structure
+        """The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
         that is rigid.
         """
     @property
@@ -251,14 +251,14 @@ class Ground:
 
 @final
 class ElasticGround(Ground):
-    """Elastic half-plane of a ``soil`` (:class:`Soil`), or its layers (:class:`SoilProfile`), with contact
-    elements on its surface: ``strips`` is a :class:`Strip` or a list of them, or a :class:`Plan` in three dimensions.
+    """Elastic half-plane of a ``soil`` (`Soil`), or its layers (`SoilProfile`), with contact
+    elements on its surface: ``strips`` is a `Strip` or a list of them, or a `Plan` in three dimensions.
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
     half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
     ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
     given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
-    unless given). ``kernels``: :class:`SharedKernels` of several simulations; own ones unless given.
+    unless given). ``kernels``: `SharedKernels` of several simulations; own ones unless given.
     Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
     ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
     ``kernel_file``: path of a file that keeps them (none unless given).
@@ -293,7 +293,7 @@ class ElasticGround(Ground):
         kernels: SharedKernels | None = None,
     ) -> ElasticGround:
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
-        structure in plan a :class:`Plan` with ``count`` cells along the shorter side of its base, cut at an
+        structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
         outline that is oblique to them.
         A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
 
@@ -302,8 +302,8 @@ class ElasticGround(Ground):
         ``kernels``. ``grading``: "cosine" (the default: short at the edges) or "uniform".
         """
     def impedances(self, frequencies: ArrayLike, *, contact: _StripContact = "bonded") -> Any:
-        """Dynamic stiffness of all strips as one rigid body, :class:`Impedances`, at ``frequencies`` (array
-        of shape (m,), Hz); in plan the array of :meth:`Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
+        """Dynamic stiffness of all strips as one rigid body, `Impedances`, at ``frequencies`` (array
+        of shape (m,), Hz); in plan the array of `Plan.impedances`. ``contact``: "bonded" (the default: soil and strips move together) or
         "relaxed" (vertical motions without shear, horizontal ones without pressure).
         """
 
@@ -338,20 +338,28 @@ class Impedances:
     @property
     def coupling(self) -> NDArray[np.complex128]:
         """Horizontal force by rotation: complex array of shape (m,), N/m."""
-    def to_frame(self) -> Any:
+    def to_frame(self) -> DataFrame:
         """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
-    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
+    def plot(
+        self,
+        axes: Iterable[Axes] | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> list[Axes]:
         """Draws real and imaginary parts over the frequency; returns the list of four axes.
 
         ``axes``: four of matplotlib to draw into; unless given, axes of a new figure. For several grounds in the same axes:
-        ``label``, a name before the names of the curves, and ``color`` of both.
+        ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
+        none.
         """
 
 @final
 class SpringGround(Ground):
     """Independent springs and dashpots under each element (Winkler bed).
 
-    ``strips``: a :class:`Strip` or a list of them, or a :class:`Plan`, whose outer cells then end with the mat.
+    ``strips``: a `Strip` or a list of them, or a `Plan`, whose outer cells then end with the mat.
     ``normal_stiffness``, ``tangential_stiffness``: Pa/m. ``across_stiffness``: in plan along y, Pa/m; the tangential one unless
     given. ``dashpots``: normal and tangential, Pa s/m; none unless given. ``theta``: of the rule that steps them, ½ to 1; ½ unless
     given.
@@ -400,7 +408,7 @@ class Strip:
 
 @final
 class Plan:
-    """Square cells of contact under a mat, for an :class:`ElasticGround` of three directions: those that its ``faces``
+    """Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
     cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
     Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
     """
@@ -417,7 +425,7 @@ class Plan:
         *,
         contact: _StripContact = "bonded",
     ) -> NDArray[np.complex128]:
-        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (:class:`Soil` or :class:`SoilProfile`) for motions
+        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
         e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
         moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
         "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
@@ -446,30 +454,30 @@ class Plan:
 @disjoint_base
 class InterfaceLaw:
     """A law between base and ground: what an element of the contact does in a step, its mode (see
-    :data:`MODES`), and which conditions that imposes.
+    `MODES`), and which conditions that imposes.
     """
 
     @property
-    def modes(self) -> list[_Mode]:
+    def modes(self) -> list[Mode]:
         """List of the names of the modes that this law uses; the first is the mode of an element at rest."""
-    def conditions(self, mode: _Mode, start: PreviousContact) -> tuple[Condition, Condition]:
-        """The two :class:`Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
-        (:class:`PreviousContact`) is.
+    def conditions(self, mode: Mode, start: PreviousContact) -> tuple[Condition, Condition]:
+        """The two `Condition` that ``mode`` imposes on the end of a step, whose beginning ``start``
+        (`PreviousContact`) is.
         """
     def next_mode(
         self,
-        mode: _Mode,
+        mode: Mode,
         start: PreviousContact,
         trial: ContactState,
         tolerance: Tolerance,
-    ) -> _Mode:
-        """The mode to try next after the ``trial`` (:class:`ContactState`) that ``mode`` led to in the step
+    ) -> Mode:
+        """The mode to try next after the ``trial`` (`ContactState`) that ``mode`` led to in the step
         that begins with ``start``; ``mode`` itself if the trial is admissible, differences below the
         ``tolerance`` left aside.
         """
     def limits(self, start: PreviousContact) -> Limits:
-        """The :class:`Limits` of an element's tractions on a ground in plan, in the step after ``start``
-        (:class:`PreviousContact`).
+        """The `Limits` of an element's tractions on a ground in plan, in the step after ``start``
+        (`PreviousContact`).
         """
 
 @final
@@ -561,7 +569,7 @@ class ThinLayer(InterfaceLaw):
 @final
 class VariableFriction(InterfaceLaw):
     """Coulomb friction whose coefficient is a function of the start of the step:
-    ``coefficient(start)`` returns a number for a :class:`PreviousContact`. It may raise: the exception
+    ``coefficient(start)`` returns a number for a `PreviousContact`. It may raise: the exception
     comes out of the run. ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens.
     """
 
@@ -574,8 +582,8 @@ class VariableFriction(InterfaceLaw):
 
 @disjoint_base
 class FreeField:
-    """Motion of the ground's surface without the structure: a :class:`Record`, a wave, or what
-    :func:`free_field` makes of a function. Until t = 0 the ground rests.
+    """Motion of the ground's surface without the structure: a `Record`, a wave, or what
+    `free_field` makes of a function. Until t = 0 the ground rests.
     """
 
     def displacement(self, x: float, time: float) -> list[float]:
@@ -634,9 +642,9 @@ class Record(FreeField):
         header_lines: int | None = None,
     ) -> dict[str, Record]:
         """Reads all components of the file at ``path``, such as the three directions of a station: a
-        dict from the name of each to its :class:`Record`, in the order of the file.
+        dict from the name of each to its `Record`, in the order of the file.
 
-        ``format``, ``unit``, ``time_step`` and ``header_lines`` as for :meth:`read`, none unless given; of columns all but
+        ``format``, ``unit``, ``time_step`` and ``header_lines`` as for `read`, none unless given; of columns all but
         the one of times are read.
         """
     @property
@@ -694,15 +702,15 @@ class Record(FreeField):
         """
     def low_pass(self, corner: float, *, order: int = 4) -> Record:
         """Record filtered at a ``corner`` frequency (Hz): a low-pass Butterworth filter of ``order`` (1 to 8; 4 by default),
-        forwards and backwards, so without phase shift; longer as by :meth:`high_pass`. Deconvolution needs it
-        (:meth:`SoilColumn.from_surface`).
+        forwards and backwards, so without phase shift; longer as by `high_pass`. Deconvolution needs it
+        (`SoilColumn.from_surface`).
         """
     def tapered(self, beginning: float, end: float) -> Record:
         """Record tapered over the durations ``beginning`` and ``end`` (s) at its two ends."""
     def padded(self, before: float, after: float) -> Record:
         """Record with rest of ``before`` and ``after`` (s) at its two ends."""
     def response_spectrum(self, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
-        """Elastic response :class:`Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
+        """Elastic response `Spectrum` at ``periods`` (array of shape (m,), s) with the damping ratio
         ``damping`` (0.05 by default).
         """
     def __len__(self) -> int: ...
@@ -734,20 +742,28 @@ class Spectrum:
         """Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
         by default (U.S. NRC R.G. 1.122).
         """
-    def to_frame(self) -> Any:
+    def to_frame(self) -> DataFrame:
         """The spectrum as a pandas frame, indexed by the period (s)."""
-    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> Any:
+    def plot(
+        self,
+        axes: Axes | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
         """Draws total and pseudo-accelerations over the period; returns the axes.
 
         ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several spectra in the same axes:
-        ``label``, a name before the names of the curves, and ``color`` of both.
+        ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
+        none.
         """
     def __len__(self) -> int: ...
 
 @final
 class PlaneWave:
     """A plane wave that meets the free surface of a half-plane at an angle, or a Rayleigh wave;
-    :meth:`field_from_horizontal` and :meth:`field_from_vertical` make it a motion.
+    `field_from_horizontal` and `field_from_vertical` make it a motion.
     """
 
     @staticmethod
@@ -769,12 +785,12 @@ class PlaneWave:
     def apparent_velocity(self) -> float:
         """Apparent velocity along the surface, m/s."""
     def field_from_horizontal(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The :class:`FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-        :func:`travelling_wave`.
+        """The `FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+        `travelling_wave`.
         """
     def field_from_vertical(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The :class:`FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-        :func:`travelling_wave`.
+        """The `FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+        `travelling_wave`.
         """
     @staticmethod
     def sh(soil: Soil, angle: float) -> PlaneWave:
@@ -782,13 +798,13 @@ class PlaneWave:
         across its direction only.
         """
     def field_from_across(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
-        """The :class:`FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-        (rad; 0 by default) is as in :func:`travelling_wave`.
+        """The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+        (rad; 0 by default) is as in `travelling_wave`.
         """
 
 @final
 class SoilColumn:
-    """A soil ``profile`` (:class:`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
+    """A soil ``profile`` (`SoilProfile`) as a column that waves travel up and down; ``wave``: "shear"
     (the default) or "pressure".
     """
 
@@ -805,13 +821,13 @@ class SoilColumn:
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-        "within", as long. A :class:`BasematWarning` gives the size of what comes before or after and is
-        cut off, from 1e-4 of the peak on: :meth:`Record.padded` makes room for it.
+        "within", as long. A `BasematWarning` gives the size of what comes before or after and is
+        cut off, from 1e-4 of the peak on: `Record.padded` makes room for it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
-        surface (deconvolution); it warns as :meth:`to_surface`, and of a motion that is mostly noise which the way down
-        amplifies more than a hundredfold: :meth:`Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
+        surface (deconvolution); it warns as `to_surface`, and of a motion that is mostly noise which the way down
+        amplifies more than a hundredfold: `Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
         """
     def equivalent_linear(
         self,
@@ -825,8 +841,8 @@ class SoilColumn:
         band: Sequence[float] | None = None,
         complex_modulus: Literal["real_part", "magnitude"] = "real_part",
     ) -> EquivalentLinear:
-        """Response with strain-compatible properties, an :class:`EquivalentLinear`, to the ``record`` of the ``control``
-        point, "outcrop" (the default) or "within"; ``curves``: a list of :class:`StrainCurves`, one per layer.
+        """Response with strain-compatible properties, an `EquivalentLinear`, to the ``record`` of the ``control``
+        point, "outcrop" (the default) or "within"; ``curves``: a list of `StrainCurves`, one per layer.
 
         ``strain_ratio``: effective over largest strain, (M − 1)/10 for the magnitude M; 0.65 unless given.
         ``tolerance``: relative, of moduli and damping ratios; 1e-3 unless given. ``most_iterations``: 50 unless given.
@@ -843,7 +859,7 @@ class SoilColumn:
         control: _ControlPoint = "outcrop",
     ) -> list[Record | None]:
         """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
-        default) or "within", of a ``profile`` (:class:`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
+        default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
         is None stays so.
         """
 
@@ -929,12 +945,12 @@ class EquivalentLinear:
     @property
     def warnings(self) -> list[str]:
         """Warnings, in words."""
-    def to_frame(self) -> Any:
+    def to_frame(self) -> DataFrame:
         """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
 
 @final
 class InclinedWave:
-    """A plane wave from the half-plane under a layered profile; :meth:`field` makes it a motion."""
+    """A plane wave from the half-plane under a layered profile; `field` makes it a motion."""
 
     @staticmethod
     def sv(profile: SoilProfile, angle: float) -> InclinedWave:
@@ -943,7 +959,7 @@ class InclinedWave:
         """
     @staticmethod
     def sh(profile: SoilProfile, angle: float) -> InclinedWave:
-        """SH wave as of :meth:`sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
+        """SH wave as of `sv` (``profile``, ``angle`` in rad), for a ground in plan: its horizontal motion is across its
         direction.
         """
     @staticmethod
@@ -962,21 +978,21 @@ class InclinedWave:
         control: _InclinedControl = "outcrop_horizontal",
         azimuth: float = 0.0,
     ) -> FreeField:
-        """The :class:`FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
+        """The `FreeField` of the surface whose ``control`` point moves as the ``record`` at ``origin``
         (x, m), the point that is reached first. ``control``: "outcrop_horizontal" (the default),
         "outcrop_vertical" (motions of the base without layers) or "incident" (the incident wave alone). ``azimuth`` (rad; 0 by
-        default) is as in :func:`travelling_wave`.
+        default) is as in `travelling_wave`.
         """
 
 @final
 class Probe:
     """A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 
-    ``name``: name of its time series. ``row``: a :class:`DofCombination` or what makes one. ``unit``:
+    ``name``: name of its time series. ``row``: a `DofCombination` or what makes one. ``unit``:
     its label in tables; unless given, the quantity's.
 
     Displacements are changes against the static state, relative to the translation of the free
-    field; :meth:`absolute_displacement` includes it. Velocities and accelerations are total. No two
+    field; `absolute_displacement` includes it. Velocities and accelerations are total. No two
     probes of a simulation have the same name, and none the name of another time series of a run.
     """
 
@@ -1002,7 +1018,7 @@ class Probe:
         """
     @staticmethod
     def section(name: str, section: SectionRows, *, unit: str | None = None) -> Probe:
-        """Resultant of a ``section`` (:class:`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
+        """Resultant of a ``section`` (`SectionRows`), a force (N/m) or a moment (N·m/m), as the time
         series ``name``; ``unit``: its label; unless given, the section's.
         """
     @property
@@ -1013,7 +1029,7 @@ class Probe:
         """Label of its unit; values are what the weights make of SI units."""
     @property
     def rows(self) -> list[DofCombination]:
-        """Three :class:`DofCombination`: of displacements, of velocities and of accelerations."""
+        """Three `DofCombination`: of displacements, of velocities and of accelerations."""
 
 @final
 class DampingLaw:
@@ -1049,22 +1065,22 @@ class DampingLaw:
 
 @final
 class SoilLayer:
-    """A horizontal layer: its ``soil`` (:class:`Soil`), its ``thickness`` (m), its ``damping``
-    (:class:`DampingLaw`; none unless given).
+    """A horizontal layer: its ``soil`` (`Soil`), its ``thickness`` (m), its ``damping``
+    (`DampingLaw`; none unless given).
     """
 
     def __new__(cls, soil: Soil, thickness: float, damping: DampingLaw | None = None) -> Self: ...
     @property
     def soil(self) -> Soil:
-        """:class:`Soil` of the layer."""
+        """`Soil` of the layer."""
     @property
     def thickness(self) -> float:
         """Thickness of the layer, m."""
 
 @final
 class SoilProfile:
-    """Horizontal ``layers`` (list of :class:`SoilLayer`) from the surface down, on a half-plane of the soil
-    ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: :class:`DampingLaw` of the
+    """Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil
+    ``bedrock`` or, unless that is given, on rigid bedrock. ``bedrock_damping``: `DampingLaw` of the
     bedrock; none unless given. Printed, it is a table.
     """
 
@@ -1077,14 +1093,22 @@ class SoilProfile:
     ) -> Self: ...
     @property
     def layers(self) -> list[SoilLayer]:
-        """The layers from the surface down: list of :class:`SoilLayer`."""
+        """The layers from the surface down: list of `SoilLayer`."""
     @property
     def bedrock(self) -> Soil | None:
-        """The :class:`Soil` of the half-plane under the layers; None on rigid bedrock."""
-    def plot(self, axes: Any = None) -> Any:
+        """The `Soil` of the half-plane under the layers; None on rigid bedrock."""
+    def plot(
+        self,
+        axes: Axes | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
         """Draws the speed of shear waves over the depth; returns the axes.
 
-        ``axes``: those of matplotlib to draw into; unless given, axes of a new figure.
+        ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several profiles in the same axes:
+        ``label``, a name of the curve, and its ``color``. ``title`` stands above the picture; None for none.
         """
     @property
     def depth(self) -> float:
@@ -1104,7 +1128,7 @@ class Summary:
     """
 
     def extremes(self, quantity: _Quantity) -> Extremes:
-        """The :class:`Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
+        """The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
         "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
         """
     @property
@@ -1118,31 +1142,31 @@ class Summary:
         """Total pressure at the start, N/m."""
     @property
     def base_shear(self) -> Extremes:
-        """Horizontal force on the soil, positive to the right, N/m: its :class:`Extremes`."""
+        """Horizontal force on the soil, positive to the right, N/m: its `Extremes`."""
     @property
     def base_moment(self) -> Extremes:
-        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its :class:`Extremes`."""
+        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its `Extremes`."""
     @property
     def normal_force(self) -> Extremes:
-        """Total pressure on the soil, N/m: its :class:`Extremes`."""
+        """Total pressure on the soil, N/m: its `Extremes`."""
     @property
     def base_rotation(self) -> Extremes:
-        """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its :class:`Extremes`."""
+        """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its `Extremes`."""
     @property
     def uplifted_fraction(self) -> Peak:
-        """Largest ratio of the open length to the length: its :class:`Peak`."""
+        """Largest ratio of the open length to the length: its `Peak`."""
     @property
     def uplift_duration(self) -> float:
         """Time with uplift, s."""
     @property
     def mean_slip(self) -> Extremes:
-        """Slip averaged over the foundation, m: its :class:`Extremes`."""
+        """Slip averaged over the foundation, m: its `Extremes`."""
     @property
     def residual_slip(self) -> float:
         """Slip averaged over the foundation at the end, m."""
     @property
     def largest_slip(self) -> Peak:
-        """Largest slip of any element, m: its :class:`Peak`."""
+        """Largest slip of any element, m: its `Peak`."""
     @property
     def slip_events(self) -> list[tuple[float, float, float]]:
         """Slip events: list of tuples (start in s, end in s, slip in m)."""
@@ -1151,10 +1175,10 @@ class Summary:
         """Sliding distance: |slip| of it summed over time, m."""
     @property
     def least_sliding_safety(self) -> Peak | None:
-        """Least factor of safety against sliding, a :class:`Peak`; None without a friction coefficient."""
+        """Least factor of safety against sliding, a `Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a :class:`Peak`; in plan the lesser of "overturning_safety", over the
+        """Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
         left or the right edge, and "overturning_safety_across", over the front or the back one.
         """
     @property
@@ -1173,7 +1197,7 @@ class ServiceCheck:
         """Limit of the response, in SI units."""
     @property
     def largest(self) -> Peak:
-        """The run's value furthest from zero, a :class:`Peak` in SI units."""
+        """The run's value furthest from zero, a `Peak` in SI units."""
     @property
     def first_excess(self) -> float | None:
         """End of the first step beyond the limit, s; None if there was none."""
@@ -1225,14 +1249,14 @@ class EnergyBalance:
         """Relative input energy (Uang and Bertero 1990), J."""
     @property
     def soil_error_bound(self) -> float:
-        """Error bound of :attr:`soil` by an approximate history, J."""
+        """Error bound of `soil` by an approximate history, J."""
     @property
     def largest(self) -> float:
-        """Largest energy so far, to which :attr:`residual` is relative, J."""
+        """Largest energy so far, to which `residual` is relative, J."""
     @property
     def residual(self) -> float:
         """Difference between the two sides of the balance, relative to the largest energy so far."""
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, float]:
         """All terms by their names: dict of numbers, J, in the plane J/m."""
 
 @final
@@ -1254,23 +1278,23 @@ class Extremes:
 
     @property
     def lowest(self) -> Peak:
-        """The smallest value, a :class:`Peak` in the quantity's unit."""
+        """The smallest value, a `Peak` in the quantity's unit."""
     @property
     def highest(self) -> Peak:
-        """The largest value, a :class:`Peak` in the quantity's unit."""
+        """The largest value, a `Peak` in the quantity's unit."""
     @property
     def largest(self) -> Peak:
-        """Whichever of the two is further from zero, with its sign: a :class:`Peak` in the
+        """Whichever of the two is further from zero, with its sign: a `Peak` in the
         quantity's unit.
         """
     @property
     def magnitude(self) -> float:
-        """Magnitude of :attr:`largest`, in the quantity's unit."""
+        """Magnitude of `largest`, in the quantity's unit."""
     def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class Run(Summary):
-    """A run: the :class:`Summary` of the whole base, envelopes, energies, warnings, and its time series.
+    """A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
 
     ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
     a page for a report.
@@ -1298,7 +1322,7 @@ class Run(Summary):
         """
     @property
     def is_overturned(self) -> bool:
-        """Whether the run ended because a base turned beyond the ``rotation_limit`` of the :class:`Simulation`."""
+        """Whether the run ended because a base turned beyond the ``rotation_limit`` of the `Simulation`."""
     @property
     def _ground_motion(self) -> str:
         """The ground motion in words, as on the page of the run."""
@@ -1307,21 +1331,26 @@ class Run(Summary):
         """Times of the kept steps: array of shape (steps + 1,), s; the first is the start."""
     def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
-    def series(self) -> dict[str, Any]:
+    def series(self) -> dict[str, NDArray[np.float64]]:
         """All time series: dict of arrays of shape (steps + 1,), "time" first."""
     @property
-    def energy_balances(self) -> dict[str, Any]:
+    def energy_balances(self) -> dict[str, NDArray[np.float64]]:
         """Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m."""
     @property
-    def contact(self) -> dict[str, Any]:
+    def contact(self) -> dict[str, NDArray[Any]]:
         """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
-        (Pa), "mode" (numbers into :data:`basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
+        (Pa), "mode" (numbers into `basemat.MODES`), each of shape (frames, elements); in plan also "slip_across" (m) and
         "shear_across" (Pa), along y.
         """
     @property
-    def motion(self) -> dict[str, Any]:
+    def motion(self) -> dict[str, NDArray[np.float64]]:
         """Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
         m and m/s, and "free_field" (frames, 2), m to the right and up; in plan also "free_field_across" (frames,), m along y.
+        """
+    @property
+    def static_displacement(self) -> NDArray[np.float64]:
+        """Static displacement of the degrees of freedom, under weight and loads at the start: array of shape (n,), m and rad. It
+        is kept with the motion: give ``motion_every`` to `Simulation.run`.
         """
     @property
     def dof_names(self) -> list[str] | None:
@@ -1329,27 +1358,27 @@ class Run(Summary):
     @property
     def units(self) -> dict[str, str]:
         """SI units of the time series and of the energies: dict of texts by their names, "" for ratios."""
-    def to_frame(self) -> Any:
+    def to_frame(self) -> DataFrame:
         """All time series as a pandas frame, indexed by the time (s).
 
         Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
         motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
         """
-    def contact_frame(self) -> Any:
+    def contact_frame(self) -> DataFrame:
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
         Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
         "y", "slip_across" (m) and "shear_across" (Pa).
         """
-    def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
+    def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
         """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
 
         ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
-        m/s and rad/s) of the snapshots in :attr:`Run.motion`, by its name in :attr:`Run.dof_names` or its
+        m/s and rad/s) of the snapshots in `Run.motion`, by its name in `Run.dof_names` or its
         number.
         """
-    def envelope_frame(self) -> Any:
-        """:attr:`Run.envelope` as a pandas frame: a row per element."""
+    def envelope_frame(self) -> DataFrame:
+        """`Run.envelope` as a pandas frame: a row per element."""
     @property
     def _foundation_peaks(self) -> list[dict[str, float | None]]:
         """Peaks of all scalar quantities of each foundation."""
@@ -1368,25 +1397,25 @@ class Run(Summary):
         """Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
         contact. Returns the number of grids.
 
-        With the simulation's ``structure`` there is also a grid of it for each snapshot of the motion; none unless
-        given. ``height`` (m): height of a rigid block or body, which is drawn as a box, and of any structure but a
-        :class:`FemModel`, :class:`ShearBuilding` or :class:`StoreyBuilding`; None for these.
+        With the simulation's ``structure``, or its `DeformedShape`, there is also a grid of it for each snapshot of the
+        motion; none unless given. ``height`` (m): height of the box that stands for a rigid block or body, as for
+        `DeformedShape`; None for structures with a shape of their own.
         """
-    def foundation_frame(self) -> Any:
-        """:attr:`Run.foundations` as a pandas frame: a row each, largest values with their signs.
+    def foundation_frame(self) -> DataFrame:
+        """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-        Columns are ends (m), the static normal force, residual slip (m), and those of :attr:`Run.series`: of a factor
+        Columns are ends (m), the static normal force, residual slip (m), and those of `Run.series`: of a factor
         of safety the least value; in plan also the directions across: "torque" and others.
         """
-    def energy_frame(self) -> Any:
-        """:attr:`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
+    def energy_frame(self) -> DataFrame:
+        """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     def floor_spectra(
         self,
         periods: ArrayLike,
         damping: float = 0.05,
         *,
         probes: Sequence[str] | None = None,
-    ) -> Any:
+    ) -> DataFrame:
         """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
 
         Args:
@@ -1394,71 +1423,126 @@ class Run(Summary):
             damping: damping ratio; 0.05 by default.
             probes: names of acceleration probes; all those with the unit "m/s²" unless given.
         """
-    def plot(self, axes: Any = None, *, label: str | None = None, color: str | None = None) -> list[Any]:
+    def plot(
+        self,
+        axes: Iterable[Axes] | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> list[Axes]:
         """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
-        Contact modes are those of the snapshots, if ``contact_every`` was given to
-        :meth:`Simulation.run`. ``axes``: two of matplotlib to draw into, three with snapshots; those of a
-        new figure unless given. For several runs in the same axes: ``label``, a name before those of the curves, and
-        ``color`` of the base shear.
+        Contact modes are those of the snapshots, if ``contact_every`` was given to `Simulation.run`. ``axes``: two of
+        matplotlib to draw into, three with snapshots; those of a new figure unless given. For several runs in the same axes:
+        ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
+        line style for each run. ``title`` stands above the picture; None for none.
         """
-    def plot_modes(self, axes: Any = None) -> Any:
+    def plot_modes(self, axes: Axes | None = None, *, title: str | None = None) -> Axes:
         """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
-        It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``axes``: those of
-        matplotlib to draw into; unless given, axes of a new figure.
+        It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: those of matplotlib to draw into;
+        unless given, axes of a new figure. ``title`` stands above the picture; None for none.
         """
-    def plot_contact_plan(self, time: float | None = None, axes: Any = None) -> Any:
+    def plot_contact_plan(
+        self,
+        time: float | None = None,
+        axes: Axes | None = None,
+        *,
+        title: str | None = None,
+    ) -> Axes:
         """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
 
-        It needs snapshots of the contact on a ground in plan: ``contact_every`` of :meth:`Simulation.run`. ``time`` (s): the
+        It needs snapshots of the contact on a ground in plan: ``contact_every`` of `Simulation.run`. ``time`` (s): the
         snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
-        into; unless given, axes of a new figure.
+        into; unless given, axes of a new figure. ``title`` stands above the picture; the time of the snapshot unless given.
         """
-    def animate(self, scale: float | None = None) -> Any:
-        """Moving picture of the base, its gaps and the pressure under it, element by element; in plan of what
-        :meth:`plot_contact_plan` draws.
+    def animate(
+        self,
+        scale: float | None = None,
+        *,
+        structure: Structure | UserStructure | DeformedShape | None = None,
+        height: float | None = None,
+        frames: int = 200,
+        title: str | None = None,
+    ) -> FuncAnimation:
+        """Moving picture of gaps, slip, contact modes and pressures of the base, and of the structure.
 
-        It needs snapshots of the contact: ``contact_every`` of :meth:`Simulation.run`. ``scale``: factor
-        on gaps, which are then drawn in m; in mm, as they are, unless given. Returns a
-        ``matplotlib.animation.FuncAnimation``, whose ``save`` writes a file.
+        It needs snapshots of the contact, and with a structure of its motion: ``contact_every`` and ``motion_every`` of
+        `Simulation.run`. Gaps and slips are in mm; in plan the picture is that of `plot_contact_plan`. It plays as fast as the
+        run in time, if that is 25 pictures a second at most.
+
+        Args:
+            scale: factor on the displacements of the structure. Unless given, a round one that makes the largest a twentieth
+                to a tenth of the structure's size.
+            structure: the simulation's structure, or its `DeformedShape`; none unless given.
+            height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
+                shape of their own.
+            frames: largest number of pictures; of more snapshots as many are taken at equal distances. 200 by default.
+            title: text above the picture; none unless given.
+
+        Returns:
+            A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` writes a file.
+        """
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        simulation: Simulation | None = None,
+        *,
+        interaction: Interaction | None = None,
+        height: float | None = None,
+        title: str = "Earthquake response",
+    ) -> None:
+        """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
+
+        The page has the ground motion, the model, warnings, peaks and the text of the run; pictures of time series, floor
+        spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of `Simulation.run`), of
+        the contact, the deformed structure and both in motion.
+
+        Args:
+            path: name of the file, such as "run.html".
+            simulation: the simulation of the run, for its motion and model; only what the run knows unless given.
+            interaction: peaks on a fixed base, from `Simulation.interaction`; none unless given.
+            height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
+                shape of their own.
+            title: heading of the page, "Earthquake response" by default.
         """
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the run with its time series to a file at ``path``, for :func:`load`.
+        """Writes the run with its time series to a file at ``path``, for `load`.
 
-        The file is for this version of the package; frames, arrays and :meth:`Run.summary` are for
+        The file is for this version of the package; frames, arrays and `Run.summary` are for
         longer keeping.
         """
     def acceleration_record(self, probe: str) -> Record:
-        """The :class:`Record` of the acceleration probe called ``probe``."""
+        """The `Record` of the acceleration probe called ``probe``."""
     def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
-        """Floor (in-structure) response :class:`Spectrum` of the acceleration probe called ``probe`` at
-        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A :class:`BasematWarning`
+        """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
+        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A `BasematWarning`
         tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
         """
     @property
-    def probes(self) -> dict[str, Any]:
-        """Smallest and largest value of each probe: dict of :class:`Extremes` by its name, in its unit."""
+    def probes(self) -> dict[str, Extremes]:
+        """Smallest and largest value of each probe: dict of `Extremes` by its name, in its unit."""
     @property
     def largest_gap(self) -> Peak:
-        """Largest gap of any element, m: its :class:`Peak`."""
+        """Largest gap of any element, m: its `Peak`."""
     @property
     def largest_pressure(self) -> Peak | None:
-        """Largest pressure of any element, Pa, a :class:`Peak`; None without elements."""
+        """Largest pressure of any element, Pa, a `Peak`; None without elements."""
     @property
     def shear_coefficient(self) -> float | None:
         """Ratio of the largest base shear to the weight; None without weight."""
     @property
     def foundations(self) -> list[Summary]:
-        """Each foundation by itself: list of :class:`Summary`, from left to right."""
+        """Each foundation by itself: list of `Summary`, from left to right."""
     @property
     def serviceability(self) -> list[ServiceCheck]:
-        """A check of each limit of service that the simulation was given: list of :class:`ServiceCheck`."""
+        """A check of each limit of service that the simulation was given: list of `ServiceCheck`."""
     @property
     def is_serviceable(self) -> bool | None:
         """Whether all limits of service were kept; None without limits."""
     @property
-    def envelope(self) -> dict[str, Any]:
+    def envelope(self) -> dict[str, NDArray[np.float64]]:
         """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
         "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
         "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
@@ -1469,12 +1553,12 @@ class Run(Summary):
         """Number of changes of contact mode."""
     @property
     def energy_balance(self) -> EnergyBalance:
-        """The :class:`EnergyBalance` at the end."""
+        """The `EnergyBalance` at the end."""
     @property
     def energy_error(self) -> float:
         """Largest residual of the energy balance, relative to the largest energy; NaN if none is kept."""
     @property
-    def energy_fractions(self) -> dict[str, Any] | None:
+    def energy_fractions(self) -> dict[str, float] | None:
         """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
         is not positive.
         """
@@ -1496,6 +1580,74 @@ class Run(Summary):
         """
 
 @final
+class DeformedShape:
+    """Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
+
+    A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and
+    columns, reduced, damped and grouped structures as those that they are made of. An object with a method
+    ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
+    box of this ``height`` (m) on its base; unless given, such a structure is an error.
+    """
+
+    def __new__(cls, structure: _Structure | DeformedShape, *, height: float | None = None) -> Self: ...
+    @staticmethod
+    def of_points(
+        points: ArrayLike,
+        rows: Sequence[Sequence[_RowLike]],
+        cells: Sequence[Sequence[int]],
+    ) -> DeformedShape:
+        """Shape of ``points`` of your own: array of shape (points, 2) in the plane, x and y, or of shape (points, 3) in space,
+        x, y and z, m; heights are above the ground.
+
+        ``rows``: for each point the rows of its displacements along these axes, two or three. ``cells``: list of the points
+        of each line (2), triangle (3), quadrilateral (4) or polygon, by their numbers.
+        """
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Places at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height in space."""
+    @property
+    def cells(self) -> list[list[int]]:
+        """Outlines: list of the points of each line or polygon, by their numbers."""
+    @property
+    def in_space(self) -> bool:
+        """Whether the points move in three directions."""
+    def displacements(self, displacement: ArrayLike) -> NDArray[np.float64]:
+        """Displacements of the points along the axes of `points`: array of shape (points, 3), m.
+
+        ``displacement``: all n degrees of freedom of the structure, array of shape (n,), m and rad: a row of
+        ``run.motion["displacement"]``, a static displacement or a vibration mode.
+        """
+    def plot(
+        self,
+        displacement: ArrayLike | None = None,
+        *,
+        scale: float | None = None,
+        axes: Axes | None = None,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the structure at rest in grey, and moved by a displacement; returns the axes.
+
+        In space the view is isometric, from the front, the right and above, and near faces hide far ones.
+
+        Args:
+            displacement: all n degrees of freedom, array of shape (n,), m and rad: a row of ``run.motion["displacement"]``,
+                a static displacement or a vibration mode. Unless given, only the structure at rest is drawn.
+            scale: factor on the displacement. Unless given, a round one that makes the largest displacement a twentieth to a
+                tenth of the structure's size; of further states in the same axes that of the first.
+            axes: axes of matplotlib to draw into; unless given, axes of a new figure. For several states in the same axes give
+                each a ``label``.
+            label: name of the state in the key, to which the scale is added; the scale alone unless given.
+            color: colour of the moved structure; blue, then matplotlib's next, unless given.
+            title: text above the picture; none unless given.
+        """
+    def save_paraview_state(self, path: str | os.PathLike[str], displacement: ArrayLike) -> None:
+        """Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``
+        for ParaView, one grid (.vtu): a single state, such as the static one or a vibration mode.
+        """
+
+@final
 class DofCombination:
     """A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 
@@ -1514,12 +1666,12 @@ class DofCombination:
         """All weights as an array of shape (n,) for a number n of degrees of freedom, ``dofs``."""
     @staticmethod
     def of_base(structure: _Structure, place: Sequence[float]) -> list[DofCombination]:
-        """The three :class:`DofCombination` of the displacements along x, along y and up of a point that the base of the
+        """The three `DofCombination` of the displacements along x, along y and up of a point that the base of the
         ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
         """
     def relative_to_base(self, structure: _Structure) -> DofCombination:
         """This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
-        :meth:`of_base`.
+        `of_base`.
         """
     def total_drift(self, structure: _Structure, height: float) -> DofCombination:
         """This displacement to the right, relative to the base of the ``structure``, its rotation included,
@@ -1536,7 +1688,7 @@ class DofCombination:
 @final
 class SectionRows:
     """A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
-    force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For :meth:`Probe.section`.
+    force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For `Probe.section`.
     """
 
     def __new__(
@@ -1555,18 +1707,18 @@ class SectionRows:
         """SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m"."""
     @property
     def displacement(self) -> DofCombination:
-        """The :class:`DofCombination` of displacements."""
+        """The `DofCombination` of displacements."""
     @property
     def velocity(self) -> DofCombination:
-        """The :class:`DofCombination` of velocities."""
+        """The `DofCombination` of velocities."""
     @property
     def acceleration(self) -> DofCombination:
-        """The :class:`DofCombination` of accelerations."""
+        """The `DofCombination` of accelerations."""
 
 @final
 class Checkpoint:
-    """A run between two steps: :meth:`Simulation.checkpoint` makes it, :meth:`Simulation.resume` goes
-    on from it, to the same bits. It pickles. ``data``: the bytes that :meth:`to_bytes` returned.
+    """A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
+    on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
     """
 
     def __new__(cls, data: bytes) -> Self: ...
@@ -1607,7 +1759,7 @@ class SolverOptions:
     """Method by which a simulation steps.
 
     Args:
-        scheme: a :class:`TimeScheme`; the midpoint rule, which conserves energy, unless given.
+        scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
         coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
             time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
             coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
@@ -1640,7 +1792,7 @@ class ResultOptions:
         moment_center: x of the point about which the base moment is taken, m; the middle of the base
             unless given.
         energy_balance: whether energies are booked; True by default. Without them a step takes less
-            time, and :attr:`Run.energy_error` is NaN.
+            time, and `Run.energy_error` is NaN.
         safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
             interface law unless given.
     """
@@ -1655,7 +1807,7 @@ class ResultOptions:
 
 @final
 class ServiceLimits:
-    """Limits of service, which :attr:`Run.serviceability` compares with the run; they change nothing in it.
+    """Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
 
     Args:
         slip: limit of |mean slip|, m; none unless given.
@@ -1679,22 +1831,22 @@ class Simulation:
 
     Args:
         time_step: time step, s.
-        structure: a :class:`Structure`, or any object with the methods of :class:`UserStructure`.
-        ground: an :class:`ElasticGround` or a :class:`SpringGround`.
-        interface: an :class:`InterfaceLaw` or an object with the methods of :class:`UserLaw`; one for
+        structure: a `Structure`, or any object with the methods of `UserStructure`.
+        ground: an `ElasticGround` or a `SpringGround`.
+        interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for
             all contact elements, or a list of one each, from left to right.
-        motion: ground motion, a :class:`FreeField`: a :class:`Record`, a wave, or what
-            :func:`free_field` makes of a function. The ground rests unless given.
-        loads: forces from outside, a list of :class:`Load`; none unless given.
-        probes: quantities to record at every step, a list of :class:`Probe` with names of their own;
+        motion: ground motion, a `FreeField`: a `Record`, a wave, or what
+            `free_field` makes of a function. The ground rests unless given.
+        loads: forces from outside, a list of `Load`; none unless given.
+        probes: quantities to record at every step, a list of `Probe` with names of their own;
             none unless given.
-        initial: weight and motion at the start, :class:`InitialConditions`; weight and rest unless given.
-        solver: time scheme, coordinates and so on, :class:`SolverOptions`; the defaults unless given.
-        results: quantities that a run evaluates, :class:`ResultOptions`; the defaults unless given.
-        service_limits: limits of service, :class:`ServiceLimits`; none unless given.
+        initial: weight and motion at the start, `InitialConditions`; weight and rest unless given.
+        solver: time scheme, coordinates and so on, `SolverOptions`; the defaults unless given.
+        results: quantities that a run evaluates, `ResultOptions`; the defaults unless given.
+        service_limits: limits of service, `ServiceLimits`; none unless given.
         fixed_base: whether the base is held: each foundation keeps its shape and moves with the free field
             under it. Ground and interface are then left out, but for the places of the contact elements.
-            False by default; :meth:`interaction` compares both.
+            False by default; `interaction` compares both.
         progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
             layered ground are computed for the expected steps; none unless given.
     """
@@ -1731,25 +1883,25 @@ class Simulation:
         warn: bool = True,
     ) -> Run:
         """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
-        motion. If that is past, as many as it has, under rest, with a :class:`BasematWarning`:
-        :meth:`reset` goes back to the start.
+        motion. If that is past, as many as it has, under rest, with a `BasematWarning`:
+        `reset` goes back to the start.
 
         ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
         function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
         and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
-        a :class:`BasematWarning` says that the process ignores it. In all three cases the
+        a `BasematWarning` says that the process ignores it. In all three cases the
         simulation stays at the last accepted step.
 
         ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
         default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-        motion every ``motion_every``th (none unless given). They must fit into :func:`memory_limit`: all
+        motion every ``motion_every``th (none unless given). They must fit into `memory_limit`: all
         of them before the first step; with ``observe``, which may end the run, those of the steps made.
 
-        ``warn``: whether every warning in :attr:`Run.warnings` is also a :class:`BasematWarning`; True
+        ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
         by default.
         """
     def step(self) -> State:
-        """Makes one step and returns the new state. Raises :class:`StepError` if the step could not be
+        """Makes one step and returns the new state. Raises `StepError` if the step could not be
         solved; the simulation is then as it was before.
         """
     def steps(self, steps: int | None = None, *, duration: float | None = None) -> Steps:
@@ -1758,7 +1910,7 @@ class Simulation:
         """
     @property
     def state(self) -> State:
-        """The :class:`State` at the end of the last accepted step (at first: the static state)."""
+        """The `State` at the end of the last accepted step (at first: the static state)."""
     @property
     def time_step(self) -> float:
         """Time step, s."""
@@ -1768,8 +1920,17 @@ class Simulation:
         this simulation works on, with its internal variables.
         """
     @property
+    def ground(self) -> Ground:
+        """The ground as it was given."""
+    @property
+    def interface(self) -> Any:
+        """The law of the interface as it was given, or the list of laws."""
+    @property
+    def motion(self) -> FreeField | None:
+        """The ground motion as it was given; None without one."""
+    @property
     def hysteresis(self) -> list[Any]:
-        """The springs of the structure that are written in Python (:class:`UserHysteresis`): list of the
+        """The springs of the structure that are written in Python (`UserHysteresis`): list of the
         copies that this simulation works on, with their internal variables, in the order of storeys or
         springs.
         """
@@ -1793,10 +1954,10 @@ class Simulation:
 
         ``value``: the whole force (N/m; on a rotation N·m/m), the static one included, in place of the load's function;
         None returns to that function. A controller computes it from the last state and sets it before each
-        :meth:`step`. A checkpoint holds it; :meth:`reset` returns to the functions.
+        `step`. A checkpoint holds it; `reset` returns to the functions.
         """
     def interaction(self, duration: float | None = None) -> Interaction:
-        """The :class:`Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
+        """The `Interaction` of the soil with the structure: this scene from its start, run for a ``duration`` (s; that
         of the motion unless given) on its ground and on a fixed base, and the period lengthening and damping of its
         first mode (ASCE 7, chapter 19). This simulation stays where it is.
 
@@ -1807,16 +1968,16 @@ class Simulation:
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
     def checkpoint(self) -> Checkpoint:
-        """Saves what the steps so far have left behind as a :class:`Checkpoint`, for :meth:`resume`."""
+        """Saves what the steps so far have left behind as a `Checkpoint`, for `resume`."""
     def reset(self) -> None:
         """Goes back to the start: what follows has the bits that it had from there.
 
-        Needs what :meth:`checkpoint` needs: a structure of the user's that has ``commit`` also has
+        Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
         ``save`` and ``restore``.
         """
     def resume(self, checkpoint: Checkpoint, changes: Sequence[_Change] | None = None) -> None:
-        """Goes to where ``checkpoint`` (a :class:`Checkpoint`) was made, in a simulation that was built in
-        the same way; raises :class:`CheckpointError` in another one, with what differs: sizes, time step,
+        """Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
+        the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
         elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
 
         Args:
@@ -1826,8 +1987,8 @@ class Simulation:
 
 @final
 class Steps:
-    """An iterator that makes a step whenever it is asked and yields the :class:`State` at its end, as long
-    as ``len()`` of them are left: see :meth:`Simulation.steps`.
+    """An iterator that makes a step whenever it is asked and yields the `State` at its end, as long
+    as ``len()`` of them are left: see `Simulation.steps`.
     """
 
     def __iter__(self) -> Self: ...
@@ -1838,7 +1999,7 @@ class Steps:
 class Load:
     """A force that acts on a structure from outside.
 
-    ``row``: where it acts, a :class:`DofCombination` or what makes one. ``value``: a function of time
+    ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
     (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
     belongs to the static state.
     """
@@ -1893,7 +2054,7 @@ class State:
 
     Displacements are changes against the static state, relative to the free field's translation
     unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
-    It belongs to its simulation and does not pickle: a :class:`Checkpoint` does.
+    It belongs to its simulation and does not pickle: a `Checkpoint` does.
     """
 
     @property
@@ -1916,9 +2077,9 @@ class State:
         """Shear traction on each element: array of shape (elements,), Pa."""
     @property
     def modes(self) -> NDArray[np.uint8]:
-        """Mode of each element: array of shape (elements,) of numbers into :data:`basemat.MODES`."""
+        """Mode of each element: array of shape (elements,) of numbers into `basemat.MODES`."""
     @property
-    def transitions(self) -> list[tuple[int, _Mode, _Mode]]:
+    def transitions(self) -> list[tuple[int, Mode, Mode]]:
         """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
     @property
     def probes(self) -> NDArray[np.float64]:
@@ -1955,13 +2116,13 @@ class State:
         """Rotation of the base as a vector by the right-hand rule, rad."""
     @property
     def foundations(self) -> list[FoundationState]:
-        """Each foundation by itself: list of :class:`FoundationState`, from left to right."""
+        """Each foundation by itself: list of `FoundationState`, from left to right."""
     @property
     def free_field(self) -> list[float]:
         """Mean displacement (to the right, up) of the free field under the base, m."""
     @property
     def energy_balance(self) -> EnergyBalance:
-        """The :class:`EnergyBalance` since the start."""
+        """The `EnergyBalance` since the start."""
     @property
     def trials(self) -> int:
         """Number of linear solves that the search for contact modes needed."""
@@ -2099,10 +2260,10 @@ class Structure:
     def dof_names(self) -> list[str] | None:
         """Names of the degrees of freedom: list of n texts; None without names."""
     def dof(self, name: str) -> DofCombination:
-        """The :class:`DofCombination` of the degree of freedom called ``name``, one of :attr:`dof_names`."""
+        """The `DofCombination` of the degree of freedom called ``name``, one of `dof_names`."""
     def base(self) -> list[list[BaseNode]] | BaseFaces:
-        """Base of the structure: a list for each foundation, of its :class:`BaseNode` from left to right; in plan
-        :class:`BaseFaces`.
+        """Base of the structure: a list for each foundation, of its `BaseNode` from left to right; in plan
+        `BaseFaces`.
         """
     def mass(self) -> NDArray[np.float64]:
         """Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom."""
@@ -2114,7 +2275,7 @@ class Structure:
 @final
 class RigidBlock(Structure):
     """A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
-    the right, displacement up, rotation: "x", "y", "rotation" for :meth:`dof`.
+    the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
 
     ``width`` and ``height``: m. ``density``: kg/m³. ``center``: x of its middle, m; 0 by default.
     ``p_delta``: gravity (m/s²) with which its weight tips it once it leans; none unless given.
@@ -2153,15 +2314,15 @@ class RigidBlock(Structure):
     def base_inertia(self) -> float:
         """Rotary inertia about the middle of the base, kg m²/m."""
     def horizontal_at(self, height: float) -> DofCombination:
-        """The :class:`DofCombination` of the displacement to the right at a ``height`` (m) above the base."""
+        """The `DofCombination` of the displacement to the right at a ``height`` (m) above the base."""
     def vertical_at(self, x: float) -> DofCombination:
-        """The :class:`DofCombination` of the displacement up at ``x`` (m)."""
+        """The `DofCombination` of the displacement up at ``x`` (m)."""
 
 @final
 class RigidBody(Structure):
     """A rigid body in three dimensions, with six degrees of freedom at the middle of its base: displacements along
-    x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for :meth:`dof`. It stands on
-    a ground in plan: :meth:`ElasticGround.under`. :meth:`cuboid`, :meth:`cylinder` and :meth:`from_mass` make one.
+    x (to the right), y (away) and z (up), rotations about these: "x", "y", "z", "rx", "ry", "rz" for `dof`. It stands on
+    a ground in plan: `ElasticGround.under`. `cuboid`, `cylinder` and `from_mass` make one.
     """
 
     @staticmethod
@@ -2188,7 +2349,7 @@ class RigidBody(Structure):
         p_delta: float | None = None,
     ) -> RigidBody:
         """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
-        ``center`` and ``p_delta`` are as in :meth:`cuboid`, if given.
+        ``center`` and ``p_delta`` are as in `cuboid`, if given.
         """
     @property
     def total_mass(self) -> float:
@@ -2206,16 +2367,16 @@ class RigidBody(Structure):
         """Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
         freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
         the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
-        those of :meth:`cuboid`, if given.
+        those of `cuboid`, if given.
         """
     def displacement_at(self, x: float, y: float, z: float) -> list[DofCombination]:
-        """The three :class:`DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
+        """The three `DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
         from the middle of the base (m).
         """
 
 @final
 class Storey:
-    """A storey of a :class:`ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
+    """A storey of a `ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
     of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
     default), ``damping`` by a dashpot between the floors (N s/m; 0 by default).
     """
@@ -2235,13 +2396,13 @@ class ShearBuilding(Structure):
     """Rigid floors on columns that shear, on a rigid base.
 
     Degrees of freedom: displacement to the right, up, and rotation of the base, then the absolute
-    horizontal displacement of every floor from below; for :meth:`dof` "base_x", "base_y", "base_rotation",
+    horizontal displacement of every floor from below; for `dof` "base_x", "base_y", "base_rotation",
     "floor_0", "floor_1" and so on. ``width`` of the base: m. ``base_mass``: kg/m.
-    ``base_inertia``: kg m²/m. ``storeys``: list of :class:`Storey`, the lowest first. ``damping``: ratio
+    ``base_inertia``: kg m²/m. ``storeys``: list of `Storey`, the lowest first. ``damping``: ratio
     in the first mode on a fixed base, by damping proportional to stiffness; none unless given.
     ``center``: x of the middle of the base, m; 0 by default. ``p_delta``: gravity (m/s²) of the P–Δ
-    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (:class:`Hysteresis`, or your own:
-    :class:`UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
+    effect; none unless given. ``laws``: dict ``{storey: law}`` of laws (`Hysteresis`, or your own:
+    `UserHysteresis`) that take the place of the stiffness of storeys, storey 0 the lowest; none
     unless given.
     """
 
@@ -2269,7 +2430,7 @@ class ShearBuilding(Structure):
         laws: Mapping[int, Hysteresis | UserHysteresis] | None = None,
     ) -> ShearBuilding:
         """The ``building`` with its lowest columns on a slab that rests on isolators of this ``law``
-        (:class:`Hysteresis` or :class:`UserHysteresis`); they become storey 0, and the building's storeys count from 1.
+        (`Hysteresis` or `UserHysteresis`); they become storey 0, and the building's storeys count from 1.
 
         ``height`` of the bearings: m. ``slab_mass``: kg/m. ``slab_inertia``: kg m²/m; 0 by default.
         ``damping`` beside the bearings: N s/m; 0 by default. ``laws``: of further storeys, as for the
@@ -2287,21 +2448,21 @@ class ShearBuilding(Structure):
     def floor(self, storey: int) -> int:
         """Number of the degree of freedom of the floor above a ``storey`` (0: the lowest)."""
     def drift(self, storey: int) -> DofCombination:
-        """The :class:`DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
+        """The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
         displacement less what the base's rotation makes of it.
         """
     def total_drift(self, storey: int) -> DofCombination:
-        """The :class:`DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
+        """The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
         less the motion of the base, its rotation included, m.
         """
     def shear(self, storey: int) -> SectionRows:
-        """The :class:`SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
+        """The `SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
         lowest) on what is below; of a storey that follows a law, from the inertia above.
         """
 
 @final
 class PlanStorey:
-    """A storey of a :class:`StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
+    """A storey of a `StoreyBuilding`: ``height`` of its columns (m), ``mass`` of the floor above (kg), a rectangle with the
     ``sides`` along x and y (m), and its ``stiffness``: along x and y (N/m) and against twist about its centre of stiffness (N m).
 
     ``inertia``: of the floor about x, y and z through its centre of mass (kg m²); unless given, of the rectangle.
@@ -2324,15 +2485,15 @@ class PlanStorey:
 
 @final
 class StoreyBuilding(Structure):
-    """Rigid floors on flexible columns and walls, on a rigid ``mat`` (:class:`RigidBody`) in plan: they move along x and y
+    """Rigid floors on flexible columns and walls, on a rigid ``mat`` (`RigidBody`) in plan: they move along x and y
     and twist, and tilt with the mat.
 
     Degrees of freedom: the six of the mat, then the absolute displacements along x and y and the rotation about z of every
-    floor from below, at its point above the middle of the mat; for :meth:`dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
-    "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of :class:`PlanStorey`, the lowest first. ``p_delta``:
+    floor from below, at its point above the middle of the mat; for `dof` "x", "y", "z", "rx", "ry", "rz", "floor_0_x",
+    "floor_0_y", "floor_0_rz", "floor_1_x" and so on. ``storeys``: list of `PlanStorey`, the lowest first. ``p_delta``:
     gravity (m/s²) of the P–Δ effect; none unless given. ``laws``: dict ``{(storey, direction): law}`` of laws
-    (:class:`Hysteresis` or :class:`UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
-    given. In the direction "xy" a :class:`Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
+    (`Hysteresis` or `UserHysteresis`) that take the place of a stiffness, direction "x", "y" or "twist"; none unless
+    given. In the direction "xy" a `Hysteresis` acts along x and y together (``BoucWen`` with an exponent of 2): its force
     has the same limit in every direction. Two laws along x and y act independently, and carry √2 times their limit on the
     diagonal.
     """
@@ -2349,23 +2510,23 @@ class StoreyBuilding(Structure):
     def total_mass(self) -> float:
         """Mass of mat and floors, kg."""
     def floor(self, storey: int, place: Sequence[float] = (0.0, 0.0)) -> list[DofCombination]:
-        """The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+        """The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
         (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
         """
     def drift(self, storey: int, place: Sequence[float] | None = None) -> list[DofCombination]:
-        """The three :class:`DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
+        """The three `DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
         at a ``place`` (x and y from the middle of the mat, m); at its centre of stiffness unless given.
         """
     def total_drift(self, storey: int, place: Sequence[float] = (0.0, 0.0)) -> list[DofCombination]:
-        """The three :class:`DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
-        (0: the lowest) less the rigid motion of the mat, at a ``place`` as for :meth:`floor`.
+        """The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
+        (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
         """
     def shear(self, storey: int) -> list[SectionRows]:
-        """The three :class:`SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
+        """The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
         what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
         """
     def section(self, storey: int, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
-        """The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+        """The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
         and torque about z (N·m) of the floors above on what is below the foot of a ``storey`` (0: the lowest), from their
         inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
         """
@@ -2406,7 +2567,7 @@ class ReducedModel(Structure):
     def frequencies(self) -> NDArray[np.float64]:
         """Frequencies of the modes: array of shape (modes,), Hz."""
     def row(self, row: _RowLike) -> DofCombination:
-        """A ``row`` of the full structure as a :class:`DofCombination` of the reduced one, for a probe or a
+        """A ``row`` of the full structure as a `DofCombination` of the reduced one, for a probe or a
         load.
         """
     def full(self, reduced: ArrayLike) -> NDArray[np.float64]:
@@ -2418,12 +2579,12 @@ class ReducedModel(Structure):
 class StructureGroup(Structure):
     """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
     ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
-    each other, along y where they are themselves (``center`` of :meth:`RigidBody.cuboid`).
+    each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
     """
 
     def __new__(cls, members: Sequence[tuple[_Structure, float]]) -> Self: ...
     def row(self, member: int, row: _RowLike) -> DofCombination:
-        """A ``row`` of the structure ``member`` (0: the first) as a :class:`DofCombination` of the group."""
+        """A ``row`` of the structure ``member`` (0: the first) as a `DofCombination` of the group."""
 
 @final
 class WithModalDamping(Structure):
@@ -2441,7 +2602,7 @@ class WithModalDamping(Structure):
 
 @final
 class BaseNode:
-    """A node of the base: its coordinate ``x`` (m), and the rows (:class:`DofCombination`, or what makes
+    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
     one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
     (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``.
     """
@@ -2483,17 +2644,17 @@ class BaseNode:
         """Coordinate away from the reader, m; zero in the plane."""
     @property
     def horizontal(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement to the right."""
+        """The `DofCombination` of its displacement to the right."""
     @property
     def across(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement along y; empty in the plane."""
+        """The `DofCombination` of its displacement along y; empty in the plane."""
     @property
     def vertical(self) -> DofCombination:
-        """The :class:`DofCombination` of its displacement up."""
+        """The `DofCombination` of its displacement up."""
 
 @final
 class BaseFaces:
-    """The base of a structure in plan: ``faces``, a list of lists of :class:`BaseNode`, over which it iterates.
+    """The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
 
     A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
     face, its outline, which may be given without a list. Faces that touch are one foundation.
@@ -2507,10 +2668,10 @@ class BaseFaces:
 class FemModel(Structure):
     """A finite-element structure.
 
-    ``mesh``: a :class:`Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
+    ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
     a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
     corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
-    :class:`RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
+    `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
     unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
     y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
@@ -2532,7 +2693,7 @@ class FemModel(Structure):
         active_stiffness: bool = False,
     ) -> Self: ...
     def row(self, node: int, direction: _Direction) -> DofCombination:
-        """The :class:`DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x"."""
+        """The `DofCombination` of the motion of a ``node`` in a ``direction`` of the mesh, such as "x"."""
     def dof_at(self, node: int, direction: _Direction) -> int | None:
         """Number of the degree of freedom of a ``node`` in a ``direction`` of the mesh, such as "x"; None if it has none of
         its own.
@@ -2550,12 +2711,12 @@ class FemModel(Structure):
         and z, m; the origin unless given): array of shape (n,), m or rad.
         """
     def section(self, height: float, reference: float = 0.0) -> tuple[SectionRows, SectionRows, SectionRows]:
-        """The :class:`SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
+        """The `SectionRows` of shear (N/m), compression (N/m) and moment (N·m/m) that the part above
         ``height`` (m) exerts on the part below, the moment about (``reference``, ``height``), m;
         ``reference`` is 0 by default.
         """
     def section_in_space(self, height: float, reference: Sequence[float] = (0.0, 0.0)) -> list[SectionRows]:
-        """The six :class:`SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
+        """The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
         and torque about z (N·m) that the part above ``height`` (m) exerts on the part below in space.
 
         Moments are about ``reference`` (x and y, m; the origin by default) at this height, by the right-hand rule. No
@@ -2563,23 +2724,23 @@ class FemModel(Structure):
         acceleration of gravity to the vertical accelerations.
         """
     def pressure_row(self, nodes: Sequence[int]) -> DofCombination:
-        """The :class:`DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
-        row of a :class:`Load`, whose forces are then pressures (Pa).
+        """The `DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
+        row of a `Load`, whose forces are then pressures (Pa).
         """
     def resultant_row(self, nodes: Sequence[int], direction: _Direction) -> DofCombination:
-        """The :class:`DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
-        of ``nodes`` (list of numbers): as the row of a :class:`Load` in N/m, in space in N.
+        """The `DofCombination` of a unit force in a ``direction`` ("x" or "y", in space also "z"), spread evenly along a line
+        of ``nodes`` (list of numbers): as the row of a `Load` in N/m, in space in N.
         """
     def buckling_factor(self) -> float:
         """Factor on the axial forces of its static state at which it buckles."""
     def shell_resultants(self, element: int, displacement: ArrayLike) -> list[ShellResultants]:
-        """The :class:`ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
+        """The `ShellResultants` of the shell with the number ``element`` at its nodes, in its own axes, a list: for all n
         degrees of freedom, ``displacement`` (array of shape (n,), m and rad).
 
         The ``displacement`` of a state is the change from the ``static_displacement`` of the simulation.
         """
     def shell_rows(self, elements: Sequence[int], axes: _ShellAxes) -> list[ShellRows]:
-        """The :class:`ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
+        """The `ShellRows` at every node of the shells with the numbers ``elements`` (a list), in ascending order of
         nodes: means over these shells. Give the shells of one mat or one wall.
 
         ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
@@ -2588,8 +2749,8 @@ class FemModel(Structure):
 
 @final
 class ShellResultants:
-    """Forces and moments of a shell at a point, per metre of width, in its :attr:`axes`: from
-    :meth:`FemModel.shell_resultants` and :meth:`ShellRows.value`.
+    """Forces and moments of a shell at a point, per metre of width, in its `axes`: from
+    `FemModel.shell_resultants` and `ShellRows.value`.
     """
 
     @property
@@ -2614,10 +2775,10 @@ class ShellResultants:
 
 @final
 class ShellRows:
-    """Forces and moments of shells per metre at a node, as rows of displacements for :meth:`Probe.section`: from
-    :meth:`FemModel.shell_rows`.
+    """Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
+    `FemModel.shell_rows`.
 
-    A probe records changes from the static state, whose part is the :meth:`value` of the ``static_displacement`` of the
+    A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
     simulation. The rows contain the elastic forces, without damping.
     """
 
@@ -2629,15 +2790,15 @@ class ShellRows:
         """Unit vectors e1, e2 and n as rows, means of the elements' axes: array of shape (3, 3), numbers without unit."""
     @property
     def membrane(self) -> list[SectionRows]:
-        """Three :class:`SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive."""
+        """Three `SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive."""
     @property
     def moments(self) -> list[SectionRows]:
-        """Three :class:`SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n."""
+        """Three `SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n."""
     @property
     def shears(self) -> list[SectionRows]:
-        """Two :class:`SectionRows` of the shear forces q_1 and q_2, N/m."""
+        """Two `SectionRows` of the shear forces q_1 and q_2, N/m."""
     def value(self, displacement: ArrayLike) -> ShellResultants:
-        """The :class:`ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
+        """The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
 
 @final
 class GmshMesh:
@@ -2657,14 +2818,14 @@ class GmshMesh:
         formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
     ) -> Mesh:
-        """The quadrilaterals as a :class:`Mesh`, each with the material of its group: ``materials`` is a dict
-        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in :class:`Layer`.
+        """The quadrilaterals as a `Mesh`, each with the material of its group: ``materials`` is a dict
+        ``{"wall": material}``; ``formulation`` and ``hourglass_percent`` are as in `Layer`.
         """
     def line(self, name: str) -> list[int]:
         """Numbers of the nodes of the group ``name`` of lines in one piece: list, from left to right."""
     def foundations(self, name: str) -> list[list[int]]:
         """Numbers of the nodes of the group ``name`` of lines, a list for each piece: for the ``contact`` of a
-        :class:`FemModel`.
+        `FemModel`.
         """
 
 @final
@@ -2676,21 +2837,21 @@ class GmshSpaceMesh:
     def __new__(cls, path: str | os.PathLike[str]) -> Self: ...
     @property
     def nodes(self) -> NDArray[np.float64]:
-        """Places of the nodes: array of shape (nodes, 3), m. A :meth:`mesh` has the same nodes with the same numbers."""
+        """Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers."""
     def groups(self, dimension: int) -> list[str]:
         """List of the names of the groups of a ``dimension``: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes."""
     def cells(self, dimension: int, name: str) -> list[list[int]]:
-        """Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for :meth:`groups`): a list of
-        lists. Surfaces are faces for the ``contact`` of a :class:`FemModel`, points the places of masses, loads and probes.
+        """Numbers of the nodes of each element of the group ``name`` of a ``dimension`` (as for `groups`): a list of
+        lists. Surfaces are faces for the ``contact`` of a `FemModel`, points the places of masses, loads and probes.
         """
     def mesh(self, parts: Mapping[str, _GmshPart]) -> Mesh:
-        """The elements of the groups as a :class:`Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
-        :meth:`Mesh.from_arrays`.
+        """The elements of the groups as a `Mesh`: ``parts`` is a dict ``{"wall": part}`` with the parts of
+        `Mesh.from_arrays`.
 
-        The part of volumes is a :class:`Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
-        ``(material, section, orientation)`` as in :meth:`Mesh.add_space_beams`; None leaves a group out. Lines and
+        The part of volumes is a `Material`; of surfaces it is ``(material, thickness)``, in m; of lines it is
+        ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
         surfaces that are sides of other elements need no part. Triangles match the sides that they share with
-        quadrilaterals. :attr:`Mesh.elements` leads from the nodes of :meth:`cells` to the numbers of elements.
+        quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
         """
 
 @disjoint_base
@@ -2780,11 +2941,11 @@ class MatrixModel(Structure):
 
     ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
     (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-    :class:`BaseNode` from left to right; a list of such lists for several foundations; :class:`BaseFaces` for a ground
+    `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
     in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: :class:`RayleighDamping` instead, none unless given. ``dof_names``:
-    list of n names, each another one, for :meth:`dof`, frames and errors; none unless given.
+    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
+    list of n names, each another one, for `dof`, frames and errors; none unless given.
     """
 
     def __new__(
@@ -2811,7 +2972,7 @@ class Material:
 @final
 class Layer:
     """Horizontal layer of a block of quadrilaterals: ``height`` (m), number of ``rows`` of elements,
-    ``material`` (:class:`Material`).
+    ``material`` (`Material`).
 
     ``formulation`` of four-node quadrilaterals: "incompatible_modes" (the default: right in bending),
     "full" (2 × 2 points), "one_point" (without stiffness against hourglass modes) or "hourglass" (one
@@ -2849,29 +3010,29 @@ class BeamSection:
 
 @final
 class Grid:
-    """Nodes of a surface in rows, and the cells between them: from :meth:`Mesh.add_grid` and :meth:`Mesh.revolve`."""
+    """Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`."""
 
     def row(self, index: int) -> list[int]:
         """Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node."""
     def __len__(self) -> int: ...
     @property
     def cells(self) -> list[list[int]]:
-        """Corner nodes of the cells between neighbouring rows, for :meth:`Mesh.add_shells`: a list of lists of four numbers,
+        """Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
         of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
-        upwards; of a wall that :meth:`Mesh.revolve` made, from outside.
+        upwards; of a wall that `Mesh.revolve` made, from outside.
         """
     @property
     def cell_rows(self) -> NDArray[np.uint64]:
-        """Number of the lower row of each of :attr:`cells`: array of shape (cells,)."""
+        """Number of the lower row of each of `cells`: array of shape (cells,)."""
     def extrude(self, mesh: Mesh, heights: ArrayLike) -> list[list[int]]:
         """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
-        above; returns the list of the nodes of the bricks between them, for :meth:`Mesh.add_bricks`.
+        above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
         """
 
 @final
 class Mesh:
     """Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
-    :meth:`in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
+    `in_space` makes a mesh in space. Its methods add elements: all, or none if one of them is an error; they return the
     elements' numbers.
 
     In the plane x points to the right and y up, directions are "x", "y" and "rotation", and all quantities are per metre
@@ -2892,29 +3053,29 @@ class Mesh:
         ``parts``: list with an entry for each block; None leaves the block out.
 
         In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
-        of one per cell; of "hexahedron" it is a :class:`Material`; of "line" it is ``(material, section, orientation)`` as in
-        :meth:`Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a :class:`Material`. Triangles match the
+        of one per cell; of "hexahedron" it is a `Material`; of "line" it is ``(material, section, orientation)`` as in
+        `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`. Triangles match the
         sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
         added by the methods of the mesh.
         """
     @staticmethod
     def layered_block(left: float, right: float, columns: int, layers: Sequence[Layer]) -> Mesh:
         """Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
-        :class:`Layer` from y = 0 upwards.
+        `Layer` from y = 0 upwards.
         """
     @staticmethod
     def graded_block(grid: ArrayLike, layers: Sequence[Layer]) -> Mesh:
         """Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
-        ``layers`` is a list of :class:`Layer` from y = 0 upwards.
+        ``layers`` is a list of `Layer` from y = 0 upwards.
         """
     def add_node(self, x: float, y: float, z: float = 0.0) -> int:
         """Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default."""
     def add_nodes(self, points: ArrayLike) -> list[int]:
         """Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers."""
     def add_grid(self, points: ArrayLike) -> Grid:
-        """Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its :class:`Grid`."""
+        """Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`."""
     def revolve(self, axis: Sequence[float], meridian: ArrayLike, sectors: int) -> Grid:
-        """Adds the nodes of a surface of revolution; returns its :class:`Grid`.
+        """Adds the nodes of a surface of revolution; returns its `Grid`.
 
         ``axis``: x and y (m) of the vertical axis. ``meridian``: radius and height (m) of each row of nodes, array of shape
         (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
@@ -2927,14 +3088,14 @@ class Mesh:
         thickness: ArrayLike,
     ) -> list[int]:
         """Adds shells of three or four ``nodes``, listed around each: array of shape (shells, 3) or (shells, 4), or a list of
-        lists of 3 or 4 numbers. ``material``: :class:`Material`, or a list of one per shell; ``thickness`` (m): one number
+        lists of 3 or 4 numbers. ``material``: `Material`, or a list of one per shell; ``thickness`` (m): one number
         or an array of one per shell.
 
         The nodes lie in the middle of the thickness. Triangles match the sides that they share with quadrilaterals of the
         same call, so that a uniform stress is exact. Quadrilaterals are better for curved shells.
         """
     def add_bricks(self, nodes: ArrayLike, material: Material) -> list[int]:
-        """Adds bricks of a ``material`` (:class:`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
+        """Adds bricks of a ``material`` (`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
         counter-clockwise seen from above, then the nodes above these.
         """
     def add_space_beams(
@@ -2949,8 +3110,8 @@ class Mesh:
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
     ) -> list[int]:
-        """Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (:class:`Material`) and a
-        ``section`` (:class:`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
+        """Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a
+        ``section`` (`BeamSection`), whose y axis is the part of ``orientation`` across the beam (x, y and z of a
         vector, or an array of shape (beams, 3)).
 
         ``offsets``: rigid arms from the first node to the first end and from the second node to the second end (array of
@@ -3020,7 +3181,7 @@ class Mesh:
     ) -> list[int]:
         """Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
         (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
-        those of :class:`Layer`, are for four nodes.
+        those of `Layer`, are for four nodes.
         """
     @property
     def nodes(self) -> NDArray[np.float64]:
@@ -3028,6 +3189,27 @@ class Mesh:
     @property
     def elements(self) -> list[list[int]]:
         """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
+    def plot_shells(
+        self,
+        elements: Sequence[int],
+        values: ArrayLike,
+        *,
+        quantity: str = "",
+        axes: Axes | None = None,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws one value for each shell of a mat, seen from above, such as a bending moment; returns the axes.
+
+        Colours are in classes on both sides of zero. The mean of a moment over the corners of a shell comes from
+        `FemModel.shell_resultants`.
+
+        Args:
+            elements: numbers of the shells, which lie more or less flat.
+            values: array of shape (elements,), in the unit of the quantity.
+            quantity: name of the values with their unit for the key, such as "m_x, kN·m/m"; empty by default.
+            axes: axes of matplotlib to draw into; unless given, axes of a new figure.
+            title: text above the picture; none unless given.
+        """
     def node_at(self, x: float, y: float, z: float = 0.0) -> int:
         """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
         ``z`` is 0 by default.
@@ -3040,8 +3222,8 @@ class Mesh:
 @final
 class WithSprings(Structure):
     """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-    freedom, which is the spring's deformation (m), and a :class:`Hysteresis` or :class:`UserHysteresis`.
-    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a :class:`Hysteresis`
+    freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
+    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
     (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
     along x and y act independently, and carry √2 times their limit on the diagonal.
     """
@@ -3143,9 +3325,9 @@ class Tolerance:
 
 @final
 class PreviousContact(ContactState):
-    """An element at the start of a step: its :class:`ContactState`, and the rest of its past.
+    """An element at the start of a step: its `ContactState`, and the rest of its past.
 
-    A law can be tried without a simulation on one that is made of a ``state`` (:class:`ContactState`),
+    A law can be tried without a simulation on one that is made of a ``state`` (`ContactState`),
     its ``mode``, the ``time_step`` (s), the ``slip_rate`` (m/s; 0 by default) and the law's
     ``state_variables`` (array of shape (m,); none unless given).
     """
@@ -3153,15 +3335,15 @@ class PreviousContact(ContactState):
     def __new__(
         cls,
         state: ContactState,
-        mode: _Mode,
+        mode: Mode,
         time_step: float,
         *,
         slip_rate: float = 0.0,
         state_variables: ArrayLike | None = None,
     ) -> Self: ...
     @property
-    def mode(self) -> _Mode:
-        """Mode of the step before, as in :data:`basemat.MODES`."""
+    def mode(self) -> Mode:
+        """Mode of the step before, as in `basemat.MODES`."""
     @property
     def has_opened(self) -> bool:
         """Whether the element has been open."""
@@ -3180,8 +3362,8 @@ class PreviousContact(ContactState):
 
 @final
 class Limits:
-    """Limits of an element's tractions on a ground in plan, in the step after a :class:`PreviousContact`: what
-    :meth:`UserPlanLaw.limits` returns.
+    """Limits of an element's tractions on a ground in plan, in the step after a `PreviousContact`: what
+    `UserPlanLaw.limits` returns.
 
     Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
@@ -3236,12 +3418,12 @@ def refine(
     ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
     elements, and twice the elements with half the step.
 
-    A dict of numbers by names, such as several peaks, makes :class:`Refinements`: each of the numbers is
+    A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
     extrapolated by itself, so that units may differ.
 
     An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
     settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-    and may change between the settings; ``stages`` of :class:`ElasticGround` keeps it.
+    and may change between the settings; ``stages`` of `ElasticGround` keeps it.
     """
 @overload
 def refine(elements: int, time_step: float, scene: Callable[[int, float], float | ArrayLike]) -> Refinement:
@@ -3252,12 +3434,12 @@ def refine(elements: int, time_step: float, scene: Callable[[int, float], float 
     ``elements`` and ``time_step`` (s), half and a quarter of the step, two and four times the
     elements, and twice the elements with half the step.
 
-    A dict of numbers by names, such as several peaks, makes :class:`Refinements`: each of the numbers is
+    A dict of numbers by names, such as several peaks, makes `Refinements`: each of the numbers is
     extrapolated by itself, so that units may differ.
 
     An estimate that counts as regular may still be too low where the base slides or opens: 2.4 times for one of six
     settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
-    and may change between the settings; ``stages`` of :class:`ElasticGround` keeps it.
+    and may change between the settings; ``stages`` of `ElasticGround` keeps it.
     """
 def sensitivity(
     elements: int,
@@ -3273,7 +3455,7 @@ def sensitivity(
     further runs.
     """
 def el_centro_1940() -> Record:
-    """The :class:`Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
+    """The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
 def free_field(
     *,
     displacement: Callable[[float, float], float | Sequence[float]] | None = None,
@@ -3289,7 +3471,7 @@ def free_field(
 
     ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
     sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
-    a :class:`Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
+    a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
     velocity stays what it is by then.
 
     ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
@@ -3303,11 +3485,11 @@ def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     (count,).
     """
 def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
-    """Motion of a ``horizontal`` :class:`Record` (to the right), of a ``vertical`` one (up), or of both, the
+    """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
     same everywhere at once; the one that is None rests.
     """
 def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
-    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a :class:`Record`), the same everywhere at
+    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
     once, for a ground in plan; what is None rests.
     """
 def travelling_wave(
@@ -3317,7 +3499,7 @@ def travelling_wave(
     *,
     azimuth: float = 0.0,
 ) -> FreeField:
-    """A ``motion`` (:class:`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
+    """A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
     negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
     from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
     """
@@ -3327,7 +3509,7 @@ def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = Fa
     """
 def memory_limit() -> int:
     """Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
-    4 GiB unless :func:`set_memory_limit` was called.
+    4 GiB unless `set_memory_limit` was called.
     """
 def set_memory_limit(bytes: int) -> None:
     """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.

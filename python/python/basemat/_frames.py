@@ -12,6 +12,7 @@ from ._errors import InputError
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
+    from pandas import DataFrame
 
 
 def pandas() -> Any:
@@ -37,7 +38,7 @@ _UNITS = {
 _UNIT = {**_ELEMENT_UNITS, **{name: unit for unit, names in _UNITS.items() for name in names.split()}}
 
 
-def _with_units(frame: Any, units: dict[str, str], run: Run | None = None) -> Any:
+def _with_units(frame: DataFrame, units: dict[str, str], run: Run | None = None) -> DataFrame:
     """The frame, with the units of its columns and its index in ``attrs``, and with the ground motion of a run."""
     names = [name for name in (frame.index.name, *frame.columns) if name is not None]
     frame.attrs["units"] = {name: units.get(name, "") for name in names}
@@ -46,7 +47,7 @@ def _with_units(frame: Any, units: dict[str, str], run: Run | None = None) -> An
     return frame
 
 
-def to_frame(self: Run) -> Any:
+def to_frame(self: Run) -> DataFrame:
     """All time series as a pandas frame, indexed by the time (s).
 
     Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
@@ -55,7 +56,7 @@ def to_frame(self: Run) -> Any:
     return _with_units(pandas().DataFrame(self.series).set_index("time"), self.units, self)
 
 
-def contact_frame(self: Run) -> Any:
+def contact_frame(self: Run) -> DataFrame:
     """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
     Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
@@ -73,7 +74,7 @@ def contact_frame(self: Run) -> Any:
     return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT, self)
 
 
-def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> Any:
+def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
     """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
 
     ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
@@ -88,13 +89,13 @@ def motion_frame(self: Run, quantity: Literal["displacement", "velocity"] = "dis
     return _with_units(frame, _UNIT, self)
 
 
-def envelope_frame(self: Run) -> Any:
+def envelope_frame(self: Run) -> DataFrame:
     """`Run.envelope` as a pandas frame: a row per element."""
     frame = pandas().DataFrame(self.envelope)
     return _with_units(frame.rename_axis("element"), _UNIT, self)
 
 
-def foundation_frame(self: Run) -> Any:
+def foundation_frame(self: Run) -> DataFrame:
     """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
     Columns are ends (m), the static normal force, residual slip (m), and those of `Run.series`: of a factor
@@ -112,7 +113,7 @@ def foundation_frame(self: Run) -> Any:
     return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)
 
 
-def energy_frame(self: Run) -> Any:
+def energy_frame(self: Run) -> DataFrame:
     """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
     frame = pandas().DataFrame(self.energy_balances).set_index("time")
     return _with_units(frame, self.units, self)
@@ -124,7 +125,7 @@ def floor_spectra(
     damping: float = 0.05,
     *,
     probes: Sequence[str] | None = None,
-) -> Any:
+) -> DataFrame:
     """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
 
     Args:
@@ -140,25 +141,25 @@ def floor_spectra(
     return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")}, self)
 
 
-def _of(own: Any, index: str, columns: str) -> Any:
+def _of(own: Any, index: str, columns: str) -> DataFrame:
     """A frame of arrays of an object, the first of which is its index."""
     values = {name: getattr(own, name) for name in columns.split()}
     frame = pandas().DataFrame(values, index=pandas().Index(getattr(own, index), name=index))
     return _with_units(frame, _UNIT)
 
 
-def equivalent_linear_frame(self: EquivalentLinear) -> Any:
+def equivalent_linear_frame(self: EquivalentLinear) -> DataFrame:
     """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
     frame = _of(self, "depth", "shear_modulus modulus_ratio damping largest_strain effective_strain")
     frame["peak_acceleration"] = self.peak_acceleration[: len(self.depth)]
     return _with_units(frame, _UNIT)
 
 
-def spectrum_frame(self: Spectrum) -> Any:
+def spectrum_frame(self: Spectrum) -> DataFrame:
     """The spectrum as a pandas frame, indexed by the period (s)."""
     return _of(self, "period", "displacement pseudo_velocity pseudo_acceleration acceleration")
 
 
-def impedance_frame(self: Impedances) -> Any:
+def impedance_frame(self: Impedances) -> DataFrame:
     """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
     return _of(self, "frequency", "horizontal vertical rocking coupling")

@@ -16,7 +16,7 @@ Up = Literal["z", "y"]
 _FREE = ": it must be free, as the ground holds the structure up"
 
 #: Axes to the right, away and up, by number and sign, of a model with that axis up.
-_AXES: dict[str, tuple[tuple[int, float], ...]] = {
+AXES: dict[str, tuple[tuple[int, float], ...]] = {
     "z": ((0, 1.0), (1, 1.0), (2, 1.0)),
     "y": ((0, 1.0), (2, -1.0), (1, 1.0)),
 }
@@ -54,11 +54,11 @@ def faces_of(
     up: str,
 ) -> BaseFaces:
     """Faces of the base in space: outlines of rigid mats, or faces between nodes."""
-    if up not in _AXES:
+    if up not in AXES:
         raise InputError(f"up is '{up}', but must be 'z' or 'y'")
     if below is not None and not (np.isfinite(below) and below >= 0.0):
         raise InputError(f"below is {below} m, but must be zero or more")
-    base = _Base(rows, _AXES[up])
+    base = _Base(rows, AXES[up])
     if faces is not None:
         if base_nodes is not None or outline is not None:
             raise InputError("the base is given twice: give faces, or base_nodes with an outline")

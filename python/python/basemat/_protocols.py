@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-__all__ = ["UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
+__all__ = ["Mode", "UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
 
 if TYPE_CHECKING:
     from ._core import BaseFaces, BaseNode, Condition, ContactState, Limits, PreviousContact, Tolerance
+
+Mode = Literal[
+    "stick", "slip_left", "slip_right", "open", "yield", "yield_left", "yield_right", "slip", "yield_slip"
+]
+"""A contact mode, one of `MODES`: the type of modes in laws of your own."""
 
 
 class UserStructure(Protocol):
@@ -55,11 +60,11 @@ class UserLaw(Protocol):
     def modes(self) -> Sequence[str]:
         """The modes that it uses, of `basemat.MODES`; the first is the mode of an element at rest."""
 
-    def conditions(self, mode: str, start: PreviousContact) -> Sequence[Condition]:
+    def conditions(self, mode: Mode, start: PreviousContact) -> Sequence[Condition]:
         """The two conditions that ``mode`` imposes on the end of the step."""
 
     def next_mode(
-        self, mode: str, start: PreviousContact, trial: ContactState, tolerance: Tolerance
+        self, mode: Mode, start: PreviousContact, trial: ContactState, tolerance: Tolerance
     ) -> str:
         """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""
 

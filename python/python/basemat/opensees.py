@@ -12,11 +12,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from . import BaseFaces, BasematWarning, BaseNode, DofCombination, InputError, MatrixModel
+from . import BaseFaces, BasematWarning, BaseNode, DeformedShape, DofCombination, InputError, MatrixModel
 from ._opensees_base import Up, faces_of, line_of, masses, moves
 from ._opensees_linear import Elements
 from ._opensees_matrices import largest_entries, matrices
 from ._opensees_rows import Rows
+from ._opensees_shape import base_nodes_of, shape_of
 from ._opensees_ties import Ties
 
 _Direction = Literal["x", "y", "z", "rx", "ry", "rz", "rotation"]
@@ -32,8 +33,10 @@ class OpenSeesModel:
     (``scipy.sparse``) where SciPy is installed.
     """
 
-    def __init__(self, model: MatrixModel, rows: Rows, sparse: tuple[Any, Any, Any] | None) -> None:
-        self._rows = rows
+    def __init__(
+        self, model: MatrixModel, rows: Rows, shape: DeformedShape, sparse: tuple[Any, Any, Any] | None
+    ) -> None:
+        self._rows, self._shape = rows, shape
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
@@ -51,6 +54,10 @@ class OpenSeesModel:
         "ry" and "rz". The row of a tied node is the sum of the degrees of freedom that it follows.
         """
         return self._rows.row(node, direction)
+
+    def deformed_shape(self) -> DeformedShape:
+        """Nodes and elements as a `DeformedShape`, for pictures and for ParaView; heights are above the base's nodes."""
+        return self._shape
 
     @property
     def nodes(self) -> list[int]:
@@ -172,7 +179,8 @@ def structure(
     if abs(damping).max() > 1e-12 * abs(stiffness).max():
         options["damping"] = kept[2]
     model = MatrixModel(kept[0], kept[1], base, **options)
-    return OpenSeesModel(model, rows, None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2]))
+    shape = shape_of(ops, rows, base_nodes_of(ops, base_nodes, faces), up)
+    return OpenSeesModel(model, rows, shape, None if isinstance(kept[0], np.ndarray) else (kept[0], kept[1], kept[2]))
 
 
 def _directions(ops: Any) -> tuple[str, ...]:

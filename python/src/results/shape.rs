@@ -21,7 +21,7 @@ use crate::structure::{
 /// columns, reduced, damped and grouped structures as those that they are made of. An object with a method
 /// ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
 /// box of this ``height`` (m) on its base; unless given, such a structure is an error.
-#[pyclass(name = "DeformedShape", module = "basemat", frozen)]
+#[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
 pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
 
 /// Shape of a structure, of one without a form of its own a box of this `height`.

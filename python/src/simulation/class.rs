@@ -114,6 +114,24 @@ impl PySimulation {
         &self.structure
     }
 
+    /// The ground as it was given.
+    #[getter]
+    fn ground(&self) -> &Py<PyGround> {
+        &self.given.ground
+    }
+
+    /// The law of the interface as it was given, or the list of laws.
+    #[getter]
+    fn interface(&self) -> &Py<PyAny> {
+        &self.given.interface
+    }
+
+    /// The ground motion as it was given; None without one.
+    #[getter]
+    fn motion(&self) -> Option<&Py<PyAny>> {
+        self.given.motion.as_ref()
+    }
+
     /// The springs of the structure that are written in Python (`UserHysteresis`): list of the
     /// copies that this simulation works on, with their internal variables, in the order of storeys or
     /// springs.

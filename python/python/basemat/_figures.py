@@ -1,0 +1,90 @@
+"""Axes, keys and colours that all pictures share."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from ._errors import InputError
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+COLORS = ("#d9d9d9", "#fdae6b", "#e6550d", "#3182bd", "#74c476", "#31a354", "#006d2c", "#e6550d", "#006d2c")
+"""Of the modes, in their order."""
+OPEN = "#164878"
+"""Of open elements in plan."""
+SOIL, SURFACE = "#eee5d6", "#7d623e"
+_RESULTS: WeakKeyDictionary[Axes, int] = WeakKeyDictionary()
+"""Numbers of results in axes."""
+
+
+def pyplot() -> Any:
+    """The module matplotlib.pyplot, or an error that says how to get it."""
+    try:
+        import matplotlib.pyplot as found
+    except ImportError as error:
+        raise ImportError("pictures need matplotlib: pip install matplotlib") from error
+    return found
+
+
+def axes_for(axes: Axes | Iterable[Axes] | None, count: int, title: str | None = None, **options: Any) -> list[Axes]:
+    """The given axes, or axes of a new figure, one below the other; the title stands above the first."""
+    if axes is None:
+        size = (8.0, 1.0 + 2.2 * count)
+        options = {"sharex": True, "figsize": size, "layout": "constrained", **options}
+        axes = pyplot().subplots(count, **options)[1]
+    found: list[Axes] = list(np.ravel(axes))  # type: ignore[arg-type]
+    if len(found) != count:
+        raise InputError(f"axes are {len(found)}, but must be {count}")
+    if title is not None:
+        found[0].set_title(title, fontsize="medium", loc="left")
+    return found
+
+
+def label_axes(axes: Axes, x: str | None, y: str) -> None:
+    """Names of the axes with their units, and a grid."""
+    if x is not None:
+        axes.set_xlabel(x)
+    axes.set_ylabel(y)
+    axes.grid(alpha=0.3)
+    axes.margins(x=0.0)
+
+
+def key(axes: Axes, **options: Any) -> None:
+    """Key to the curves at the right of the axes, where it hides none."""
+    axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0), **options)
+
+
+def named(label: str | None, name: str) -> str:
+    """Name of a curve after the name of its result."""
+    return name if label is None else f"{label}, {name}"
+
+
+def color_for(color: str | None, number: int = 0) -> str:
+    """The given colour; of the first result black, of further ones in the same axes the next of matplotlib's."""
+    if color is not None:
+        return color
+    return "black" if number == 0 else f"C{(number - 1) % 10}"
+
+
+def results_in(axes: Axes) -> int:
+    """Number of results that were drawn into the axes before; this call draws one more."""
+    before = _RESULTS.get(axes, 0)
+    _RESULTS[axes] = before + 1
+    return before
+
+
+def logarithmic(axes: Axes) -> None:
+    """A logarithmic x-axis with plain numbers at 1, 2 and 5, at more on a short one."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    marks = (1.0, 2.0, 5.0) if high > 10.0 * low else (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
+    axes.xaxis.set_major_locator(LogLocator(subs=marks))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())

@@ -1,0 +1,246 @@
+"""A run as one page for a report."""
+
+from __future__ import annotations
+
+import base64
+import inspect
+import io
+import json
+import os
+from collections.abc import Iterator
+from contextlib import suppress
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from . import _core
+from ._animation import film_of
+from ._core import DeformedShape, Interaction, Record, Run, Simulation, Summary
+from ._errors import FileError, InputError
+from ._figures import axes_for, label_axes, pyplot
+from ._film import Film, quantized
+
+
+_STYLE = """
+body { font: 15px/1.45 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
+h1 { font-size: 1.6rem } h2 { font-size: 1.2rem; border-bottom: 1px solid #ccc; margin-top: 2rem }
+table { border-collapse: collapse } td, th { padding: .15rem .8rem; text-align: right; border-bottom: 1px solid #eee }
+td:first-child, th:first-child { text-align: left } .words td { text-align: left; vertical-align: top }
+img { max-width: 100% } pre { line-height: 1.2; overflow-x: auto } .warning { color: #a33 }
+"""
+_PLAYER = """
+<p><img id="film" alt="the run in motion"><br>
+<button id="play">pause</button> <input id="frame" type="range" min="0" value="0" style="width: 70%"></p>
+<script>
+const frames = FRAMES, film = document.getElementById("film"), play = document.getElementById("play");
+const slider = document.getElementById("frame"); slider.max = frames.length - 1;
+let timer = null;
+function show(k) { film.src = "data:image/png;base64," + frames[k]; slider.value = k; }
+function start() { play.textContent = "pause"; timer = setInterval(() => show((+slider.value + 1) % frames.length), INTERVAL); }
+function stop() { play.textContent = "play"; clearInterval(timer); timer = null; }
+play.onclick = () => timer ? stop() : start();
+slider.oninput = () => { stop(); show(+slider.value); };
+show(0); start();
+</script>
+"""
+_LEFT_OUT = {"time", "sliding_safety", "overturning_safety", "overturning_safety_across"}
+"""Time series whose largest value says nothing."""
+
+
+def report(
+    self: Run,
+    path: str | os.PathLike[str],
+    simulation: Simulation | None = None,
+    *,
+    interaction: Interaction | None = None,
+    height: float | None = None,
+    title: str = "Earthquake response",
+) -> None:
+    """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
+
+    The page has the ground motion, the model, warnings, peaks and the text of the run; pictures of time series, floor
+    spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of `Simulation.run`), of
+    the contact, the deformed structure and both in motion.
+
+    Args:
+        path: name of the file, such as "run.html".
+        simulation: the simulation of the run, for its motion and model; only what the run knows unless given.
+        interaction: peaks on a fixed base, from `Simulation.interaction`; none unless given.
+        height: height of the box that stands for a rigid block, m, as for `DeformedShape`; None for structures with a
+            shape of their own.
+        title: heading of the page, "Earthquake response" by default.
+    """
+    pyplot()
+    shape = None
+    with suppress(InputError):
+        shape = None if simulation is None else DeformedShape(simulation.structure, height=height)
+    parts = [
+        f"<h1>{escape(title)}</h1>",
+        "<h2>Ground motion</h2>",
+        *_motion(self, simulation),
+        *(() if simulation is None else ("<h2>Model</h2>", _model(simulation))),
+        "<h2>Peaks</h2>",
+        *(f'<p class="warning">{escape(text)}</p>' for text in self.warnings),
+        _peaks(self, interaction),
+        *_pictures(self, shape),
+        "<h2>All results</h2>",
+        f"<pre>{escape(str(self))}</pre>",
+        f"<p>Computed by basemat {_core.__version__}.</p>",
+    ]
+    heading = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{_STYLE}</style>'
+    page = f'<!DOCTYPE html>\n<html lang="en"><head>{heading}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
+    try:
+        Path(path).write_text(page, "utf-8")
+    except OSError as error:
+        raise FileError(f"{os.fspath(path)} cannot be written: {error.strerror}") from error
+
+
+def _picture(figure: Any, text: str) -> str:
+    """A figure as an image in the page."""
+    file = io.BytesIO()
+    figure.savefig(file, format="svg")
+    pyplot().close(figure)
+    data = base64.b64encode(file.getvalue()).decode("ascii")
+    return f'<p><img alt="{escape(text)}" src="data:image/svg+xml;base64,{data}"></p>'
+
+
+def _records(motion: Any) -> dict[str, Record]:
+    """Records that a motion was made of, by the names of their directions."""
+    if isinstance(motion, Record):
+        return {"ground acceleration": motion}
+    made = getattr(motion, "_made", None)
+    if made is None:
+        return {}
+    function = made.owner if made.name is None else getattr(made.owner, made.name)
+    named = {**dict(zip(inspect.signature(function).parameters, made.arguments)), **made.keywords}
+    return {f"ground acceleration, {name}": own for name, own in named.items() if isinstance(own, Record)}
+
+
+def _motion(run: Run, simulation: Simulation | None) -> Iterator[str]:
+    """The ground motion in words, and its records with their spectra."""
+    yield f"<p>{escape(run._ground_motion)}</p>"
+    records = {} if simulation is None else _records(simulation.motion)
+    if not records:
+        return
+    count = len(records)
+    figure, axes = pyplot().subplots(
+        count, 2, figsize=(9.0, 0.6 + 2.2 * count), layout="constrained", width_ratios=(2, 1), squeeze=False
+    )
+    periods = _core.log_spaced(0.05, 4.0, 100)
+    for (left, right), (name, record) in zip(axes, records.items()):
+        own = np.asarray(record.accelerations)
+        left.plot(record.time_step * np.arange(len(own)), own, color="black", linewidth=0.7)
+        label_axes(left, "time, s", "m/s²")
+        left.set_title(name, fontsize="medium", loc="left")
+        record.response_spectrum(periods, 0.05).plot(right, title="spectrum, 5 %")
+        right.get_legend().remove()
+        right.set_ylabel("m/s²")
+    yield _picture(figure, "ground motion")
+
+
+def _model(simulation: Simulation) -> str:
+    """The parts of the model, as their calls."""
+    parts = {
+        "structure": simulation.structure,
+        "ground": simulation.ground,
+        "interface": simulation.interface,
+        "motion": simulation.motion,
+        "time step": f"{simulation.time_step:g} s",
+        "contact elements": len(simulation.elements),
+    }
+    rows = (f"<tr><td>{name}</td><td>{escape(str(own))}</td></tr>" for name, own in parts.items())
+    return f'<table class="words">{"".join(rows)}</table>'
+
+
+def _shown(unit: str) -> tuple[float, str]:
+    """Factor and unit for the table."""
+    if unit[:1] == "N":
+        return 1e-3, f"k{unit}"
+    return {"m": (1e3, "mm"), "rad": (1e3, "mrad"), "": (1.0, "ratio")}.get(unit, (1.0, unit))
+
+
+def _peaks(run: Run, interaction: Interaction | None) -> str:
+    """Largest values with their times, beside those on a fixed base."""
+    heads = ["largest value of", "unit", "value", "at s"]
+    fixed = None if interaction is None else interaction.on_fixed_base
+    if fixed is not None:
+        heads += ["fixed base", "ratio"]
+    units, rows = run.units, [heads]
+    terms = set(run.energy_balance.to_dict())
+    for name in (own for own in units if own not in terms | _LEFT_OUT):
+        peak = _largest(run, name)
+        if peak is None:
+            continue
+        factor, unit = _shown(units[name])
+        row = [name.replace("_", " "), unit, f"{factor * peak.value:.4g}", f"{peak.time:.3f}"]
+        if fixed is not None:
+            other = _largest(fixed, name)
+            row += ["", ""]
+            if other is not None and abs(other.value) > 1e-9 * abs(peak.value):
+                row[4:] = [f"{factor * other.value:.4g}", f"{abs(peak.value / other.value):.3f}"]
+        rows.append(row)
+    lines = [["th" if k == 0 else "td", *own] for k, own in enumerate(rows)]
+    table = "".join(f"<tr>{''.join(f'<{kind}>{escape(own)}</{kind}>' for own in row)}</tr>" for kind, *row in lines)
+    modes = () if interaction is None else str(interaction).splitlines()
+    words = "".join(f"<p>{escape(line)}</p>" for line in modes if "T̃" in line)
+    return f"<table>{table}</table>{words}"
+
+
+def _largest(run: Run, name: str) -> _core.Peak | None:
+    """Largest value of a scalar or a probe; None if it never differs from zero."""
+    probes = run.probes
+    summary: Summary = run
+    found = probes[name].largest if name in probes else summary.extremes(name).largest  # type: ignore[arg-type]
+    return found if np.isfinite(found.value) and found.value != 0.0 else None
+
+
+def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
+    """Pictures of whatever the run kept."""
+    try:
+        axes = run.plot()
+    except InputError:
+        # Without time series there are no pictures.
+        return
+    yield "<h2>Over time</h2>"
+    yield _picture(axes[0].figure, "time series")
+    units = run.units
+    floors = [name for name in run.probes if units[name] == "m/s²"]
+    if floors:
+        yield "<h2>Floor spectra, 5 %</h2>"
+        [own] = axes_for(None, 1, figsize=(8.0, 3.6))
+        shortest = max(0.02, 10.0 * run.time_step)
+        for name in floors:
+            run.floor_spectrum(name, _core.log_spaced(shortest, 4.0, 120), 0.05).plot(own, label=name)
+        yield _picture(own.figure, "floor spectra")
+    has_contact = has_motion = False
+    with suppress(InputError):
+        has_contact = bool(run.contact)
+    with suppress(InputError):
+        has_motion = bool(run.motion)
+    if has_contact and run.in_plan:
+        yield "<h2>The base when most of it is open</h2>"
+        yield _picture(run.plot_contact_plan().figure, "contact in plan")
+    if shape is not None and has_motion:
+        yield "<h2>Largest deformation</h2>"
+        moved = [float(np.abs(shape.displacements(own)).max()) for own in run.motion["displacement"]]
+        frame = int(np.argmax(moved))
+        text = f"{run.motion['time'][frame]:.2f} s"
+        yield _picture(shape.plot(run.motion["displacement"][frame], label=text).figure, "deformed structure")
+    if has_contact:
+        yield "<h2>In motion</h2>"
+        yield _film(film_of(run, None, shape if has_motion else None, None, 120, None))
+
+
+def _film(film: Film) -> str:
+    """Frames of an animation with a few lines that play them."""
+    frames = []
+    with film.baked() as pixels:
+        for number in range(film.frames):
+            film.draw(number)
+            file = io.BytesIO()
+            quantized(pixels()).save(file, format="png")
+            frames.append(base64.b64encode(file.getvalue()).decode("ascii"))
+    pyplot().close(film.figure)
+    return _PLAYER.replace("FRAMES", json.dumps(frames)).replace("INTERVAL", f"{film.interval:.0f}")
