@@ -15,6 +15,7 @@ the curves:
 from __future__ import annotations
 
 import argparse
+import contextlib
 import functools
 import math
 import sys
@@ -137,26 +138,28 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--table", type=Path, default=Path("target/fragility/cases.csv"))
     options = parser.parse_args(arguments)
 
-    if options.dask or options.scheduler:
-        from dask.distributed import Client, LocalCluster
+    with contextlib.ExitStack() as closed:
+        client = None
+        if options.dask or options.scheduler:
+            from dask.distributed import Client, LocalCluster
 
-        cluster = options.scheduler or LocalCluster(n_workers=options.dask, threads_per_worker=1)
-        client = Client(cluster)
-        # Workers import this file, also those that come later; its motions and kernels stay there.
-        client.upload_file(__file__, load=False)
-        how = {"executor": client}
-    else:
-        client, how = None, {"jobs": options.jobs}
-    begin = time.perf_counter()
-    table = bm.sweep(
-        shake, grid(options.short), progress=sys.stderr.isatty(), file=options.table, **how
-    )
-    elapsed = time.perf_counter() - begin
-    if client is not None:
-        client.close()
-        if options.dask:
-            cluster.close()
-    failed = int(table["error"].notna().sum())
+            cluster = options.scheduler
+            if options.dask:
+                cluster = closed.enter_context(LocalCluster(n_workers=options.dask, threads_per_worker=1))
+            client = closed.enter_context(Client(cluster))
+            # Workers import this file, also those that come later; its motions and kernels stay there.
+            client.upload_file(__file__, load=False)
+        begin = time.perf_counter()
+        table = bm.sweep(
+            shake,
+            grid(options.short),
+            progress=sys.stderr.isatty(),
+            file=options.table,
+            jobs=options.jobs,
+            executor=client,
+        )
+        elapsed = time.perf_counter() - begin
+    failed = len(table[table["error"].notna()])
     print(f"{options.table}: {len(table)} cases, {failed} failed")
     print(f"{elapsed:.2f} s by the clock, {1e3 * elapsed / len(table):.2f} s per thousand runs")
 

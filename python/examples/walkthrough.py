@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import matplotlib.pyplot as plt
@@ -34,7 +35,7 @@ probes = [
 ]
 
 
-def simulation(law: bm.InterfaceLaw, motion: bm.Record = record) -> bm.Simulation:
+def simulation(law: bm.InterfaceLaw | bm.UserLaw, motion: bm.Record = record) -> bm.Simulation:
     """The building with a law between base and soil."""
     ground = bm.ElasticGround.under(soil, building, 16)
     return bm.Simulation(0.005, building, ground, law, motion=motion, probes=probes)
@@ -151,18 +152,25 @@ soil = bm.Soil.from_shear_wave_speed(250.0, poisson=0.33, density=1900.0)
 motion = bm.triaxial(x=record, y=record.scaled(0.8), up=record.scaled(0.5))
 
 
-def in_plan(structure, law, motion=motion, **others) -> bm.Run:
+def in_plan(
+    structure: bm.Structure,
+    law: bm.InterfaceLaw | bm.UserPlanLaw,
+    motion: bm.FreeField = motion,
+    probes: Sequence[bm.Probe] = (),
+) -> bm.Run:
     """A run on the soil, with four cells along the shorter side."""
     ground = bm.ElasticGround.under(soil, structure, 4)
-    return bm.Simulation(0.005, structure, ground, law, motion=motion, **others).run(duration=10.0, contact_every=5)
+    return bm.Simulation(0.005, structure, ground, law, motion=motion, probes=probes).run(duration=10.0, contact_every=5)
 
 
 run = in_plan(tank, bm.Coulomb(0.4))
 for name in ("base_shear", "shear_across", "torque", "uplifted_area"):
-    print(f"{name}: {run.extremes(name).magnitude:.4g} {run.units[name]}")
+    print(f"{name}: {np.abs(run[name]).max():.4g} {run.units[name]}")
 print(run.contact_frame().groupby("mode", observed=True)[["gap", "slip", "slip_across"]].max())
-run.plot()[0].figure.savefig(OUT / "plan.png", dpi=120)
-run.plot_contact_plan().figure.savefig(OUT / "contact_plan.png", dpi=120)
+run.plot()
+plt.savefig(OUT / "plan.png", dpi=120)
+run.plot_contact_plan()
+plt.savefig(OUT / "contact_plan.png", dpi=120)
 
 # %% [markdown]
 # Next, the stiffness of the mat in all six motions, and a law of your own: in plan it gives limits of the tractions, and
@@ -182,7 +190,7 @@ class Worn:
         """Limits in this step."""
         return bm.Limits(friction=0.2 + 0.2 * math.exp(-start.state_variables[0] / 0.005))
 
-    def commit(self, start, end, mode):
+    def commit(self, start: bm.PreviousContact, end: bm.ContactState, mode: bm.Mode) -> list[float]:
         """Sliding distance so far."""
         way = math.hypot(end.slip - start.slip, end.slip_across - start.slip_across)
         return [start.state_variables[0] + (way if mode == "slip" else 0.0)]
@@ -271,20 +279,27 @@ class Polished:
         """Coulomb's law with the friction of this step."""
         return bm.Coulomb(0.2 + 0.1 * float(np.exp(-start.state_variables[0] / 0.01)))
 
-    def conditions(self, mode, start):
+    def conditions(self, mode: bm.Mode, start: bm.PreviousContact) -> tuple[bm.Condition, bm.Condition]:
         """Conditions of Coulomb's law."""
         return self.law(start).conditions(mode, start)
 
-    def next_mode(self, mode, start, trial, tolerance):
+    def next_mode(
+        self, mode: bm.Mode, start: bm.PreviousContact, trial: bm.ContactState, tolerance: bm.Tolerance
+    ) -> bm.Mode:
         """Next mode by Coulomb's law."""
         return self.law(start).next_mode(mode, start, trial, tolerance)
 
-    def commit(self, start, end, mode):
+    def commit(self, start: bm.PreviousContact, end: bm.ContactState, mode: bm.Mode) -> list[float]:
         """Sliding distance so far."""
         return [start.state_variables[0] + (abs(end.slip - start.slip) if "slip" in mode else 0.0)]
 
 
-for name, law in {"0.3": bm.Coulomb(0.3), "polished": Polished(), "0.2": bm.Coulomb(0.2)}.items():
+frictions: dict[str, bm.InterfaceLaw | bm.UserLaw] = {
+    "0.3": bm.Coulomb(0.3),
+    "polished": Polished(),
+    "0.2": bm.Coulomb(0.2),
+}
+for name, law in frictions.items():
     run = simulation(law).run(duration=10.0)
     print(f"friction {name:>8}: residual slip {1e3 * run.residual_slip:.1f} mm, {run.wall:.2f} s")
 

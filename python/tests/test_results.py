@@ -288,12 +288,18 @@ def test_pictures_have_labels_and_units(run: bm.Run) -> None:
     assert clock.get_text() == f"{run.contact['time'][100]:.2f} s"
     axes = run.floor_spectrum("roof", PERIODS).plot()
     assert axes.get_xlabel() == "period, s" and "m/s²" in axes.get_ylabel()
+    # A second result in the same axes has a colour of its own, and room.
+    higher = bm.el_centro_1940().scaled(20.0).response_spectrum(PERIODS, 0.05)
+    higher.plot(axes, label="higher", title="two")
+    first, _, second, _ = axes.get_lines()
+    assert first.get_color() != second.get_color() and axes.get_title(loc="left") == "two"
+    assert axes.get_ylim()[1] > higher.acceleration.max() and axes.get_ylim()[0] == 0.0
     soft, hard = bm.Soil(30e6, 0.33, 1900.0), bm.Soil(800e6, 0.3, 2000.0)
     profile = bm.SoilProfile([bm.SoilLayer(soft, 4.0), bm.SoilLayer(hard, 6.0)], hard)
     [line] = profile.plot().get_lines()
     speeds = [soft.shear_wave_speed] * 2 + [hard.shear_wave_speed] * 4
     assert list(line.get_xdata()) == speeds
-    assert list(line.get_ydata()) == [0.0, 4.0, 4.0, 10.0, 10.0, 12.0]
+    assert list(line.get_ydata()) == [0.0, 4.0, 4.0, 10.0, 10.0, 12.0] and line.axes.get_ylim() == (12.0, 0.0)
     assert [layer.thickness for layer in profile.layers] == [4.0, 6.0]
     assert profile.layers[0].soil == soft and profile.bedrock == hard
     rigid = bm.SoilProfile([bm.SoilLayer(soft, 4.0)])

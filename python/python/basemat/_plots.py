@@ -191,7 +191,7 @@ def plot_spectrum(
     own.plot(self.period, self.pseudo_acceleration, "--", color=shown, linewidth=1.0, label=pseudo)
     logarithmic(own)
     label_axes(own, "period, s", "acceleration, m/s²")
-    own.set_ylim(bottom=0.0)
+    own.set_ylim(0.0, 1.05 * own.dataLim.y1)
     key(own)
     return own
 
@@ -224,8 +224,7 @@ def plot_profile(
     if label is not None or self.bedrock is None:
         own.legend(fontsize="small", loc="lower left")
     own.set_xlim(0.0, max(own.get_xlim()[1], 1.1 * max(speeds, default=1.0)))
-    # Depths grow downwards, also where a profile was drawn before.
-    own.set_ylim(max(depths[-1], *own.get_ylim()), 0.0)
+    own.set_ylim(max(depths[-1], own.dataLim.y1), 0.0)
     return own
 
 

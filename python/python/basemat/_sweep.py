@@ -14,7 +14,7 @@ from concurrent.futures import (
     ThreadPoolExecutor,
     wait,
 )
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import _core, _dask
 from ._case import Outcome, described, run_case
@@ -22,6 +22,9 @@ from ._core import Run
 from ._errors import InputError
 from ._frames import pandas
 from ._progress import Line
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 _OWN = ("warnings", "error")
 """Columns that every table has."""
@@ -84,7 +87,7 @@ def sweep(
     progress: bool | Callable[[int, int], Any] = False,
     shard: tuple[int, int] | None = None,
     file: str | os.PathLike[str] | None = None,
-) -> Any:
+) -> DataFrame:
     """Runs a scene for every case of a grid; a pandas frame with one row per case.
 
     Args:
@@ -154,7 +157,7 @@ def sweep(
 def merge(
     files: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     grid: Mapping[str, Any],
-) -> Any:
+) -> DataFrame:
     """Puts the files of a sweep's shards together; a pandas frame with one row per case.
 
     Args:
