@@ -28,8 +28,8 @@ wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$programs/python" -m pytest -q
 notebook="$PWD/examples/walkthrough.ipynb"
 (cd "$CARGO_TARGET_DIR" && "$programs/jupyter" execute --output="$CARGO_TARGET_DIR/walkthrough.ipynb" "$notebook")
-# Pages of all classes and functions, from their docstrings.
-"$programs/pdoc" --docformat google --no-show-source -o "$CARGO_TARGET_DIR/api" basemat basemat.opensees basemat.containment
+# The site: pages of docs/python, and of all classes and functions from their docstrings. Warnings are errors.
+"$programs/python" -m mkdocs build --quiet --site-dir "$CARGO_TARGET_DIR/site"
 # The wheel in an environment of its own, without Rust.
 clean="$CARGO_TARGET_DIR/clean"
 rm -rf "$clean"

@@ -91,9 +91,7 @@ periods = bm.log_spaced(0.05, 3.0, 200)
 figure, axis = plt.subplots(figsize=(8, 4), layout="constrained")
 for name, run in runs.items():
     spectrum = run.floor_spectrum("roof", periods, damping=0.05).broadened(0.15)
-    axis.semilogx(spectrum.period, spectrum.acceleration / bm.STANDARD_GRAVITY, label=name)
-axis.set(xlabel="period, s", ylabel="acceleration, g", title="roof, 5 % damping")
-axis.legend()
+    spectrum.plot(axis, label=name, title="roof, 5 % damping")
 figure.savefig(OUT / "floor_spectra.png", dpi=120)
 
 # %% [markdown]

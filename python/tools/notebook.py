@@ -1,7 +1,7 @@
-"""Writes `examples/walkthrough.ipynb`, without outputs, from the cells of `examples/walkthrough.py`.
+"""Writes `examples/walkthrough.ipynb`, with its outputs, from the cells of `examples/walkthrough.py`.
 
-    python tools/notebook.py           # writes
-    python tools/notebook.py --check   # fails if they differ
+    python tools/notebook.py           # writes and runs
+    python tools/notebook.py --check   # fails if cells differ, or have no outputs
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import sys
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -31,15 +32,47 @@ def cells(source: str) -> list[dict[str, Any]]:
     return found
 
 
+def written() -> dict[str, Any]:
+    """The notebook without outputs."""
+    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
+    own = cells(SOURCE.read_text("utf-8"))
+    return {"cells": own, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+
+
+def run(notebook: dict[str, Any]) -> str:
+    """The notebook's text after its cells have run, in a folder of their own."""
+    import nbformat
+    from nbclient import NotebookClient
+
+    node = nbformat.reads(json.dumps(notebook), 4)
+    with tempfile.TemporaryDirectory() as folder:
+        resources = {"metadata": {"path": folder}}
+        NotebookClient(node, timeout=600, record_timing=False, resources=resources).execute()
+    for output in (output for cell in node["cells"] for output in cell.get("outputs", ())):
+        if output.get("name") == "stderr":
+            # Warnings name the place of a temporary file.
+            output["text"] = re.sub(r"\S*ipykernel_\S+: ", "", output["text"])
+    node["metadata"] = nbformat.from_dict(notebook["metadata"])
+    return nbformat.writes(node) + "\n"
+
+
 def main() -> None:
     """Writes or checks."""
-    kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    notebook = {"cells": cells(SOURCE.read_text("utf-8")), "metadata": {"kernelspec": kernel}}
-    text = json.dumps({**notebook, "nbformat": 4, "nbformat_minor": 5}, indent=1, ensure_ascii=False) + "\n"
+    notebook = written()
     if "--check" not in sys.argv[1:]:
-        NOTEBOOK.write_text(text, "utf-8")
-    elif NOTEBOOK.read_text("utf-8") != text:
-        sys.exit(f"{NOTEBOOK.name} is not {SOURCE.name}: python tools/notebook.py writes it")
+        NOTEBOOK.write_text(run(notebook), "utf-8")
+        return
+    found = json.loads(NOTEBOOK.read_text("utf-8"))
+    outputs = [output for cell in found["cells"] for output in cell.get("outputs", ())]
+    for cell in found["cells"]:
+        if cell["cell_type"] == "code":
+            cell.update(execution_count=None, outputs=[])
+    needed = f"python {Path(__file__).parent.name}/{Path(__file__).name} writes it"
+    if found != notebook:
+        sys.exit(f"{NOTEBOOK.name} is not {SOURCE.name}: {needed}")
+    pictures = sum("image/png" in own.get("data", ()) for own in outputs)
+    if pictures < 5 or any(own["output_type"] == "error" for own in outputs):
+        sys.exit(f"{NOTEBOOK.name} has {pictures} pictures among its outputs: {needed}")
 
 
 if __name__ == "__main__":

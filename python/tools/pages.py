@@ -1,4 +1,4 @@
-"""Runs the programs of the pages in `docs/python` and writes their pictures to `docs/images/python`.
+"""Runs the programs of the pages in `docs/python` and writes their pictures to `docs/python/images`.
 
     python tools/pages.py
 """
@@ -13,8 +13,8 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-DOCS = Path(__file__).parents[2] / "docs"
-PAGES = sorted((DOCS / "python").glob("*.md"))
+DOCS = Path(__file__).parents[2] / "docs" / "python"
+PAGES = sorted(DOCS.rglob("*.md"))
 
 
 def programs(page: Path) -> list[str]:
@@ -42,8 +42,8 @@ def run(page: Path, folder: Path) -> dict[str, Any]:
 
 def main() -> None:
     """Writes the pictures."""
-    images = DOCS / "images" / "python"
-    images.mkdir(parents=True, exist_ok=True)
+    images = DOCS / "images"
+    images.mkdir(exist_ok=True)
     for page in PAGES:
         with tempfile.TemporaryDirectory() as folder:
             run(page, Path(folder))
