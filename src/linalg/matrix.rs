@@ -66,12 +66,33 @@ impl SparseMatrix {
             entries[next[row]] = (column, value);
             next[row] += 1;
         }
+        Ok(Self::by_rows(order, |row, own| {
+            own.extend_from_slice(&entries[row_start[row]..row_start[row + 1]]);
+        }))
+    }
+
+    /// Σ factor · A of matrices of this order, summed.
+    pub(crate) fn sum(name: &'static str, order: usize, terms: &[(f64, &Self)]) -> Result<Self> {
+        let sum = Self::by_rows(order, |row, own| {
+            for (factor, matrix) in terms.iter().filter(|(_, matrix)| row < matrix.order) {
+                let places = matrix.row_start[row]..matrix.row_start[row + 1];
+                own.extend(places.map(|k| (matrix.column[k], factor * matrix.value[k])));
+            }
+        });
+        sum.value.iter().try_for_each(|value| finite(name, *value).map(drop))?;
+        Ok(sum)
+    }
+
+    /// Matrix whose rows `fill` writes as (column, value); entries at the same place are summed.
+    fn by_rows(order: usize, mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>)) -> Self {
         let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
+        let mut entries = Vec::new();
         for row in 0..order {
-            let entries = &mut entries[row_start[row]..row_start[row + 1]];
+            entries.clear();
+            fill(row, &mut entries);
             entries.sort_by_key(|&(column, _)| column);
             let start = matrix.column.len();
-            for &(column, value) in entries.iter() {
+            for &(column, value) in &entries {
                 if matrix.column.len() > start && matrix.column.last() == Some(&column) {
                     *matrix.value.last_mut().unwrap_or(&mut 0.0) += value;
                 } else {
@@ -81,7 +102,7 @@ impl SparseMatrix {
             }
             matrix.row_start.push(matrix.column.len());
         }
-        Ok(matrix)
+        matrix
     }
 
     /// Replaces the values by the sums of `triplets`, without allocating.

@@ -5,13 +5,16 @@
 mod complex;
 mod condition;
 mod dense;
+mod dissection;
 mod eigen;
+mod elimination;
 pub(crate) mod gauss;
 mod hermitian;
 mod lanes;
 mod lowest_modes;
 pub(crate) mod matrix;
 mod number;
+mod partition;
 mod product;
 mod sparse;
 mod triplets;
@@ -20,16 +23,18 @@ pub use complex::Complex;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub(crate) use elimination::Elimination;
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use hermitian::hermitian_range;
 pub(crate) use lanes::Lanes;
 pub(crate) use lowest_modes::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use number::Number;
+pub(crate) use partition::Partition;
 pub(crate) use product::{
     Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
     magnitude, mixed, mixing_weight, row_products, transposed_multiply_add, vectorized,
     weighted_dot,
 };
-pub(crate) use sparse::{Partition, SparseFactor, indefinite_row};
+pub(crate) use sparse::{SparseFactor, indefinite_row};
 pub use triplets::Triplets;

@@ -2,17 +2,15 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
+use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
-use faer::sparse::{SparseColMat, Triplet};
+use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::error::{Error, Result};
+use crate::linalg::elimination::Elimination;
 use crate::linalg::{SparseMatrix, Triplets};
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
@@ -30,18 +28,26 @@ enum Factors {
 impl SparseFactor {
     /// Factors by Cholesky if the matrix is symmetric positive definite, else by LU with partial pivoting.
     pub(crate) fn new(name: &'static str, triplets: &Triplets) -> Result<Self> {
-        let matrix = SparseMatrix::new(name, triplets)?;
+        Self::of(name, &SparseMatrix::new(name, triplets)?, &Elimination::default())
+    }
+
+    /// Factors as [`SparseFactor::new`] does, in an order of elimination that matrices of a structure share.
+    pub(crate) fn of(
+        name: &'static str,
+        matrix: &SparseMatrix,
+        elimination: &Elimination,
+    ) -> Result<Self> {
         let singular = || Error::Singular { matrix: name, order: matrix.order() };
-        let columns = by_columns(&matrix).ok_or_else(singular)?;
+        let columns = by_columns(matrix);
         let symmetric = matrix.asymmetry() <= 1e-13;
-        let factor = if symmetric { Self::cholesky(&columns).ok() } else { None };
+        let factor = if symmetric { Self::cholesky(&columns, elimination).ok() } else { None };
         factor.or_else(|| Self::lu(&columns)).and_then(Self::probed).ok_or_else(singular)
     }
 
     /// Cholesky factors of the lower triangle; an error unless the matrix is positive definite.
     pub(crate) fn positive_definite(name: &'static str, matrix: &SparseMatrix) -> Result<Self> {
-        by_columns(matrix)
-            .and_then(|columns| Self::cholesky(&columns).ok())
+        Self::cholesky(&by_columns(matrix), &Elimination::default())
+            .ok()
             .and_then(Self::probed)
             .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
     }
@@ -62,14 +68,11 @@ impl SparseFactor {
     /// Factors the matrix by Cholesky's method.
     ///
     /// Returns the row at which the matrix fails to be positive definite as the error.
-    fn cholesky(matrix: &SparseColMat<usize, f64>) -> std::result::Result<Self, usize> {
-        let symbolic = factorize_symbolic_cholesky(
-            matrix.symbolic(),
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| 0_usize)?;
+    fn cholesky(
+        matrix: &SparseColMat<usize, f64>,
+        elimination: &Elimination,
+    ) -> std::result::Result<Self, usize> {
+        let symbolic = elimination.analyse(matrix.symbolic()).ok_or(0_usize)?;
         let mut values = vec![0.0; symbolic.len_val()];
         let mut buffer = MemBuffer::new(
             symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
@@ -181,7 +184,12 @@ impl SparseFactor {
 /// Eigenvalues of the matrix scaled to a unit diagonal may be as low as −`tolerance`. A matrix that passes is
 /// therefore semi-definite except for 2 `floor` on the diagonal and `tolerance` relative to the diagonal. The
 /// check costs a sparse Cholesky factorisation, or almost nothing if the matrix is diagonal.
-pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) -> Option<usize> {
+pub(crate) fn indefinite_row(
+    matrix: &SparseMatrix,
+    tolerance: f64,
+    floor: f64,
+    elimination: &Elimination,
+) -> Option<usize> {
     let given = matrix.diagonal();
     let negative = (0..given.len()).min_by(|i, j| given[*i].total_cmp(&given[*j]));
     if let Some(row) = negative.filter(|row| given[*row] < -floor) {
@@ -205,59 +213,24 @@ pub(crate) fn indefinite_row(matrix: &SparseMatrix, tolerance: f64, floor: f64) 
     }
     (0..matrix.order()).for_each(|row| scaled.add(row, row, 1.0 + tolerance));
     let scaled = SparseMatrix::new("scaled matrix", &scaled).ok()?;
-    SparseFactor::cholesky(&by_columns(&scaled)?).err()
+    SparseFactor::cholesky(&by_columns(&scaled), elimination).err()
 }
 
 /// The matrix, compressed by columns.
-fn by_columns(matrix: &SparseMatrix) -> Option<SparseColMat<usize, f64>> {
+pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
     let order = matrix.order();
-    let entries: Vec<_> =
-        matrix.entries().map(|(row, col, val)| Triplet { row, col, val }).collect();
-    SparseColMat::try_new_from_triplets(order, order, &entries).ok()
-}
-
-/// Disjoint sets of the numbers below an order (union–find).
-pub(crate) struct Partition(Vec<usize>);
-
-impl Partition {
-    /// Sets of one number each.
-    pub(crate) fn new(order: usize) -> Self {
-        Self((0..order).collect())
+    let mut start = vec![0; order + 1];
+    matrix.entries().for_each(|(_, column, _)| start[column + 1] += 1);
+    (0..order).for_each(|column| start[column + 1] += start[column]);
+    let mut next = start.clone();
+    let (mut rows, mut values) = (vec![0; matrix.stored()], vec![0.0; matrix.stored()]);
+    for (row, column, value) in matrix.entries() {
+        let at = &mut next[column];
+        (rows[*at], values[*at]) = (row, value);
+        *at += 1;
     }
-
-    /// The smallest number in the set of `index`.
-    pub(crate) fn root(&mut self, mut index: usize) -> usize {
-        while self.0[index] != index {
-            self.0[index] = self.0[self.0[index]];
-            index = self.0[index];
-        }
-        index
-    }
-
-    /// Merges the sets of two numbers.
-    pub(crate) fn join(&mut self, first: usize, second: usize) {
-        let (a, b) = (self.root(first), self.root(second));
-        self.0[a.max(b)] = a.min(b);
-    }
-
-    /// Merges the sets of all pairs that a nonzero entry of `matrix` couples.
-    pub(crate) fn couple(&mut self, matrix: &SparseMatrix) {
-        for (row, column, value) in matrix.entries() {
-            if value != 0.0 {
-                self.join(row, column);
-            }
-        }
-    }
-
-    /// The sets, ordered by their smallest numbers, each ascending.
-    pub(crate) fn sets(&mut self) -> Vec<Vec<usize>> {
-        let mut sets = vec![Vec::new(); self.0.len()];
-        for index in 0..self.0.len() {
-            sets[self.root(index)].push(index);
-        }
-        sets.retain(|set| !set.is_empty());
-        sets
-    }
+    let pattern = SymbolicSparseColMat::new_checked(order, order, start, None, rows);
+    SparseColMat::new(pattern, values)
 }
 
 #[cfg(test)]
@@ -304,7 +277,10 @@ mod tests {
                 chain.add_spring(i - 1, i, if Some(i) == negative { -1.0e5 } else { 4.0e6 });
             }
             let matrix = SparseMatrix::new("test", &chain).unwrap();
-            assert_eq!(indefinite_row(&matrix, tolerance, 1e-6).is_some(), negative.is_some());
+            assert_eq!(
+                indefinite_row(&matrix, tolerance, 1e-6, &Elimination::default()).is_some(),
+                negative.is_some()
+            );
             assert!(matrix.diagonal().iter().all(|k| *k > 0.0));
         }
         let rows = |entries: &[(usize, usize, f64)]| {
@@ -312,7 +288,8 @@ mod tests {
             for &(i, j, value) in entries {
                 matrix.add(i, j, value);
             }
-            indefinite_row(&SparseMatrix::new("test", &matrix).unwrap(), 1e-6, 1e-12)
+            let matrix = SparseMatrix::new("test", &matrix).unwrap();
+            indefinite_row(&matrix, 1e-6, 1e-12, &Elimination::default())
         };
         assert_eq!(rows(&[(0, 0, 1.0), (1, 1, -1e-3)]), Some(1));
         assert_eq!(rows(&[(0, 0, 1.0), (0, 2, 1e-3), (2, 0, 1e-3)]), Some(2));
@@ -342,25 +319,5 @@ mod tests {
         let mut nan = Triplets::new(1);
         nan.add(0, 0, f64::NAN);
         assert!(matches!(SparseMatrix::new("k", &nan), Err(Error::Input { .. })));
-    }
-}
-
-#[cfg(test)]
-mod partition_tests {
-    use super::*;
-    use crate::linalg::Triplets;
-
-    #[test]
-    fn coupled_numbers_are_one_set() {
-        let mut matrix = Triplets::new(6);
-        matrix.add_spring(5, 1, 2.0);
-        matrix.add(1, 3, 1e-300);
-        // An entry that cancels couples nothing.
-        matrix.add(0, 4, 1.0);
-        matrix.add(0, 4, -1.0);
-        let mut partition = Partition::new(6);
-        partition.couple(&SparseMatrix::new("test", &matrix).unwrap());
-        assert_eq!(partition.sets(), [vec![0], vec![1, 3, 5], vec![2], vec![4]]);
-        assert_eq!(partition.root(5), 1);
     }
 }

@@ -1,7 +1,7 @@
 //! Checks that matrices of a structure are symmetric and positive semi-definite.
 
 use crate::error::{Error, Result};
-use crate::linalg::{SparseMatrix, indefinite_row, largest};
+use crate::linalg::{Elimination, SparseMatrix, indefinite_row, largest};
 
 /// Relative difference of mirrored entries up to which a matrix counts as symmetric.
 pub(super) const SYMMETRIC: f64 = 1e-9;
@@ -55,19 +55,23 @@ fn check_symmetric(
 }
 
 /// Error unless the mass matrix is symmetric and positive semi-definite.
-pub(crate) fn check_mass(mass: &SparseMatrix) -> Result<()> {
-    check_semi_definite("mass matrix", mass)
+pub(crate) fn check_mass(mass: &SparseMatrix, elimination: &Elimination) -> Result<()> {
+    check_semi_definite("mass matrix", mass, elimination)
 }
 
 /// Error unless the damping matrix is symmetric and positive semi-definite.
-pub(crate) fn check_damping(damping: &SparseMatrix) -> Result<()> {
-    check_semi_definite("damping matrix", damping)
+pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -> Result<()> {
+    check_semi_definite("damping matrix", damping, elimination)
 }
 
-fn check_semi_definite(name: &'static str, matrix: &SparseMatrix) -> Result<()> {
+fn check_semi_definite(
+    name: &'static str,
+    matrix: &SparseMatrix,
+    elimination: &Elimination,
+) -> Result<()> {
     check_mirrored(name, matrix)?;
     let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
-    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest) {
+    match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest, elimination) {
         Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
         None => Ok(()),
     }

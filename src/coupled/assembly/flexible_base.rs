@@ -213,7 +213,8 @@ impl UnseenShape {
             return None;
         }
         let springs = SparseMatrix::new(NAME, &springs).ok()?;
-        let mut factor = SparseFactor::new(NAME, &seen).ok()?;
+        let seen = SparseMatrix::new(NAME, &seen).ok()?;
+        let mut factor = SparseFactor::of(NAME, &seen, &assembled.elimination).ok()?;
         // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the
         // smallest.
         let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();

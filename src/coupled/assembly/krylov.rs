@@ -41,6 +41,8 @@ const LOWEST: f64 = 1e-6;
 /// Largest number of steps over which responses are compared.
 const LONGEST: usize = 10_000;
 
+const DYNAMIC: &str = "dynamic stiffness matrix";
+
 /// Number of times at which the structure's own load is sampled.
 const SAMPLES: u32 = 16;
 
@@ -223,8 +225,8 @@ impl<'a> Reduction<'a> {
         let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
         shifts.filter(move |shift| *shift < stiffest).map(move |shift| {
             let terms = [(shift * shift, mass), (1.0, stiffness)];
-            let matrix = SparseMatrix::weighted_sum(mass.order(), &terms);
-            SparseFactor::new("dynamic stiffness matrix", &matrix)
+            let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
+            SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
         })
     }
 

@@ -111,8 +111,7 @@ fn cause(
 ) -> Error {
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, stiffness), (1.0, tangent)];
-    let sum = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
-    let sum = SparseMatrix::new("stiffness matrix", &sum).ok();
+    let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
     let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
     found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }

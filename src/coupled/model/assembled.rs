@@ -17,7 +17,7 @@ use crate::coupled::model::supports;
 use crate::error::{Error, Result, at_least};
 use crate::geometry::Patch;
 use crate::linalg::matrix::spread;
-use crate::linalg::{Partition, SparseFactor, SparseMatrix, dot};
+use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
     check_stiffness, stiffest,
@@ -38,6 +38,8 @@ pub(crate) struct Assembled {
     at_rest: Option<SparseMatrix>,
     pub(crate) base: PlacedBase,
     pub(crate) influence: Arc<Influence>,
+    /// Order in which the factors of these matrices are eliminated.
+    pub(crate) elimination: Elimination,
 }
 
 impl Assembled {
@@ -53,10 +55,11 @@ impl Assembled {
             SparseMatrix::assembled(name, dofs, fill)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
-        check_mass(&mass)?;
+        let elimination = Elimination::default();
+        check_mass(&mass, &elimination)?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
         if !structure.has_active_damping() {
-            check_damping(&damping)?;
+            check_damping(&damping, &elimination)?;
         }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         if !structure.has_active_stiffness() {
@@ -64,11 +67,10 @@ impl Assembled {
         }
         let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
         let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
-        let sum =
-            || SparseMatrix::new("stiffness matrix", &SparseMatrix::weighted_sum(dofs, &terms));
+        let sum = || SparseMatrix::sum("stiffness matrix", dofs, &terms);
         let at_rest = if linear { None } else { Some(sum()?) };
         let influence = Arc::default();
-        let own = Self { linear, mass, damping, stiffness, at_rest, base, influence };
+        let own = Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination };
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
         let (influence, held) = own.find_influence().map_err(|error| match error {
@@ -82,7 +84,17 @@ impl Assembled {
     pub(crate) fn on(&self, base: PlacedBase) -> Self {
         let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
         let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
-        Self { linear: self.linear, mass, damping, stiffness, at_rest, base, influence }
+        let elimination = self.elimination.clone();
+        Self {
+            linear: self.linear,
+            mass,
+            damping,
+            stiffness,
+            at_rest,
+            base,
+            influence,
+            elimination,
+        }
     }
 
     /// Number of degrees of freedom.
@@ -169,11 +181,11 @@ impl Assembled {
         let stiffest = stiffest(stiffness);
         let spring = stiffest.max(self.base_inertia() / (SWAY * SWAY));
         let held = HeldBase::new(self.base.nodes(), stiffness, spring);
-        let mut factor = held.factor()?;
+        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let mut factor = SparseFactor::of(HeldBase::NAME, &matrix, &self.elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
-        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
         let solved = held.pulls().into_iter().map(|pull| {
             let mut found = pull.clone();
             factor.solve(&mut found);

@@ -12,6 +12,7 @@ use crate::coupled::base::influence::Influence;
 use crate::coupled::base::transformation::{ModalBasis, Terms, Transformation};
 use crate::coupled::model::assembled::Assembled;
 use crate::error::Result;
+use crate::linalg::Elimination;
 use crate::linalg::matrix::{Diagonals, Matrix};
 use crate::structure::Structure;
 use std::sync::Arc;
@@ -30,6 +31,8 @@ pub(crate) struct Model {
     /// Influence vectors in stepping coordinates.
     pub(crate) influence: Arc<Influence>,
     pub(crate) transformation: Transformation,
+    /// Order in which factors in degrees of freedom are eliminated.
+    pub(crate) elimination: Elimination,
 }
 
 impl Model {
@@ -47,6 +50,7 @@ impl Model {
             linear: assembled.linear,
             influence: assembled.influence.clone(),
             transformation: Transformation::Identity,
+            elimination: assembled.elimination.clone(),
         }
     }
 

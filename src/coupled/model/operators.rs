@@ -104,7 +104,8 @@ impl Factor {
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
     ) -> Result<Box<SparseFactor>> {
-        SparseFactor::new(NAME, &effective_stiffness(model, coefficients, tangent)).map(Box::new)
+        let matrix = SparseMatrix::new(NAME, &effective_stiffness(model, coefficients, tangent))?;
+        SparseFactor::of(NAME, &matrix, &model.elimination).map(Box::new)
     }
 
     /// Inverts K_eff of modes.

@@ -2,7 +2,7 @@
 
 use crate::coupled::base::PlacedBase;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseMatrix, indefinite_row};
+use crate::linalg::{Elimination, SparseMatrix, indefinite_row};
 use crate::structure::{HeldBase, Triplets, stiffest};
 
 /// Stiffness of springs that hold the base and of constraints, relative to the largest stiffness.
@@ -24,7 +24,7 @@ pub(crate) fn check_signs(
         return Ok(());
     }
     let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), held.spring)?;
-    match indefinite_row(&constrained, ROUNDING, ROUNDING * tie) {
+    match indefinite_row(&constrained, ROUNDING, ROUNDING * tie, &Elimination::default()) {
         Some(row) => {
             let diagonal = stiffness.diagonal()[row];
             Err(Error::Indefinite { matrix: HeldBase::NAME, row, diagonal })

@@ -351,9 +351,8 @@ impl Compliance {
         epsilon: f64,
     ) -> Result<Self> {
         let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
-        let matrix = SparseMatrix::weighted_sum(assembled.dofs(), &terms);
-        let factor = SparseFactor::new(NAME, &matrix)?;
-        let matrix = SparseMatrix::new(NAME, &matrix)?;
+        let matrix = SparseMatrix::sum(NAME, assembled.dofs(), &terms)?;
+        let factor = SparseFactor::of(NAME, &matrix, &assembled.elimination)?;
         let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
         let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.dofs());
         Ok(Self { matrix, factor, columns, delassus: delassus.into() })

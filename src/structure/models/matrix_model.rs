@@ -1,7 +1,7 @@
 //! Structures of given matrices.
 
 use crate::error::{Result, at_least, same_length};
-use crate::linalg::SparseMatrix;
+use crate::linalg::{Elimination, SparseMatrix};
 use crate::structure::matrix_checks::{check_damping, check_mass};
 use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Structure, Triplets};
 
@@ -77,7 +77,7 @@ impl MatrixModel {
     pub fn new(mass: Triplets, stiffness: Triplets, base: impl Into<Base>) -> Result<Self> {
         let order = mass.order();
         at_least("mass matrix", order, 1)?;
-        check_mass(&SparseMatrix::new("mass matrix", &mass)?)?;
+        check_mass(&SparseMatrix::new("mass matrix", &mass)?, &Elimination::default())?;
         check("stiffness matrix", &stiffness, order)?;
         let (base, damping) = (base.into(), Triplets::new(order));
         base.check(order)?;
@@ -137,7 +137,7 @@ impl MatrixModel {
     /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a matrix that is not symmetric,
     /// [`Error::Indefinite`](crate::Error::Indefinite) for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
-        check_damping(&check(DAMPING, &damping, self.mass.order())?)?;
+        check_damping(&check(DAMPING, &damping, self.mass.order())?, &Elimination::default())?;
         Ok(Self { damping, active: false, ..self })
     }
 

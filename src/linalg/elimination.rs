@@ -1,0 +1,154 @@
+//! Order of elimination of sparse symmetric matrices.
+
+use std::sync::{Arc, OnceLock};
+
+use faer::Side;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+
+use super::dissection::dissection;
+
+/// Places of the entries, by columns.
+type Pattern<'a> = SymbolicSparseColMatRef<'a, usize>;
+
+/// Entries of a factor from which another order of elimination is tried.
+///
+/// Below, numeric factors cost less than that order.
+const LARGE: usize = 1_500_000;
+
+/// Order of elimination that matrices of one structure share.
+///
+/// Empty until a factor of many entries has chosen it. Matrices with few entries in their factors do not need it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Elimination(Arc<OnceLock<Order>>);
+
+/// Rows in the order of elimination, and the place of each row.
+#[derive(Debug)]
+struct Order {
+    rows: Vec<usize>,
+    places: Vec<usize>,
+}
+
+impl Elimination {
+    /// Symbolic factor in the shared order, or in the order of minimum degree while there is none.
+    ///
+    /// The first factor of many entries chooses the shared order: by dissection, if its factor has fewer entries.
+    pub(super) fn analyse(&self, pattern: Pattern<'_>) -> Option<SymbolicCholesky<usize>> {
+        if let Some(order) = self.0.get().filter(|order| order.rows.len() == pattern.ncols()) {
+            return symbolic_in(pattern, order.as_symmetric());
+        }
+        let found = symbolic_in(pattern, SymmetricOrdering::Amd)?;
+        if found.len_val() < LARGE {
+            return Some(found);
+        }
+        let Some(dissected) = Order::by_dissection(pattern) else { return Some(found) };
+        let other = symbolic_in(pattern, dissected.as_symmetric())?;
+        let is_better = other.len_val() < found.len_val();
+        let by_degree = |found: &SymbolicCholesky<usize>| {
+            let (rows, places) = found.perm()?.arrays();
+            Some(Order { rows: rows.to_vec(), places: places.to_vec() })
+        };
+        let order = if is_better { Some(dissected) } else { by_degree(&found) };
+        if let Some(order) = order {
+            // Another factor may have chosen meanwhile.
+            let _ = self.0.set(order);
+        }
+        Some(if is_better { other } else { found })
+    }
+}
+
+impl Order {
+    fn by_dissection(pattern: Pattern<'_>) -> Option<Self> {
+        let rows = dissection(
+            pattern.ncols(),
+            |column| pattern.row_idx_of_col_raw(column),
+            by_minimum_degree,
+        )?;
+        let mut places = vec![0; rows.len()];
+        rows.iter().enumerate().for_each(|(place, &row)| places[row] = place);
+        Some(Self { rows, places })
+    }
+
+    fn as_symmetric(&self) -> SymmetricOrdering<'_, usize> {
+        let order = PermRef::new_checked(&self.rows, &self.places, self.rows.len());
+        SymmetricOrdering::Custom(order)
+    }
+}
+
+fn symbolic_in(
+    pattern: Pattern<'_>,
+    order: SymmetricOrdering<'_, usize>,
+) -> Option<SymbolicCholesky<usize>> {
+    let parameters = CholeskySymbolicParams::default();
+    factorize_symbolic_cholesky(pattern, Side::Lower, order, parameters).ok()
+}
+
+/// Vertices of a graph by minimum degree; the graph is given as a symmetric pattern.
+fn by_minimum_degree(start: &[usize], neighbours: &[usize]) -> Option<Vec<usize>> {
+    let count = start.len() - 1;
+    let [mut order, mut places] = [(); 2].map(|()| vec![0; count]);
+    let pattern = Pattern::new_checked(count, count, start, None, neighbours);
+    let scratch = amd::order_maybe_unsorted_scratch::<usize>(count, neighbours.len());
+    let mut buffer = MemBuffer::new(scratch);
+    let (control, stack) = (amd::Control::default(), MemStack::new(&mut buffer));
+    amd::order_maybe_unsorted(&mut order, &mut places, pattern, control, stack).ok()?;
+    Some(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::{SparseFactor, SparseMatrix, Triplets};
+
+    /// A cube of `side`³ masses, each joined to its 26 neighbours by springs and to the ground by one.
+    fn cube(side: usize, spring: f64) -> SparseMatrix {
+        let mut matrix = Triplets::new(side.pow(3));
+        let place = |v: usize| [v % side, v / side % side, v / side / side];
+        for v in 0..side.pow(3) {
+            matrix.add(v, v, 0.1);
+            let [x, y, z] = place(v);
+            for u in (0..27).map(|k| [x + k % 3, y + k / 3 % 3, z + k / 9]) {
+                // One more than the neighbour's place.
+                if u.iter().all(|k| (1..=side).contains(k)) {
+                    let u = u[0] - 1 + side * (u[1] - 1 + side * (u[2] - 1));
+                    if u > v {
+                        matrix.add_spring(u, v, spring);
+                    }
+                }
+            }
+        }
+        SparseMatrix::new("cube", &matrix).unwrap()
+    }
+
+    /// Factors of a few entries keep the order of minimum degree; of many entries they share a better one.
+    #[test]
+    fn factors_of_many_entries_share_an_order_with_fewer() {
+        let elimination = Elimination::default();
+        SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
+        assert!(elimination.0.get().is_none());
+        let matrix = cube(20, 1.0);
+        let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
+        let mut stored = Vec::new();
+        for spring in [1.0, 7.0] {
+            let matrix = cube(20, spring);
+            let mut factor = SparseFactor::of("cube", &matrix, &elimination).unwrap();
+            let mut found = vec![0.0; 8000];
+            matrix.multiply_add(1.0, &x, &mut found);
+            factor.solve(&mut found);
+            assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
+            stored.push(factor.stored());
+        }
+        let order = elimination.0.get().unwrap();
+        assert_eq!((order.rows.len(), stored[0]), (8000, stored[1]));
+        let columns = crate::linalg::sparse::by_columns(&matrix);
+        let amd = symbolic_in(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
+        assert!(amd.len_val() > LARGE && 3 * stored[0] < 2 * amd.len_val(), "{stored:?}");
+        // A matrix of another order chooses its own.
+        SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
+    }
+}

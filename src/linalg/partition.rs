@@ -1,0 +1,67 @@
+//! Disjoint sets of numbers, such as the parts of a structure.
+
+use crate::linalg::SparseMatrix;
+
+/// Disjoint sets of the numbers below an order (union–find).
+pub(crate) struct Partition(Vec<usize>);
+
+impl Partition {
+    /// Sets of one number each.
+    pub(crate) fn new(order: usize) -> Self {
+        Self((0..order).collect())
+    }
+
+    /// The smallest number in the set of `index`.
+    pub(crate) fn root(&mut self, mut index: usize) -> usize {
+        while self.0[index] != index {
+            self.0[index] = self.0[self.0[index]];
+            index = self.0[index];
+        }
+        index
+    }
+
+    /// Merges the sets of two numbers.
+    pub(crate) fn join(&mut self, first: usize, second: usize) {
+        let (a, b) = (self.root(first), self.root(second));
+        self.0[a.max(b)] = a.min(b);
+    }
+
+    /// Merges the sets of all pairs that a nonzero entry of `matrix` couples.
+    pub(crate) fn couple(&mut self, matrix: &SparseMatrix) {
+        for (row, column, value) in matrix.entries() {
+            if value != 0.0 {
+                self.join(row, column);
+            }
+        }
+    }
+
+    /// The sets, ordered by their smallest numbers, each ascending.
+    pub(crate) fn sets(&mut self) -> Vec<Vec<usize>> {
+        let mut sets = vec![Vec::new(); self.0.len()];
+        for index in 0..self.0.len() {
+            sets[self.root(index)].push(index);
+        }
+        sets.retain(|set| !set.is_empty());
+        sets
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::Triplets;
+
+    #[test]
+    fn coupled_numbers_are_one_set() {
+        let mut matrix = Triplets::new(6);
+        matrix.add_spring(5, 1, 2.0);
+        matrix.add(1, 3, 1e-300);
+        // An entry that cancels couples nothing.
+        matrix.add(0, 4, 1.0);
+        matrix.add(0, 4, -1.0);
+        let mut partition = Partition::new(6);
+        partition.couple(&SparseMatrix::new("test", &matrix).unwrap());
+        assert_eq!(partition.sets(), [vec![0], vec![1, 3, 5], vec![2], vec![4]]);
+        assert_eq!(partition.root(5), 1);
+    }
+}
