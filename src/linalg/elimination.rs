@@ -147,7 +147,7 @@ mod tests {
         assert_eq!((order.rows.len(), stored[0]), (8000, stored[1]));
         let columns = crate::linalg::sparse::by_columns(&matrix);
         let amd = symbolic_in(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
-        assert!(amd.len_val() > LARGE && 3 * stored[0] < 2 * amd.len_val(), "{stored:?}");
+        assert!(amd.len_val() > LARGE && 5 * stored[0] < 4 * amd.len_val(), "{stored:?}");
         // A matrix of another order chooses its own.
         SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
     }
