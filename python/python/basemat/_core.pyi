@@ -1390,7 +1390,7 @@ class Run(Summary):
         self,
         folder: str | os.PathLike[str],
         name: str,
-        structure: _Structure | None = None,
+        structure: _Structure | DeformedShape | None = None,
         *,
         height: float | None = None,
     ) -> int:
