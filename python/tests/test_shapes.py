@@ -5,6 +5,7 @@ REFERENCE: rows of the structures themselves, rigid rotations by hand, the data 
 
 from __future__ import annotations
 
+import io
 import pickle
 from pathlib import Path
 
@@ -188,4 +189,39 @@ def test_animations_draw_only_what_moves() -> None:
     places = shape.points + 30.0 * shape.displacements(run.motion["displacement"][-1])
     found = np.concatenate([path.vertices for path in structure.get_paths()])
     assert found[:, 0].max() == pytest.approx(places[:, 0].max(), rel=1e-9)
+    pyplot.close("all")
+
+
+def test_saved_frames_are_full_drawings(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib").use("agg")
+    from matplotlib import pyplot
+    from PIL import Image
+
+    ground = bm.ElasticGround.under(SOIL, BUILDING, 8)
+    simulation = bm.Simulation(0.01, BUILDING, ground, bm.Coulomb(0.3), motion=bm.el_centro_1940().scaled(1.5))
+    moving = simulation.run(250, contact_every=50, motion_every=50).animate(structure=BUILDING, frames=3, title="three")
+    figure = moving._fig
+
+    def drawn(frame: int) -> np.ndarray:
+        moving._func(frame)
+        file = io.BytesIO()
+        figure.savefig(file, format="rgba")
+        width, height = figure.canvas.get_width_height()
+        return np.frombuffer(file.getvalue(), np.uint8).reshape(height, width, 4)[..., :3].astype(float)
+
+    def changed(one: np.ndarray, other: np.ndarray) -> float:
+        """Fraction of the pixels that differ by more than the palette of a GIF makes."""
+        return float((np.abs(one - other).max(axis=2) > 80.0).mean())
+
+    before = [drawn(frame) for frame in range(3)]
+    assert changed(before[0], before[2]) > 5e-3
+    moving.save(tmp_path / "moving.gif")
+    with Image.open(tmp_path / "moving.gif") as file:
+        assert file.n_frames == 3  # type: ignore[attr-defined]
+        for frame, whole in enumerate(before):
+            file.seek(frame)
+            saved = np.asarray(file.convert("RGB"), dtype=float)
+            assert saved.shape == whole.shape and changed(saved, whole) < 2e-4
+    # The figure is as it was.
+    assert np.array_equal(drawn(1), before[1])
     pyplot.close("all")
