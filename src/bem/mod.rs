@@ -13,6 +13,8 @@
 
 mod elastic_ground;
 mod elastic_source;
+#[cfg(feature = "embedded")]
+pub mod embedded;
 #[cfg(feature = "full-plane")]
 pub mod full_plane;
 mod influence;

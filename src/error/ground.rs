@@ -34,6 +34,18 @@ pub enum GroundError {
         /// Largest wavenumber that is allowed, 1/m.
         most: f64,
     },
+    /// A guided wave of undamped layers around a trench, near its cut-off frequency.
+    #[error(
+        "a guided wave of the layers around the trench begins near s = {re} + {im}i 1/s, and the model of the \
+         half-plane below does not absorb it (give every layer some damping: 0.2 % are enough; another frequency \
+         may also do)"
+    )]
+    GuidedWave {
+        /// Re s, 1/s.
+        re: f64,
+        /// Im s, 1/s.
+        im: f64,
+    },
     /// A boundary equation whose perturbations grow from step to step.
     #[error(
         "the boundary equation is unstable with this time step: {growing_modes} modes grow, the \

@@ -187,7 +187,7 @@ impl ContactElement {
     }
 }
 
-#[cfg(test)]
+#[cfg(any(test, feature = "embedded"))]
 impl ContactElement {
     /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
     pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {

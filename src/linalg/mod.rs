@@ -2,6 +2,8 @@
 //!
 //! Everything runs sequentially. A factor allocates the workspace of its solves when it is made.
 
+#[cfg(feature = "embedded")]
+mod block;
 mod complex;
 mod condition;
 mod dense;
@@ -19,6 +21,8 @@ mod product;
 mod sparse;
 mod triplets;
 
+#[cfg(feature = "embedded")]
+pub(crate) use block::Block;
 pub use complex::Complex;
 pub(crate) use condition::{dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;

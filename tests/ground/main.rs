@@ -1,5 +1,6 @@
 //! Half-plane and layered ground: kernels, convolution histories, passivity, site response.
 
+mod embedded;
 mod equivalent_linear;
 mod history;
 mod history_exponentials;

@@ -1,0 +1,113 @@
+//! Impedances and kinematic motion of a rigid block in a trench as deep as half its width.
+
+use basemat::bem::embedded::{Trench, TrenchGround};
+use basemat::{Complex, Soil, unobserved};
+use plotters::prelude::SeriesLabelPosition;
+
+use super::outcome::{Case, Check, Outcome, worse};
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, Panel, RED};
+use basemat_problems::table;
+
+pub(crate) const CASE: Case = Case {
+    name: "embedded",
+    title: "Rigid block in a trench",
+    reference: "finite elements of degree 8 and collocation boundary elements, which agree to 2.5e-4",
+    settings: "10, 20, 40 cosine-graded elements, d = b, ν = 1/3, 0.25 ≤ ωb/c_S ≤ 3",
+    run,
+};
+
+/// Stiffness (hh, vv, rr, hr), and horizontal motion and rotation of the block without mass, at each frequency.
+struct Curves {
+    frequencies: Vec<f64>,
+    values: Vec<[Complex; 6]>,
+}
+
+fn tabled() -> Curves {
+    let stiffness = table("embedded/impedance_embedded_nu0333.csv");
+    let motion = table("embedded/kinematic_embedded_nu0333.csv");
+    let columns =
+        ["a0", "re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let stiffness = stiffness.rows(columns);
+    let motion = motion.rows(["re_ux", "im_ux", "re_theta", "im_theta"]);
+    let complex = |parts: &[f64]| Complex::new(parts[0], parts[1]);
+    let row = |(k, u): (&[f64; 9], &[f64; 4])| {
+        let mut all = k[1..].chunks(2).chain(u.chunks(2)).map(complex);
+        std::array::from_fn(|_| all.next().unwrap_or_default())
+    };
+    let values = stiffness.iter().zip(&motion).map(row).collect();
+    Curves { frequencies: stiffness.iter().map(|row| row[0]).collect(), values }
+}
+
+fn found(base: usize, wall: usize, a0: &[f64]) -> basemat::Result<Vec<[Complex; 6]>> {
+    let soil = Soil::new(1.0, 1.0 / 3.0, 1.0)?;
+    let ground = TrenchGround::new(soil, Trench::new(-1.0..1.0, 1.0)?.elements(base, wall)?)?;
+    let frequencies: Vec<f64> = a0.iter().map(|a0| a0 / std::f64::consts::TAU).collect();
+    let stiffness = ground.impedances(&frequencies, &mut unobserved)?;
+    let motions = ground.kinematic_motions(&frequencies, &mut unobserved)?;
+    let row =
+        |(k, u): (
+            &basemat::bem::layered::StripImpedance,
+            &basemat::bem::embedded::KinematicMotion,
+        )| { [k.horizontal, k.vertical, k.rocking, k.coupling, u.horizontal, u.rotation] };
+    Ok(stiffness.iter().zip(&motions).map(row).collect())
+}
+
+/// Largest errors: of hh, vv, rr relative to each, of hr to the mean of hh and rr, of motions to the horizontal one.
+fn errors(found: &[[Complex; 6]], wanted: &[[Complex; 6]]) -> [f64; 6] {
+    let mut worst = [0.0; 6];
+    for (found, wanted) in found.iter().zip(wanted) {
+        let mean = (wanted[0].abs() * wanted[2].abs()).sqrt();
+        for k in 0..6 {
+            let size =
+                [wanted[k].abs(), mean, wanted[4].abs()][usize::from(k > 2) + usize::from(k > 3)];
+            worst[k] = worse(worst[k], (found[k] - wanted[k]).abs() / size);
+        }
+    }
+    worst
+}
+
+fn run(short: bool) -> Result<Outcome, AnyError> {
+    let Curves { frequencies, values } = tabled();
+    let step = if short { 4 } else { 1 };
+    let frequencies: Vec<f64> = frequencies.into_iter().skip(1).step_by(step).collect();
+    let wanted: Vec<_> = values.into_iter().skip(1).step_by(step).collect();
+    let names = ["horizontal", "vertical", "rocking", "coupling", "motion", "rotation"];
+    let meshes = [
+        ([4, 3], [2e-2, 2e-2, 4e-2, 1e-2, 1e-2, 1e-2]),
+        ([8, 6], [5e-3, 5e-3, 5e-3, 5e-3, 1.5e-3, 1.5e-3]),
+        ([16, 12], [1.2e-3, 1.2e-3, 1.2e-3, 1.2e-3, 4e-4, 4e-4]),
+    ];
+    let meshes = if short { &meshes[..2] } else { &meshes[..] };
+    let mut checks = vec![];
+    let mut shown = vec![];
+    for ([base, wall], limits) in meshes {
+        shown = found(*base, *wall, &frequencies)?;
+        let count = base + 2 * wall;
+        let each = names.into_iter().zip(errors(&shown, &wanted)).zip(limits);
+        checks.extend(each.map(|((name, error), limit)| {
+            Check::below(format!("{count} elements, {name}"), error, *limit)
+        }));
+    }
+    let titles = [
+        "horizontal: K_hh/μ",
+        "vertical: K_vv/μ",
+        "rocking: K_rr/(μb²)",
+        "motion of the base: u/u_surface",
+    ];
+    let panels = titles.iter().zip([0, 1, 2, 4]).map(|(title, k)| {
+        let mut panel = Panel::new("a₀ = ωb/c_S", title).room(0.05, 0.85);
+        panel = panel.legend(SeriesLabelPosition::UpperMiddle);
+        for (part, name, color) in [(0, "Re", BLUE), (1, "Im", RED)] {
+            let line = |rows: &[[Complex; 6]]| -> Vec<(f64, f64)> {
+                let value = |own: &[Complex; 6]| [own[k].re, own[k].im][part];
+                frequencies.iter().zip(rows).map(|(a0, own)| (*a0, value(own))).collect()
+            };
+            panel = panel.reference(&format!("{name}, table"), color, line(&wanted));
+            panel = panel.line(&format!("{name}, basemat"), color, line(&shown));
+        }
+        panel
+    });
+    let title = "Rigid block welded in a trench of depth b and half width b, ν = 1/3";
+    Ok(Outcome { checks, figure: Figure::new(title, 2, panels.collect()) })
+}

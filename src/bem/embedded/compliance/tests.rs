@@ -1,0 +1,125 @@
+use super::*;
+use crate::bem::embedded::{Trench, TrenchGround};
+use crate::linalg::{Complex, hermitian_range};
+use crate::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Soil, SoilProfile};
+use basemat_problems::random::Random;
+
+fn soil(speed: f64, density: f64) -> Soil {
+    Soil::from_shear_wave_speed(speed, 1.0 / 3.0, density).unwrap()
+}
+
+/// Columns one by one, and 2³ by three doublings.
+#[test]
+fn doubled_columns_are_columns_side_by_side() {
+    let s = Complex64::new(0.3, 2.0);
+    let moduli = |shear: f64| Moduli {
+        shear: Complex64::new(shear, 0.1 * shear),
+        lame: Complex64::new(1.5 * shear, 0.15 * shear),
+        inertia: s * s,
+    };
+    let layer = |height: f64, soil, degree| Layer { height: Complex64::from(height), soil, degree };
+    let stack = Stack(vec![layer(0.3, 0, 3), layer(0.7, 0, 3), layer(1.5, 1, 4)]);
+    let none = Loads { count: 0, first: None };
+    let soils = [moduli(1.0), moduli(4.0)];
+    let elements = Elements::new(3, [3, 4]);
+    let column = elements.column(0.4, &stack, &soils, none).unwrap();
+    let nodes = stack.nodes();
+    let mut side = Side { matrix: column.mean(1.0), nodes, loads: 0 };
+    for _ in 1..8 {
+        side = side.beside(&column, nodes, 0, None).unwrap();
+    }
+    let mut row = column;
+    for _ in 0..3 {
+        row = doubled(&row.mean(1.0), &row.mean(-1.0), nodes).unwrap();
+    }
+    let found = row.mean(1.0);
+    let entries = found.values().iter().zip(side.matrix.values());
+    let worst = entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
+    assert!(worst < 1e-12 * found.largest(), "{worst:e}");
+}
+
+/// Coarse elements on rigid bedrock, with layers and backfill: the mobility is positive real at any s.
+#[test]
+fn mobility_is_positive_at_random_places() {
+    let mut random = Random(45);
+    let law = GeneralizedMaxwell::constant_q(0.05, [0.01, 10.0], 1.0).unwrap();
+    let mut least = f64::INFINITY;
+    for depth in [0.25, 0.5, 1.0, 2.0] {
+        let profile = SoilProfile::on_rigid_bedrock()
+            .with_layer(soil(1.0, 1.0), 1.2)
+            .unwrap()
+            .with_damping(law.clone())
+            .with_layer(soil(2.0, 1.2), 1.8)
+            .unwrap();
+        let elements = Trench::new(-1.0..1.0, depth).unwrap().elements(6, 4).unwrap();
+        let ground = TrenchGround::new(profile, elements).unwrap();
+        let filled = ground.clone().with_backfill(0.5, soil(0.5, 1.0), law.clone()).unwrap();
+        for ground in [ground, filled] {
+            for _ in 0..5 {
+                let s = Complex::new(random.log_within(1e-3, 10.0), random.within(-20.0, 20.0));
+                let found = ground.compliances(s, &ground.mesh_of_depth(s, 24.0, 2)).unwrap();
+                for half in [found.symmetric, found.antisymmetric] {
+                    let order = half.rows();
+                    let mobility: Vec<_> = half.values().iter().map(|f| f * s.inner()).collect();
+                    for i in 0..order {
+                        for j in 0..i {
+                            assert_eq!(half[(i, j)], half[(j, i)]);
+                        }
+                    }
+                    let [low, high] = hermitian_range(&mobility, order).unwrap();
+                    least = least.min(low / high);
+                }
+            }
+        }
+    }
+    println!("least eigenvalue relative to the greatest: {least:e}");
+    assert!(least > 0.0, "{least:e}");
+}
+
+/// Without depth, of degree 6, extrapolated from 16 and 32 elements as the table was.
+#[test]
+fn strips_on_a_damped_layer_match_the_table() {
+    let soil = Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap();
+    let profile = SoilProfile::on_rigid_bedrock()
+        .with_layer(soil, 2.0)
+        .unwrap()
+        .with_damping(Hysteretic::new(0.05).unwrap());
+    let names = ["re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
+    let table = basemat_problems::table("layered/impedance_P3_layer_on_rigid_base.csv");
+    for a0 in ["0.785398163", "2"] {
+        let row = table.row("a0", a0, names);
+        let s = Complex::new(0.0, a0.parse().unwrap());
+        let [coarse, fine] = [16, 32].map(|count| {
+            let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(count, 0).unwrap();
+            let ground = TrenchGround::new(profile.clone(), elements).unwrap();
+            ground.response(s, &ground.mesh_of_depth(s, 24.0, 6)).unwrap()
+        });
+        let wanted: Vec<Complex> = row.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
+        for k in 0..4 {
+            let found = (fine[k].scale(4.0) - coarse[k]).scale(1.0 / 3.0);
+            let mean = (wanted[0].abs() * wanted[2].abs()).sqrt();
+            let size = if k == 3 { mean } else { wanted[k].abs() };
+            let error = (found - wanted[k]).abs() / size;
+            println!("{a0} {k}: {error:e}");
+            assert!(error < 1e-6, "{a0} {k}: {error:e}");
+        }
+    }
+}
+
+/// An elastic layer on rock three times as fast: guided waves decay as Re s only, and need a deep bottom.
+#[test]
+fn the_bottom_is_as_deep_as_guided_waves_need() {
+    let profile = SoilProfile::on_half_plane(soil(3.0, 1.2))
+        .with_bedrock_damping(Elastic)
+        .with_layer(soil(1.0, 1.0), 2.0)
+        .unwrap();
+    let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(4, 3).unwrap();
+    let ground = TrenchGround::new(profile, elements).unwrap();
+    let s = Complex::new(1e-3, 3.75);
+    let at = |depth: f64| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap();
+    let [shallow, deep, deeper] = [24.0, 48.0, 64.0].map(at);
+    assert!(shallow.difference(&deeper) > 1e-2, "{:e}", shallow.difference(&deeper));
+    assert!(deep.difference(&deeper) < 1e-8, "{:e}", deep.difference(&deeper));
+    let chosen = ground.compliances(s, &ground.mesh(s).unwrap()).unwrap();
+    assert!(chosen.difference(&deeper) < 1e-6, "{:e}", chosen.difference(&deeper));
+}

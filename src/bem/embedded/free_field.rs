@@ -1,0 +1,73 @@
+//! Vertical waves in the soil beside a trench: displacement and stress at the depths of its faces.
+
+use realfft::num_complex::Complex64;
+
+/// Piece of the profile: its height (m), modulus M of the wave (Pa) and ρ s².
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece {
+    pub(super) height: f64,
+    pub(super) modulus: Complex64,
+    pub(super) inertia: Complex64,
+}
+
+/// Displacement u and stress M ∂u/∂z, z down, of a vertical wave that moves the surface by one.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct VerticalField {
+    pub(super) displacement: Complex64,
+    pub(super) stress: Complex64,
+}
+
+impl VerticalField {
+    /// At the free surface.
+    pub(super) const SURFACE: Self = Self { displacement: Complex64::ONE, stress: Complex64::ZERO };
+
+    /// The field at the bottom of a piece that has this field at its top, and its integrals over the piece.
+    pub(super) fn below(self, piece: Piece) -> (Self, Self) {
+        let Self { displacement, stress } = self;
+        let Piece { height, modulus, inertia } = piece;
+        let travel = (inertia / modulus).sqrt() * height;
+        // sinh(κh)/κ, cosh(κh) and (cosh(κh) − 1)/κ².
+        let ratio = sinh_ratio(travel) * height;
+        let half = sinh_ratio(travel * 0.5) * height;
+        let cosh = travel.cosh();
+        let below = Self {
+            displacement: displacement * cosh + stress / modulus * ratio,
+            stress: stress * cosh + displacement * inertia * ratio,
+        };
+        let integrals = Self {
+            displacement: displacement * ratio + stress / modulus * half * half * 0.5,
+            stress: stress * ratio + displacement * inertia * half * half * 0.5,
+        };
+        (below, integrals)
+    }
+}
+
+/// sinh(x)/x.
+fn sinh_ratio(x: Complex64) -> Complex64 {
+    if x.norm() < 1e-3 { Complex64::ONE + x * x / 6.0 } else { x.sinh() / x }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Homogeneous soil: u = cos(ωz/c), stress −μ (ω/c) sin(ωz/c), in pieces as at once.
+    #[test]
+    fn vertical_waves_of_homogeneous_soil_are_standing() {
+        for omega in [1e-5_f64, 1e-3, 0.7, 3.0] {
+            let inertia = Complex64::from(-1.5 * omega * omega);
+            let piece = |height: f64| Piece { height, modulus: Complex64::from(2.5), inertia };
+            let k = omega * (1.5_f64 / 2.5).sqrt();
+            let (middle, upper) = VerticalField::SURFACE.below(piece(0.4));
+            let (found, lower) = middle.below(piece(0.9));
+            let close = |found: Complex64, wanted: f64| {
+                assert!((found - wanted).norm() < 1e-12 * (1.0 + wanted.abs()), "{found} {wanted}");
+            };
+            let (sine, cosine) = (k * 1.3).sin_cos();
+            close(found.displacement, cosine);
+            close(found.stress / (k * k), -2.5 * sine / k);
+            close(upper.displacement + lower.displacement, sine / k);
+            close((upper.stress + lower.stress) / (k * k), -5.0 * ((k * 0.65).sin() / k).powi(2));
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! Trenches and the contact elements of their faces.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use crate::error::{Result, finite, not_negative, positive, require_part};
+use crate::geometry::{ContactElement, PLANE, check_count};
+
+/// Rectangular trench in the surface of the ground, in the plane: its sides and its depth.
+///
+/// ```
+/// use basemat::bem::embedded::Trench;
+/// let trench = Trench::new(-6.0..6.0, 5.0)?;
+/// // Eight elements of the base, six of each wall.
+/// let elements = trench.elements(8, 6)?;
+/// assert_eq!(elements.elements().len(), 20);
+/// // Along the outline: down the left wall, to the right along the base, up the right wall.
+/// assert_eq!(elements.elements()[0].directions()[0], [-1.0, 0.0, 0.0]);
+/// assert!((elements.elements()[6].center()[2] + 5.0).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "TrenchForm"))]
+pub struct Trench {
+    left: f64,
+    right: f64,
+    depth: f64,
+}
+
+validated! {
+    Trench as TrenchForm { left: f64, right: f64, depth: f64 }
+    => Trench::new(left..right, depth)
+}
+
+impl Trench {
+    /// Trench between `sides` (m along x), `depth` metres deep; of depth 0, a strip of the surface.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not finite.
+    pub fn new(sides: Range<f64>, depth: f64) -> Result<Self> {
+        let Range { start: left, end: right } = sides;
+        finite("left side of a trench", left)?;
+        finite("right side of a trench", right)?;
+        positive("width of a trench", right - left)?;
+        not_negative("depth of a trench", depth)?;
+        Ok(Self { left, right, depth })
+    }
+
+    /// Places of the left and the right wall, m.
+    pub fn sides(&self) -> [f64; 2] {
+        [self.left, self.right]
+    }
+
+    /// Depth of the base below the surface, m.
+    pub fn depth(&self) -> f64 {
+        self.depth
+    }
+
+    pub(super) fn half_width(&self) -> f64 {
+        0.5 * (self.right - self.left)
+    }
+
+    /// The faces divided into `base` elements of the base and `wall` elements of each wall.
+    ///
+    /// Elements are shorter towards both ends of each face, where tractions are singular. Impedances converge with
+    /// second order: with 10 elements in all (4 and 3) errors are about 2 %, with 20 (8 and 6) 0.4 %.
+    ///
+    /// # Errors
+    /// [`Error::Scene`](crate::Error::Scene) for a number of base elements that is zero or odd, or for walls without elements, or elements
+    /// of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow.
+    pub fn elements(&self, base: usize, wall: usize) -> Result<TrenchElements> {
+        check_count(base.saturating_add(wall.saturating_mul(2)), PLANE)?;
+        let even = base > 0 && base.is_multiple_of(2);
+        require_part("base elements of a trench", even, "an even number above zero")?;
+        let fits = (wall > 0) == (self.depth > 0.0);
+        require_part(
+            "wall elements of a trench",
+            fits,
+            "some if the trench has a depth, else none",
+        )?;
+        let half = self.half_width();
+        // From the axis outwards; both halves are equal to the last bit.
+        let place = |k: usize| half * (PI * k as f64 / base as f64).sin();
+        let mut outwards: Vec<f64> = (0..=base / 2).map(place).collect();
+        outwards[base / 2] = half;
+        let level = |k: usize| 0.5 * self.depth * (1.0 - (PI * k as f64 / wall as f64).cos());
+        let mut down: Vec<f64> = if wall > 0 { (0..=wall).map(level).collect() } else { vec![0.0] };
+        down[wall] = self.depth;
+        Ok(TrenchElements { trench: *self, base: outwards, wall: down })
+    }
+}
+
+/// Contact elements of the faces of a [`Trench`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrenchElements {
+    trench: Trench,
+    /// Distances of the ends of base elements from the axis, m.
+    base: Vec<f64>,
+    /// Depths of the ends of wall elements, m.
+    wall: Vec<f64>,
+}
+
+impl TrenchElements {
+    /// The trench.
+    pub fn trench(&self) -> &Trench {
+        &self.trench
+    }
+
+    /// The elements along the outline: down the left wall, along the base to the right, up the right wall.
+    ///
+    /// Their normals lead into the soil.
+    pub fn elements(&self) -> Vec<ContactElement> {
+        let Trench { left, right, depth } = self.trench;
+        let middle = 0.5 * (left + right);
+        let bottom = -depth;
+        let mut corners: Vec<[f64; 2]> = self.wall.iter().map(|z| [left, -z]).collect();
+        corners.extend(self.base.iter().rev().skip(1).map(|x| [middle - x, bottom]));
+        corners.extend(self.base.iter().skip(1).map(|x| [middle + x, bottom]));
+        corners.extend(self.wall.iter().rev().skip(1).map(|z| [right, -z]));
+        corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
+    }
+
+    /// Ends of the base elements of the right half, m from the axis.
+    pub(super) fn base(&self) -> &[f64] {
+        &self.base
+    }
+
+    /// Ends of the elements of a wall, m below the surface.
+    pub(super) fn wall(&self) -> &[f64] {
+        &self.wall
+    }
+}

@@ -1,0 +1,173 @@
+//! GOAL: impedances and kinematic motion of rigid bodies in a trench are right up to the mesh, which is of second
+//! order.
+//! SCENE: a block as deep as half its width in a half-plane, in a layer on rock and on rigid bedrock; strips.
+//! REFERENCE: tables of two methods (finite elements, boundary elements); strips on the surface; statics.
+
+use std::f64::consts::TAU;
+
+use basemat::bem::embedded::{Trench, TrenchGround};
+use basemat::bem::layered::{StripContact, StripImpedance};
+use basemat::bem::{ElasticGround, GroundError, Strip};
+use basemat::soil::{Elastic, Hysteretic, SoilProfile};
+use basemat::{Complex, Error, Soil, unobserved};
+
+use basemat_problems::profiles::{p1, p3};
+
+fn soil() -> Soil {
+    Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap()
+}
+
+/// A trench of half width and depth 1.
+fn ground(profile: impl Into<SoilProfile>, [base, wall]: [usize; 2]) -> TrenchGround {
+    let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(base, wall).unwrap();
+    TrenchGround::new(profile, elements).unwrap()
+}
+
+fn at(ground: &TrenchGround, omega: f64) -> StripImpedance {
+    ground.impedances(&[omega / TAU], &mut unobserved).unwrap()[0]
+}
+
+fn numbers(line: &str) -> Vec<f64> {
+    line.split(',').filter_map(|number| number.parse().ok()).collect()
+}
+
+/// The row of a table that begins with these numbers.
+fn row(table: &str, first: &[f64]) -> Vec<f64> {
+    let rows = table.lines().filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
+    rows.map(numbers).find(|row| row.starts_with(first)).unwrap()
+}
+
+/// Relative errors of hh, vv, rr, and of hr by the mean of hh and rr.
+fn errors(found: &StripImpedance, wanted: &[f64]) -> [f64; 4] {
+    let wanted: Vec<Complex> = wanted.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
+    let found = [found.horizontal, found.vertical, found.rocking, found.coupling];
+    std::array::from_fn(|k| {
+        let size =
+            if k == 3 { (wanted[0].abs() * wanted[2].abs()).sqrt() } else { wanted[k].abs() };
+        (found[k] - wanted[k]).abs() / size
+    })
+}
+
+#[test]
+fn embedded_impedances_match_the_table_with_second_order() {
+    let table = include_str!("../data/embedded/impedance_embedded_nu0333.csv");
+    let meshes = [[4, 3], [8, 6]].map(|counts| ground(soil(), counts));
+    for a0 in [0.5, 2.0] {
+        let row = row(table, &[1.0, a0]);
+        let [coarse, fine] = meshes.each_ref().map(|ground| errors(&at(ground, a0), &row[2..10]));
+        println!("{a0}: {coarse:?} {fine:?}");
+        assert!(fine.iter().all(|error| *error < 5e-3), "{fine:?}");
+        for (coarse, fine) in coarse.iter().zip(fine) {
+            assert!(coarse / fine > 4.0, "{coarse} {fine}");
+        }
+    }
+}
+
+#[test]
+fn kinematic_motions_match_the_table() {
+    let table = include_str!("../data/embedded/kinematic_embedded_nu0333.csv");
+    let ground = ground(soil(), [8, 6]);
+    for a0 in [0.5, 2.0] {
+        let row = row(table, &[1.0, a0]);
+        let found = ground.kinematic_motions(&[a0 / TAU], &mut unobserved).unwrap()[0];
+        let wanted = [Complex::new(row[2], row[3]), Complex::new(row[4], row[5])];
+        let errors = [found.horizontal - wanted[0], found.rotation - wanted[1]];
+        println!("{a0}: {errors:?}");
+        assert!(errors.iter().all(|error| error.abs() < 1.5e-3 * wanted[0].abs()), "{errors:?}");
+    }
+    // Walls pull the base along with the waves above it: less than cos(ωd/c_P) of the surface, with a phase.
+    let found = ground.kinematic_motions(&[1.0 / TAU], &mut unobserved).unwrap()[0];
+    assert!((found.vertical.abs() - 0.5_f64.cos()).abs() < 0.1, "{found:?}");
+}
+
+#[test]
+fn embedded_impedances_in_layers_match_the_table() {
+    let table = include_str!("../data/embedded/impedance_embedded_layered.csv");
+    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
+    let ground = ground(p1(damping(0.05), damping(0.01)), [8, 6]);
+    for a0 in [0.5, 2.0] {
+        let lines = table.lines().filter(|line| line.starts_with("layer"));
+        let row = lines.map(numbers).find(|row| row[0] == a0).unwrap();
+        let found = errors(&at(&ground, a0), &row[2..10]);
+        println!("{a0}: {found:?}");
+        assert!(found.iter().all(|error| *error < 1e-3), "{found:?}");
+    }
+}
+
+/// The same elements by wavenumber integrals; finite elements of degree 4 differ by less than a tenth of the mesh's error.
+#[test]
+fn a_trench_without_depth_is_a_strip_on_the_surface() {
+    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
+    let profiles = [p1(damping(0.05), damping(0.01)), p3(damping(0.05)), soil().into()];
+    for profile in profiles {
+        let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(8, 0).unwrap();
+        let found = at(&TrenchGround::new(profile.clone(), elements).unwrap(), 1.5);
+        let strip = ElasticGround::new(profile, Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
+        let bonded = StripContact::Bonded;
+        let wanted = strip.impedances(&[1.5 / TAU], bonded, &mut unobserved).unwrap()[0];
+        let all = [wanted.horizontal, wanted.vertical, wanted.rocking, wanted.coupling];
+        let wanted: Vec<f64> = all.iter().flat_map(|k| [k.re, k.im]).collect();
+        let errors = errors(&found, &wanted);
+        println!("{errors:?}");
+        assert!(errors.iter().all(|error| *error < 1e-3), "{errors:?}");
+    }
+}
+
+#[test]
+fn a_rigid_base_holds_the_body_at_rest() {
+    let ground = ground(p3(Elastic), [4, 3]);
+    let still = at(&ground, 0.0);
+    let slow = at(&ground, 0.1);
+    for (still, slow) in [(still.horizontal, slow.horizontal), (still.rocking, slow.rocking)] {
+        assert_eq!(still.im, 0.0);
+        assert!((slow.re / still.re - 1.0).abs() < 0.01 && slow.im.abs() < 1e-6 * still.re);
+    }
+    let motion = ground.kinematic_motions(&[0.0], &mut unobserved).unwrap()[0];
+    assert!(
+        (motion.horizontal.re - 1.0).abs() < 1e-9 && motion.rotation.abs() < 1e-9,
+        "{motion:?}"
+    );
+    assert!((motion.vertical.re - 1.0).abs() < 1e-9);
+}
+
+/// Backfill of a quarter of the soil's modulus, half as wide as the half width of the trench.
+#[test]
+fn backfill_softens_the_walls() {
+    let soft = Soil::new(0.25, 1.0 / 3.0, 1.0).unwrap();
+    let filled =
+        ground(soil(), [8, 6]).with_backfill(0.5, soft, Hysteretic::new(0.05).unwrap()).unwrap();
+    let found = at(&filled, 0.5).rocking;
+    // Of 40 elements: 3.65 + 0.88i; without backfill 5.25 + 1.61i.
+    assert!((found - Complex::new(3.65, 0.88)).abs() < 0.03, "{found:?}");
+    let found = filled.kinematic_motions(&[0.1], &mut unobserved);
+    assert!(matches!(found, Err(Error::Scene { quantity: "backfill", .. })), "{found:?}");
+    // Backfill of the soil itself changes the mesh and nothing else.
+    let same = ground(soil(), [4, 3]).with_backfill(0.5, soil(), Elastic).unwrap();
+    let [with, without] = [at(&same, 0.5), at(&ground(soil(), [4, 3]), 0.5)];
+    assert!((with.rocking - without.rocking).abs() < 1e-4 * without.rocking.abs());
+}
+
+#[test]
+fn bad_trenches_and_frequencies_are_errors() {
+    for (sides, depth) in
+        [(1.0..1.0, 1.0), (0.0..f64::NAN, 1.0), (0.0..1.0, -1.0), (0.0..1.0, f64::INFINITY)]
+    {
+        assert!(matches!(Trench::new(sides, depth), Err(Error::Input { .. })));
+    }
+    let trench = Trench::new(-1.0..1.0, 1.0).unwrap();
+    for (base, wall) in [(0, 3), (3, 3), (4, 0)] {
+        assert!(matches!(trench.elements(base, wall), Err(Error::Scene { .. })));
+    }
+    assert!(matches!(trench.elements(usize::MAX - 1, usize::MAX), Err(Error::Memory(_))));
+    let deep = Trench::new(-1.0..1.0, 2.0).unwrap().elements(4, 3).unwrap();
+    assert!(matches!(TrenchGround::new(p3(Elastic), deep), Err(Error::Input { value: 2.0, .. })));
+    let ground = ground(soil(), [4, 3]);
+    for frequency in [0.0, -1.0, f64::NAN, 10.0] {
+        let found = ground.impedances(&[frequency], &mut unobserved);
+        assert!(matches!(found, Err(Error::Input { .. })), "{frequency}: {found:?}");
+    }
+    // At the cut-off frequency of an undamped layer on rigid bedrock.
+    let layer = self::ground(p3(Elastic), [4, 3]);
+    let found = layer.impedances(&[0.25 * 0.5], &mut unobserved);
+    assert!(matches!(found, Err(Error::Ground(GroundError::GuidedWave { .. }))), "{found:?}");
+}
