@@ -164,7 +164,7 @@ impl TrenchGround {
         let resolved =
             degree <= HIGHEST as f64 && s.im * self.grid.slowest_crossing(&speeds) <= CONTACT;
         let frequency = s.im / std::f64::consts::TAU;
-        let needed = "low enough for four contact elements in a shear wave, and four waves in the width of the trench";
+        let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
         require("frequency of a trench (Hz)", frequency, resolved, needed)?;
         let degree = degree as usize;
         let mut found = self.mesh_of_depth(s, DEPTH, degree);

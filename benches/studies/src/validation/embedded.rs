@@ -13,7 +13,7 @@ pub(crate) const CASE: Case = Case {
     name: "embedded",
     title: "Rigid block in a trench",
     reference: "finite elements of degree 8 and collocation boundary elements, which agree to 2.5e-4",
-    settings: "10, 20, 40 cosine-graded elements, d = b, ν = 1/3, 0.25 ≤ ωb/c_S ≤ 3",
+    settings: "20 and 40 cosine-graded elements, d = b, ν = 1/3, 0.25 ≤ ωb/c_S ≤ 3",
     run,
 };
 
@@ -70,15 +70,14 @@ fn errors(found: &[[Complex; 6]], wanted: &[[Complex; 6]]) -> [f64; 6] {
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let Curves { frequencies, values } = tabled();
     let step = if short { 4 } else { 1 };
-    let frequencies: Vec<f64> = frequencies.into_iter().skip(1).step_by(step).collect();
-    let wanted: Vec<_> = values.into_iter().skip(1).step_by(step).collect();
+    let frequencies: Vec<f64> = frequencies.into_iter().step_by(step).collect();
+    let wanted: Vec<_> = values.into_iter().step_by(step).collect();
     let names = ["horizontal", "vertical", "rocking", "coupling", "motion", "rotation"];
     let meshes = [
-        ([4, 3], [2e-2, 2e-2, 4e-2, 1e-2, 1e-2, 1e-2]),
         ([8, 6], [5e-3, 5e-3, 5e-3, 5e-3, 1.5e-3, 1.5e-3]),
         ([16, 12], [1.2e-3, 1.2e-3, 1.2e-3, 1.2e-3, 4e-4, 4e-4]),
     ];
-    let meshes = if short { &meshes[..2] } else { &meshes[..] };
+    let meshes = if short { &meshes[..1] } else { &meshes[..] };
     let mut checks = vec![];
     let mut shown = vec![];
     for ([base, wall], limits) in meshes {
