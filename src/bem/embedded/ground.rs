@@ -160,13 +160,13 @@ impl TrenchGround {
         let size = self.elements.trench().half_width();
         let speeds: Vec<f64> = self.soils().map(|soil| soil.shear_wave_speed()).collect();
         let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let degree = (LONGEST * size * s.im / (PER_DEGREE * slowest)).ceil().max(DEGREE as f64);
-        let resolved =
-            degree <= HIGHEST as f64 && s.im * self.grid.slowest_crossing(&speeds) <= CONTACT;
+        let crossing = LONGEST * size * s.im / slowest;
+        let degree = (DEGREE..=HIGHEST).find(|degree| crossing <= PER_DEGREE * *degree as f64);
+        let resolved = degree.is_some() && s.im * self.grid.slowest_crossing(&speeds) <= CONTACT;
         let frequency = s.im / std::f64::consts::TAU;
         let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
         require("frequency of a trench (Hz)", frequency, resolved, needed)?;
-        let degree = degree as usize;
+        let degree = degree.unwrap_or(HIGHEST);
         let mut found = self.mesh_of_depth(s, DEPTH, degree);
         if !self.needs_comparison(s, size)? {
             return Ok(found);

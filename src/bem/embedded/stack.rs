@@ -104,6 +104,25 @@ impl Parity {
             counts: [along.count(), down.count()],
         }
     }
+
+    /// Adds the loads `first` and `first` + 1 of the top edge to the matrices of a column with these `nodes` on a side.
+    fn load_top(
+        &self,
+        width: f64,
+        [nodes, first]: [usize; 2],
+        sides: &mut Block,
+        coupling: &mut Block,
+    ) {
+        for (component, means) in self.means.iter().enumerate() {
+            let (side, load) = (component * nodes, 2 * nodes + first + component);
+            sides[(side, load)] -= means[0] * width;
+            sides[(load, side)] -= means[0] * width;
+            let begin = component * (self.counts[0] - 1);
+            for (function, mean) in means[1..].iter().enumerate() {
+                coupling[(begin + function, load)] -= mean * width;
+            }
+        }
+    }
 }
 
 /// Functions of one degree along z.
@@ -219,13 +238,13 @@ impl Elements {
                     let value = matrix[(i, j)];
                     match (row, column) {
                         (Some(Place::Side(row)), Some(Place::Side(column))) => {
-                            sides[(*row, *column)] += value
+                            sides[(*row, *column)] += value;
                         }
                         (Some(Place::Edge(row)), Some(Place::Edge(column))) => {
-                            pivot[(*row, *column)] += value
+                            pivot[(*row, *column)] += value;
                         }
                         (Some(Place::Edge(row)), Some(Place::Side(column))) => {
-                            coupling[(*row, *column)] += value
+                            coupling[(*row, *column)] += value;
                         }
                         _ => {}
                     }
@@ -234,17 +253,7 @@ impl Elements {
             node += layer.degree;
         }
         if let Some(first) = loads.first {
-            for component in 0..2 {
-                let means = &parity.means[component];
-                let load = 2 * count + first + component;
-                let side = component * count;
-                sides[(side, load)] -= means[0] * width;
-                sides[(load, side)] -= means[0] * width;
-                let begin = component * (parity.counts[0] - 1);
-                for (function, mean) in means[1..].iter().enumerate() {
-                    coupling[(begin + function, load)] -= mean * width;
-                }
-            }
+            parity.load_top(width, [count, first], &mut sides, &mut coupling);
         }
         sides.eliminate(&pivot, &coupling)?;
         Ok(sides)
