@@ -4,6 +4,8 @@ use std::collections::HashMap;
 
 /// Vertices of a graph that is not made coarser.
 pub(super) const COARSE: usize = 80;
+/// Number of joined vertices of the largest weight that make up a graph.
+const PARTS: i64 = 40;
 /// Vertex without a number.
 pub(super) const NONE: usize = usize::MAX;
 
@@ -81,7 +83,9 @@ impl Graph {
             part.start.push(part.edges.len());
             part.weight.push(self.weight[v]);
         }
-        vertices.iter().for_each(|&v| place[v] = NONE);
+        for &v in vertices {
+            place[v] = NONE;
+        }
         part
     }
 
@@ -89,7 +93,7 @@ impl Graph {
     pub(super) fn coarser(&self) -> (Self, Vec<usize>) {
         let n = self.len();
         let total: i64 = self.weight.iter().sum();
-        let heaviest = (total / (COARSE / 2) as i64).max(2);
+        let heaviest = (total / PARTS).max(2);
         // An order without relation to the numbering, the same in every run.
         let mut visits: Vec<usize> = (0..n).collect();
         visits.sort_by_key(|v| v.wrapping_mul(2_654_435_761) & 0xffff_ffff);
