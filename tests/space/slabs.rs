@@ -9,6 +9,8 @@ use basemat::interface::Coulomb;
 use basemat::structure::{Base, BaseNode, MatrixModel, Structure, Triplets};
 use basemat::{Error, Result, Simulation, Soil};
 
+use super::cells::{BED, Cells};
+
 /// Displacement and rotations about x and y of a node: w, ∂w/∂y, −∂w/∂x.
 const NODE: usize = 3;
 /// Plate element: degrees of freedom.
@@ -318,6 +320,24 @@ fn soft_plates_sink_as_a_uniform_pressure_does() {
         assert!(errors.iter().all(|error| error.abs() < 0.03), "{errors:?}");
         assert!(errors.is_sorted_by(|one, other| other.abs() <= one.abs()), "{errors:?}");
     }
+}
+
+/// Without the static state on twice as many cells, cells that may be too few warn: a soft slab with an even pressure is
+/// right on few.
+#[test]
+fn a_soft_slab_on_a_ground_without_finer_cells_is_no_error() {
+    let slab = Slab { side: 12.0, count: 8, thickness: 0.017_14, columns: vec![] };
+    let bed = Cells::under([slab.side; 2], [0.0; 2], [8, 8], BED);
+    let simulation = Simulation::builder(0.01).structure(slab.model().unwrap()).ground(bed);
+    let mut simulation = simulation.interface(Coulomb::new(0.5).unwrap()).build().unwrap();
+    let warnings = simulation.run(1, |_| {}).unwrap().warnings;
+    let is_told = |own: &Warning| {
+        matches!(own, Warning::CoarseBase { elements: 8, difference: None, axis: Some('x'), .. })
+    };
+    assert!(warnings.iter().any(is_told), "{warnings:?}");
+    let found = -simulation.static_displacement()[slab.dof([4; 2])];
+    let wanted = slab.thickness * Slab::DENSITY * 9.806_65 / BED.stiffness[0];
+    assert!((found / wanted - 1.0).abs() < 0.01, "{found} {wanted}");
 }
 
 /// Settlement at a point by a uniform pressure on a square about the origin (Boussinesq), m.

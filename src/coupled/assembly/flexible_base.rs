@@ -32,8 +32,6 @@ const STIFF: f64 = 6.0;
 /// solids, and of an error.
 const DIFFERENCE: f64 = 0.03;
 const ANOTHER: f64 = 0.3;
-/// ρ below which the static shape is wrong, if the shape with twice the elements is unknown.
-const SOFT: f64 = 0.3;
 /// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
 const POWERS: [f64; 2] = [1.0, 3.0];
 /// Stiffness of springs that hold element means, relative to the soil.
@@ -106,8 +104,9 @@ pub(crate) fn check(
     let (axis, elements) = count(base, foundation);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let needed = (elements as f64 * factor).ceil() as usize;
-    let is_soft = parts.given.is_static() && ratio < SOFT;
-    if difference.map_or(is_soft, |own| own > ANOTHER) {
+    // A soft base with an even pressure has the right shape on few elements: without the shape on twice as many, the
+    // elements may be too few.
+    if difference.is_some_and(|own| own > ANOTHER) {
         return Err(CoarseBaseError { foundation, elements, needed, difference, axis }.into());
     }
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))

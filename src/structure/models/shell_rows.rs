@@ -29,6 +29,9 @@ pub struct ShellRows {
 
 impl ShellRows {
     /// The resultants for these values of all degrees of freedom.
+    ///
+    /// Degrees of freedom beyond the end of `displacement` count as zero, as for [`SectionRows::value`];
+    /// [`FemModel::shell_resultants`] checks the number.
     pub fn value(&self, displacement: &[f64]) -> ShellResultants {
         let value = |rows: &SectionRows| rows.displacement.value(displacement);
         ShellResultants {
