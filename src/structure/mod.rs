@@ -45,7 +45,7 @@ pub use dof_combination::DofCombination;
 pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
-    SpringResponse, WithSprings,
+    PendulumBearing, SpringResponse, WithSprings,
 };
 pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiffness, massless};
 pub use modal_damping::{ModalDamping, WithModalDamping};

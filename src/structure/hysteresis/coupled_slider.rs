@@ -13,7 +13,7 @@ use crate::structure::InternalEnergy;
 pub(super) struct CoupledSlider {
     parallel: f64,
     series: f64,
-    limit: f64,
+    pub(super) limit: f64,
     /// Displacement of the slider.
     slip: [f64; 2],
     dissipated: f64,
@@ -68,6 +68,15 @@ impl CoupledSlider {
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
         let (direction, _, way) = self.slide(deformation);
         self.dissipated += self.limit * way;
+        self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
+    }
+
+    /// Sets the limit after a commit of `deformation`. A force above it falls to it, and its energy becomes heat.
+    pub(super) fn set_limit(&mut self, limit: f64, deformation: [f64; 2]) {
+        let (direction, before, _) = self.slide(deformation);
+        self.limit = limit;
+        let (_, force, way) = self.slide(deformation);
+        self.dissipated += 0.5 * (before * before - force * force) / self.series;
         self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
     }
 

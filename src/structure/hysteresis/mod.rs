@@ -7,6 +7,7 @@ mod coupled_bouc_wen;
 mod coupled_slider;
 mod friction_pendulum;
 mod lead_rubber;
+mod pendulum_bearing;
 mod slider;
 mod spring;
 mod springs;
@@ -16,6 +17,7 @@ pub use bilinear::Bilinear;
 pub use bouc_wen::BoucWen;
 pub use friction_pendulum::FrictionPendulum;
 pub use lead_rubber::LeadRubber;
+pub use pendulum_bearing::PendulumBearing;
 pub(super) use springs::Springs;
 pub use springs::WithSprings;
 

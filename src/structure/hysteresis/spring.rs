@@ -2,6 +2,7 @@
 
 use super::Hysteresis;
 use super::biaxial::BiaxialSpring;
+use super::pendulum_bearing::PendulumBearing;
 use crate::error::Result;
 use crate::structure::{DofCombination, InternalEnergy, Triplets};
 
@@ -10,6 +11,7 @@ use crate::structure::{DofCombination, InternalEnergy, Triplets};
 pub(super) enum Spring {
     Uniaxial(DofCombination, Box<dyn Hysteresis>),
     Biaxial([DofCombination; 2], BiaxialSpring),
+    Pendulum([DofCombination; 3], PendulumBearing),
 }
 
 impl Spring {
@@ -17,6 +19,7 @@ impl Spring {
         match self {
             Self::Uniaxial(row, _) => std::slice::from_ref(row),
             Self::Biaxial(rows, _) => rows,
+            Self::Pendulum(rows, _) => rows,
         }
     }
 
@@ -32,6 +35,11 @@ impl Spring {
                     add_scaled(row, value, force);
                 }
             }
+            Self::Pendulum(rows, law) => {
+                for (row, value) in rows.iter().zip(law.force(values(rows, displacement))) {
+                    add_scaled(row, value, force);
+                }
+            }
         }
     }
 
@@ -42,14 +50,10 @@ impl Spring {
                 matrix.add_outer(row, law.response(row.value(displacement)).tangent);
             }
             Self::Biaxial(rows, law) => {
-                let tangent = law.response(values(rows, displacement)).tangent;
-                for (first, slopes) in rows.iter().zip(tangent) {
-                    for (second, slope) in rows.iter().zip(slopes) {
-                        for &(i, a) in first {
-                            second.iter().for_each(|&(j, b)| matrix.add(i, j, slope * a * b));
-                        }
-                    }
-                }
+                add_slopes(rows, &law.response(values(rows, displacement)).tangent, matrix);
+            }
+            Self::Pendulum(rows, law) => {
+                add_slopes(rows, &law.tangent(values(rows, displacement)), matrix);
             }
         }
     }
@@ -58,6 +62,7 @@ impl Spring {
         match self {
             Self::Uniaxial(row, law) => law.energy(row.value(displacement)),
             Self::Biaxial(rows, law) => law.energy(values(rows, displacement)),
+            Self::Pendulum(rows, law) => law.energy(values(rows, displacement)),
         }
     }
 
@@ -65,6 +70,7 @@ impl Spring {
         match self {
             Self::Uniaxial(row, law) => law.commit(row.value(displacement)),
             Self::Biaxial(rows, law) => law.commit(values(rows, displacement)),
+            Self::Pendulum(rows, law) => law.commit(values(rows, displacement)),
         }
     }
 
@@ -72,6 +78,7 @@ impl Spring {
         match self {
             Self::Uniaxial(_, law) => law.save(),
             Self::Biaxial(_, law) => law.save(),
+            Self::Pendulum(_, law) => law.save(),
         }
     }
 
@@ -79,12 +86,28 @@ impl Spring {
         match self {
             Self::Uniaxial(_, law) => law.restore(values),
             Self::Biaxial(_, law) => law.restore(values),
+            Self::Pendulum(_, law) => law.restore(values),
         }
     }
 }
 
-fn values(rows: &[DofCombination; 2], displacement: &[f64]) -> [f64; 2] {
+fn values<const N: usize>(rows: &[DofCombination; N], displacement: &[f64]) -> [f64; N] {
     rows.each_ref().map(|row| row.value(displacement))
+}
+
+/// Adds the slopes of forces along rows over deformations along the same rows.
+fn add_slopes<const N: usize>(
+    rows: &[DofCombination; N],
+    tangent: &[[f64; N]; N],
+    matrix: &mut Triplets,
+) {
+    for (first, slopes) in rows.iter().zip(tangent) {
+        for (second, slope) in rows.iter().zip(slopes) {
+            for &(i, a) in first {
+                second.iter().for_each(|&(j, b)| matrix.add(i, j, slope * a * b));
+            }
+        }
+    }
 }
 
 /// Adds `factor` times a row; degrees of freedom beyond the end of `sum` do not count.

@@ -2,6 +2,7 @@
 
 use super::Hysteresis;
 use super::biaxial::BiaxialSpring;
+use super::pendulum_bearing::PendulumBearing;
 use super::spring::Spring;
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
@@ -30,6 +31,16 @@ impl Springs {
         dofs: usize,
     ) -> Result<()> {
         self.attach(Spring::Biaxial(rows, law), dofs)
+    }
+
+    /// Adds a bearing with three deformations.
+    pub(crate) fn add_pendulum(
+        &mut self,
+        rows: [DofCombination; 3],
+        law: PendulumBearing,
+        dofs: usize,
+    ) -> Result<()> {
+        self.attach(Spring::Pendulum(rows, law), dofs)
     }
 
     fn attach(&mut self, spring: Spring, dofs: usize) -> Result<()> {
@@ -183,6 +194,21 @@ impl WithSprings {
         law: BiaxialSpring,
     ) -> Result<Self> {
         self.springs.add_biaxial(rows.map(Into::into), law, self.structure.dofs())?;
+        Ok(self)
+    }
+
+    /// Adds a friction pendulum that carries the structure, with the deformations `rows` along x, along y and up.
+    ///
+    /// It has a vertical stiffness of its own: the structure must have none there.
+    ///
+    /// # Errors
+    /// As for [`spring`](WithSprings::spring).
+    pub fn pendulum(
+        mut self,
+        rows: [impl Into<DofCombination>; 3],
+        law: PendulumBearing,
+    ) -> Result<Self> {
+        self.springs.add_pendulum(rows.map(Into::into), law, self.structure.dofs())?;
         Ok(self)
     }
 }

@@ -7,5 +7,6 @@ mod building;
 mod damping;
 mod laws;
 mod p_delta;
+mod pendulum;
 mod refused;
 mod stiff_sliders;
