@@ -139,18 +139,25 @@ impl ElasticGround {
     /// is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces together:
     /// [`Plan::on_faces`].
     ///
+    /// Cells under a flexible base in plan extend beyond its outline by a part of the overhang under a rigid base: all
+    /// of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The part
+    /// follows from the structure's stiffness matrix. It is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h for
+    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h.
+    ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
     /// triangles count as one). Elements receive only means of its displacement, and only the structure resists shapes
     /// in between. Strips or a plan of your own may have fewer elements; `build` then checks that they are enough.
     ///
     /// # Errors
-    /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`].
+    /// As for [`ElasticGround::new`] and [`Strip::under`], or [`ElasticGround::in_plan`] and [`Plan::on_faces`]; for a
+    /// flexible base in plan also errors of its stiffness matrix.
     pub fn under(
         profile: impl Into<SoilProfile>,
         structure: &dyn Structure,
         count: usize,
     ) -> Result<Self> {
-        match Plan::of_base(structure, count)? {
+        let profile = profile.into();
+        match Plan::of_base(structure, count, profile.surface().as_ref())? {
             Some(plan) => Self::in_plan(profile, plan),
             None => Self::new(profile, Strip::under(structure, count, Grading::Cosine)?),
         }

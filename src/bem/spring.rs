@@ -61,7 +61,7 @@ impl SpringGround {
         normal_stiffness: f64,
         tangential_stiffness: f64,
     ) -> Result<Self> {
-        if let Some(plan) = Plan::of_base(structure, count)? {
+        if let Some(plan) = Plan::of_base(structure, count, None)? {
             let stiffness = [normal_stiffness, tangential_stiffness, tangential_stiffness];
             return Self::in_plan(plan, stiffness);
         }

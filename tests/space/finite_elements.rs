@@ -1,6 +1,5 @@
 //! Blocks of finite elements in space: stiff ones against the rigid body, soft ones that lift off and slide.
 
-use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground};
 use basemat::fem::{Direction, Mesh};
 use basemat::interface::{Bonded, Coulomb, Mode};
@@ -81,11 +80,8 @@ pub(super) fn assert_moves_rigidly(
 ) -> [Vec<f64>; 2] {
     let bed = || Cells::under(sides, [0.0; 2], [7, 5], BED);
     let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0).unwrap();
-    // Cells of `under` would extend beyond the rigid base alone.
-    let half_space = |own: &dyn Structure| {
-        let plan = Plan::under(own, 8).unwrap().without_overhang().unwrap();
-        ElasticGround::in_plan(soil, plan).unwrap()
-    };
+    // Cells extend equally far beyond both bases.
+    let half_space = |own: &dyn Structure| ElasticGround::under(soil, own, 8).unwrap();
     let cases = [
         (at_rest(stiff.clone(), bed()), at_rest(rigid(), bed())),
         (at_rest(stiff.clone(), half_space(stiff)), at_rest(rigid(), half_space(&rigid()))),

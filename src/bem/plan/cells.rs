@@ -53,7 +53,7 @@ pub struct Plan {
     /// Each cell at the outline; empty if no cell is cut.
     pub(super) cuts: Vec<Cut>,
     /// Estimated relative error of a rigid mat's rocking stiffness by oblique edges.
-    error: f64,
+    pub(super) error: f64,
 }
 
 impl Plan {

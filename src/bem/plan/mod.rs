@@ -10,7 +10,7 @@
 //! |---|---|
 //! | unions | contact elements of several cells |
 //! | cells, faces, outline | plan: cells on a lattice under faces, discs, masks; cells cut at the outline |
-//! | under | plan under the base of a structure |
+//! | under, overhang | plan under the base of a structure, and how far cells extend beyond it |
 //! | forms, corner_waves, form_table | form factors, at small and large wavenumbers, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
 //! | kernel | convolution weights by convolution quadrature |
@@ -25,6 +25,7 @@ mod impedance;
 mod integrals;
 mod kernel;
 mod outline;
+mod overhang;
 mod sectors;
 mod under;
 mod unions;

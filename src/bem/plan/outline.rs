@@ -7,6 +7,7 @@
 //! Oblique edges are moved outwards by less than the overhang, the less the more cells there are. Static stiffnesses of
 //! turned squares, polygons and discs so fall steadily as the number of cells grows.
 
+use super::cells::OVERHANG;
 use super::faces::Face;
 use crate::geometry::span;
 use crate::linalg::gauss::Rule;
@@ -67,7 +68,8 @@ pub(super) fn cut(
     overhang: f64,
 ) -> (Vec<Option<usize>>, Vec<Cells>) {
     let along = grid.counts[0].min(grid.counts[1]) as f64;
-    let oblique = (SHIFT[0] + SHIFT[1] / along.sqrt()).min(overhang);
+    let part = overhang / OVERHANG;
+    let oblique = (part * (SHIFT[0] + SHIFT[1] / along.sqrt())).min(overhang);
     let distance = |normal: [f64; 2]| {
         let parallel = (1.0 - normal[0].abs().min(normal[1].abs()) / OBLIQUE).max(0.0);
         let shift = oblique + (overhang - oblique) * parallel;

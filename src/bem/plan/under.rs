@@ -2,8 +2,11 @@
 
 use super::cells::{OVERHANG, Plan, check_faces};
 use super::faces::Face;
+use super::overhang::{NAME, overhang};
 use crate::error::Result;
-use crate::structure::{Base, BaseNode, Structure};
+use crate::linalg::SparseMatrix;
+use crate::soil::Soil;
+use crate::structure::{Base, BaseNode, Structure, Triplets};
 
 /// Largest number of cells to which the number under flexible faces is raised.
 const MOST_RAISED: f64 = 1000.0;
@@ -11,44 +14,69 @@ const MOST_RAISED: f64 = 1000.0;
 impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
-    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]): a soft plate would sink with soil
-    /// beyond its edge. The plan has at least one cell for each flexible face (two triangles count as one): between
+    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]): how far they should extend beyond it
+    /// depends on the soil ([`ElasticGround::under`](crate::bem::ElasticGround::under)). The plan has at least one cell for each flexible face (two triangles count as one): between
     /// cells only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more
     /// causes an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
     pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
-        Self::of_base(structure, cells)?.map_or_else(|| Self::on_faces(&[], cells), Ok)
+        Self::of_base(structure, cells, None)?.map_or_else(|| Self::on_faces(&[], cells), Ok)
     }
 
     /// Cells under the faces of a structure; `None` for a structure in the plane.
-    pub(in crate::bem) fn of_base(structure: &dyn Structure, cells: usize) -> Result<Option<Self>> {
-        let Base::Faces(bodies) = structure.base() else { return Ok(None) };
+    ///
+    /// Without a soil, cells under flexible faces end at the outline.
+    pub(in crate::bem) fn of_base(
+        structure: &dyn Structure,
+        cells: usize,
+        soil: Option<&Soil>,
+    ) -> Result<Option<Self>> {
+        let base = structure.base();
+        let Base::Faces(bodies) = &base else { return Ok(None) };
         let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
         let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
         let faces = corners.iter().enumerate().map(|(number, own)| Face::new(number, own));
         let faces = faces.collect::<Result<Vec<_>>>()?;
         check_faces(faces.len())?;
         let mats = Face::mats(&faces);
-        let (mut most, mut overhang) = (cells, OVERHANG);
-        for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
-            let own = || (0..mats.len()).filter(|face| mats[*face] == mat);
-            let nodes: Vec<_> = own().flat_map(|face| bodies[face].iter().cloned()).collect();
-            if cells > 1 && !BaseNode::are_flat(&nodes) {
-                overhang = 0.0;
-                let pieces: f64 = own().map(|face| 0.5 * (corners[face].len() as f64 - 2.0)).sum();
-                let area = own().map(|face| faces[face].area()).sum::<f64>();
-                let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
-                let along = sides[0].min(sides[1]) * f64::sqrt(pieces / area);
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-                let along = (along * (1.0 - 1e-9)).ceil() as usize;
-                let ratio = sides[0].max(sides[1]) / sides[0].min(sides[1]);
-                #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-                let limit = (MOST_RAISED / ratio).sqrt() as usize;
-                most = most.max(along.min(limit));
-            }
+        let mats = (0..=mats.iter().copied().max().unwrap_or(0)).map(|mat| {
+            let own = (0..faces.len()).filter(|face| mats[*face] == mat);
+            own.map(|face| (&bodies[face][..], faces[face].area())).collect::<Vec<_>>()
+        });
+        let is_flexible = |own: &Vec<(&[BaseNode], f64)>| {
+            let nodes: Vec<_> = own.iter().flat_map(|(corners, _)| corners.to_vec()).collect();
+            !BaseNode::are_flat(&nodes)
+        };
+        let flexible: Vec<_> = mats.filter(|own| cells > 1 && is_flexible(own)).collect();
+        let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
+        let [shorter, longer] = [sides[0].min(sides[1]), sides[0].max(sides[1])];
+        let mut most = cells;
+        for own in &flexible {
+            let pieces: f64 = own.iter().map(|(own, _)| 0.5 * (own.len() as f64 - 2.0)).sum();
+            let area = own.iter().map(|(_, area)| area).sum::<f64>();
+            let along = shorter * f64::sqrt(pieces / area);
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+            let along = (along * (1.0 - 1e-9)).ceil() as usize;
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+            let limit = (MOST_RAISED / (longer / shorter)).sqrt() as usize;
+            most = most.max(along.min(limit));
         }
-        Self::covering(faces, most, overhang).map(Some)
+        if flexible.is_empty() {
+            return Self::covering(faces, most, OVERHANG).map(Some);
+        }
+        let Some(soil) = soil else { return Self::covering(faces, most, 0.0).map(Some) };
+        let mut stiffness = Triplets::new(structure.dofs());
+        base.check(structure.dofs())?;
+        structure.stiffness(&mut stiffness)?;
+        let stiffness = SparseMatrix::new(NAME, &stiffness)?;
+        let mut least = OVERHANG;
+        for own in &flexible {
+            least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
+        }
+        let mut plan = Self::covering(faces, most, least)?;
+        plan.error = 0.0;
+        Ok(Some(plan))
     }
 }
