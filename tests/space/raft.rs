@@ -154,17 +154,17 @@ fn loads_on_the_edges_of_a_stiff_raft() {
     }
 }
 
-/// The overhang under rafts of known bending stiffness D, on meshes finer and coarser than the cells.
+/// The overhang under rafts of known bending stiffness D, one shell on each cell.
 #[test]
 fn cells_extend_as_far_as_the_stiffness_wants() {
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
-    for (shells, cells) in [(8, 8), (16, 16), (8, 16)] {
+    for (shells, cells) in [(8, 8), (16, 16_usize)] {
         for x in [0.1, 0.3, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 50.0] {
             let thickness = 0.3_f64;
-            let rigidity = soil.shear_modulus() * (x * SIDE / f64::from(cells)).powi(3);
+            let rigidity = soil.shear_modulus() * (x * SIDE / cells as f64).powi(3);
             let model = raft(shells, 12.0 * 0.96 * rigidity / thickness.powi(3), thickness);
-            let ground = ElasticGround::under(soil, &model, cells as usize).unwrap();
-            let found = 0.5 * (f64::from(cells) - SIDE / ground.elements()[0].sides()[0]);
+            let ground = ElasticGround::under(soil, &model, cells).unwrap();
+            let found = 0.5 * (cells as f64 - SIDE / ground.elements()[0].sides()[0]);
             let rule = 0.105 * x * x / (1.0 + x * x);
             println!("{shells} shells, {cells} cells, {x}: {found:.4} {rule:.4}");
             assert!((found - rule).abs() < 0.016, "{shells} {cells} {x}: {found} {rule}");

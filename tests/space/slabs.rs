@@ -327,7 +327,8 @@ fn soft_plates_sink_as_a_uniform_pressure_does() {
 #[test]
 fn a_soft_slab_on_a_ground_without_finer_cells_is_no_error() {
     let slab = Slab { side: 12.0, count: 8, thickness: 0.017_14, columns: vec![] };
-    let bed = Cells::under([slab.side; 2], [0.0; 2], [8, 8], BED);
+    let lines: Vec<f64> = (0..=slab.count).map(|node| slab.place(node)).collect();
+    let bed = Cells::between(&lines, &lines, BED);
     let simulation = Simulation::builder(0.01).structure(slab.model().unwrap()).ground(bed);
     let mut simulation = simulation.interface(Coulomb::new(0.5).unwrap()).build().unwrap();
     let warnings = simulation.run(1, |_| {}).unwrap().warnings;

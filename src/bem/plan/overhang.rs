@@ -126,11 +126,11 @@ impl<'a> Points<'a> {
             }
         }
         let mut count = 0;
-        let mut next = |is_near: bool| {
+        let next = |is_near: bool| {
             count += usize::from(is_near);
             is_near.then(|| count - 1)
         };
-        is_near.into_iter().map(|own| next(own)).collect()
+        is_near.into_iter().map(next).collect()
     }
 
     /// Pressure at each corner: a wave along an axis without its best linear fit.

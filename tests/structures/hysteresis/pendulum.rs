@@ -84,7 +84,7 @@ fn slopes_and_energies() {
         let after = own.energy(&next).unwrap();
         let gained = after.stored + after.dissipated - before.stored - before.dissipated;
         let scale = after.stored + before.stored + after.dissipated - before.dissipated;
-        assert!((gained - work).abs() < 1e-6 * scale, "{gained} {work}");
+        assert!((gained - work).abs() < 1e-5 * scale, "{gained} {work}");
         assert!(after.dissipated >= before.dissipated);
         let mut tangent = Triplets::new(9);
         own.tangent(&next, &mut tangent).unwrap();
@@ -159,7 +159,7 @@ fn reference(climbs: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
     [most, range[0] / GRAVITY, range[1] / GRAVITY]
 }
 
-/// The vertical motion makes the weight vary by a third, and the block slide 13 % further.
+/// The vertical motion makes the weight vary by a third, and the block slide 11 % further.
 #[test]
 fn a_block_slides_under_a_varying_weight() {
     let record = el_centro_1940().scaled(1.5).unwrap();
@@ -196,10 +196,10 @@ fn a_block_slides_under_a_varying_weight() {
         })
         .unwrap();
     println!("{most} {range:?} {exact:?} {fixed:?} {}", run.energy_error);
-    assert!((most / exact[0] - 1.0).abs() < 0.02 && (fixed[0] / exact[0] - 1.0).abs() > 0.08);
-    assert!((range[0] - exact[1]).abs() < 0.02 && (range[1] - exact[2]).abs() < 0.02);
+    assert!((most / exact[0] - 1.0).abs() < 0.005 && (fixed[0] / exact[0] - 1.0).abs() > 0.08);
+    assert!((range[0] - exact[1]).abs() < 0.01 && (range[1] - exact[2]).abs() < 0.01);
     assert!(run.energy_error < 1e-9, "{}", run.energy_error);
     let energies = run.energy_balance;
     let algorithmic = energies.algorithmic.abs() / energies.hysteresis;
-    assert!(algorithmic < 1e-2, "{algorithmic}");
+    assert!(algorithmic < 1e-3, "{algorithmic}");
 }
