@@ -4,14 +4,12 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use super::faces::{Face, apart, mat_by_mat};
-use super::outline::{Cut, Grid, cut, error};
+use super::outline::{Cut, Grid, OVERHANG, cut, error};
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice, circle, middle};
 use crate::history::PairClasses;
 
-/// Overhang of outer cells beyond the outline, as a fraction of their side: see [`Plan`].
-pub(super) const OVERHANG: f64 = 0.105;
 /// Largest relative difference of the areas of faces and cells.
 const MISSING: f64 = 0.01;
 /// Memory for a cell, bytes.

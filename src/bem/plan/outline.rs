@@ -7,11 +7,12 @@
 //! Oblique edges are moved outwards by less than the overhang, the less the more cells there are. Static stiffnesses of
 //! turned squares, polygons and discs so fall steadily as the number of cells grows.
 
-use super::cells::OVERHANG;
 use super::faces::Face;
 use crate::geometry::span;
 use crate::linalg::gauss::Rule;
 
+/// Overhang of outer cells beyond the outline of a rigid mat, as a fraction of their side.
+pub(super) const OVERHANG: f64 = 0.105;
 /// Distance in cells by which oblique edges move outwards: the first number, plus the second over √n for n cells along
 /// the shorter side. Found with discs and squares at several angles.
 const SHIFT: [f64; 2] = [0.03, 0.15];

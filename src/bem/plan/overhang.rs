@@ -15,7 +15,7 @@
 //! The structure's stiffness matrix contains D. Waves of load p with the wavenumber k bend a mat on springs s = G k/(1 − ν),
 //! the stiffness of the soil for these waves, by p/(D k⁴ + s). Degrees of freedom far from the base are held.
 
-use super::cells::OVERHANG;
+use super::outline::OVERHANG;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::soil::Soil;
 use crate::structure::{BaseNode, DofCombination, Triplets};

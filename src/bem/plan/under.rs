@@ -1,7 +1,8 @@
 //! Cells under the base of a structure.
 
-use super::cells::{OVERHANG, Plan, check_faces};
+use super::cells::{Plan, check_faces};
 use super::faces::Face;
+use super::outline::OVERHANG;
 use super::overhang::{NAME, overhang};
 use crate::error::Result;
 use crate::linalg::SparseMatrix;
