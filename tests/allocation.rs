@@ -109,6 +109,15 @@ fn in_plan(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     builder.interface(law).motion(motion)
 }
 
+/// The same on so many cells that W is kept by blocks.
+fn on_many_cells(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
+    let body = RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap();
+    let ground = ElasticGround::under(soil(SI), &body, 12).unwrap();
+    let shake = || Some(el_centro_1940().scaled(20.0).unwrap());
+    let motion = Triaxial { x: shake(), y: shake(), up: None };
+    Simulation::builder(5e-4).ground(ground).structure(body).interface(law).motion(motion)
+}
+
 #[test]
 fn steps_do_not_allocate() {
     // The counter counts.
@@ -154,6 +163,7 @@ fn steps_do_not_allocate() {
         }),
         ("plan, sliding", in_plan(friction(0.3))),
         ("plan, uplift", in_plan(friction(2.0))),
+        ("plan, many cells", on_many_cells(friction(0.3))),
         ("plan, yielding", in_plan(Yielding::new(2.5e5, 0.3).unwrap())),
         ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
         ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),

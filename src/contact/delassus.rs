@@ -13,13 +13,14 @@ const RANK: usize = 64;
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     values: Vec<f64>,
+    /// G¹, if the values are its sum with another part.
+    soil: Option<Arc<Thinned>>,
     split: Option<Split>,
 }
 
 /// W = G¹ + B C for a mostly zero G¹ and a structure with few degrees of freedom.
 #[derive(Debug, Clone)]
 struct Split {
-    soil: Arc<Thinned>,
     /// B, row-major with one row per contact component; C, column by column.
     means: Vec<f64>,
     columns: Vec<f64>,
@@ -27,7 +28,7 @@ struct Split {
 
 impl From<Vec<f64>> for Delassus {
     fn from(values: Vec<f64>) -> Self {
-        Self { values, split: None }
+        Self { values, soil: None, split: None }
     }
 }
 
@@ -54,7 +55,7 @@ impl Delassus {
         // The split needs two thin products and the soil's; it is used only if it reads far fewer values than
         // W has.
         if rank > RANK || soil.stored() + 2 * columns.len() > values.len() / 4 {
-            return values.into();
+            return Self { values, soil: Some(Arc::clone(soil)), split: None };
         }
         let mut rows = vec![0.0; columns.len()];
         let (mut unit, mut column) = (vec![0.0; rank], vec![0.0; size]);
@@ -64,8 +65,8 @@ impl Delassus {
             unit[j] = 0.0;
             rows.chunks_exact_mut(rank).zip(&column).for_each(|(row, mean)| row[j] = *mean);
         }
-        let split = Split { soil: Arc::clone(soil), means: rows, columns: columns.to_vec() };
-        Self { values, split: Some(split) }
+        let split = Split { means: rows, columns: columns.to_vec() };
+        Self { values, soil: Some(Arc::clone(soil)), split: Some(split) }
     }
 
     /// Replaces the values by as many others, without allocating.
@@ -74,9 +75,14 @@ impl Delassus {
         self.split = None;
     }
 
+    /// The soil's step compliance G¹, row-major; `None` if it is not known.
+    pub(crate) fn soil(&self) -> Option<&[f64]> {
+        self.soil.as_ref().map(|soil| &***soil)
+    }
+
     /// jump ← jump + W τ.
     pub(crate) fn multiply_add(&self, traction: &[f64], jump: &mut [f64]) {
-        let Some(Split { soil, means, columns }) = &self.split else {
+        let (Some(soil), Some(Split { means, columns })) = (&self.soil, &self.split) else {
             return dense_multiply_add(&self.values, 1.0, traction, jump);
         };
         let mut answer = [0.0; RANK];

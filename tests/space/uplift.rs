@@ -221,6 +221,26 @@ fn hard_steps_are_solved() {
     assert!(all.0 < 40 * all.1 && endless < 100 * all.1, "{all:?} {endless}");
 }
 
+/// W by blocks: saved where elements lift and slide, and resumed in another simulation.
+#[test]
+fn many_cells_resume_to_the_last_bit() {
+    let mut whole = block(12, Sines);
+    let (mut open, mut slide) = (0, 0);
+    whole.run(15, |_| {}).unwrap();
+    let saved = whole.checkpoint().unwrap();
+    let mut states = Vec::new();
+    let run = whole.run(15, |state| states.push(state.clone())).unwrap();
+    let mut resumed = block(12, Sines);
+    resumed.resume(&saved).unwrap();
+    for wanted in &states {
+        assert!(resumed.step().unwrap() == wanted);
+        open += wanted.modes.iter().filter(|mode| **mode == Mode::Open).count();
+        slide += wanted.modes.iter().filter(|mode| mode.is_slip()).count();
+    }
+    assert!(run.energy_error < 1e-12, "{}", run.energy_error);
+    assert!(open > 100 && slide > 100, "{open} {slide}");
+}
+
 /// Memory that ends changes the soil's work by less than the energy balance says it may.
 #[test]
 fn what_memory_forgets_is_in_the_energy_balance() {

@@ -1,7 +1,7 @@
 //! Contact with uplift and friction in plan: Signorini's law, and Coulomb's law with shear on a disc.
 //!
 //! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
-//!    change.
+//!    change. Of many elements, only if all stuck.
 //! 2. Sweeps over the elements, from the forces of the previous step.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
@@ -18,6 +18,7 @@
 //! A bond bears tension, and shear without pressure, up to its strength. The bond of an element that has opened
 //! beyond it breaks in the step, which is then solved again: at most once for each element.
 
+mod blocks;
 mod newton;
 mod problem;
 mod proximal;
@@ -34,6 +35,7 @@ use crate::error::{LawError, StepError};
 use crate::geometry::{ContactLayout, SPACE};
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
+use blocks::Blocks;
 use newton::Newton;
 use problem::{Bounds, Problem};
 use proximal::Proximal;
@@ -42,6 +44,9 @@ use status::{Normal, Status, Tangential};
 
 /// Gap at which a bond breaks, relative to the largest displacement.
 const GONE: f64 = 1e-12;
+
+/// Number of elements from which W is kept by blocks. Fewer are solved as quickly by products with all of W.
+const MANY: usize = 100;
 
 /// A contact problem in plan, and the methods that solve it.
 pub(super) struct Cone {
@@ -188,6 +193,7 @@ impl Cone {
         if self.generation == Some(generation) {
             return Ok(());
         }
+        let lasts = lasts(self.is_linear, &self.layers, input);
         let Self { problem, areas, layers, .. } = self;
         let (size, count) = (problem.size(), areas.len());
         for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
@@ -197,7 +203,18 @@ impl Cone {
             values[row] += layers[row % count][(row / count).min(1)] / areas[row % count];
         }
         problem.find_scales();
-        let lasts = lasts(self.is_linear, &self.layers, input);
+        // Blocks of a W that changes would not pay.
+        problem.blocks = match input.delassus.soil() {
+            Some(soil) if lasts && count >= MANY => {
+                let soil = |row: usize, column: usize| {
+                    let layer = layers[row % count][(row / count).min(1)];
+                    let own = soil[row * size + column] / areas[column % count];
+                    if row == column { own + layer / areas[row % count] } else { own }
+                };
+                Blocks::new(&problem.w, &problem.rho, soil)
+            }
+            _ => None,
+        };
         self.newton.forget(lasts);
         self.generation = Some(generation);
         Ok(())
@@ -224,6 +241,10 @@ impl Cone {
             if capped && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
+        }
+        // Sweeps with blocks take less time than a factorization.
+        if problem.blocks.is_some() && newton.statuses.iter().any(|own| *own != Status::STICK) {
+            return false;
         }
         problem.rest();
         newton.step(problem)

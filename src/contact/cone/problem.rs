@@ -14,6 +14,7 @@
 //! Infinite friction is the limit: y = 0 where there is pressure; elsewhere no force, or a closed gap with a shear
 //! against the slip, which needs no pressure.
 
+use super::blocks::Blocks;
 use crate::linalg::dense_multiply_add;
 
 /// Residual at which a solution is accepted, relative to the largest force.
@@ -111,6 +112,14 @@ pub(super) struct Problem {
     pub(super) count: usize,
     /// Row-major, component by component as in contact vectors.
     pub(super) w: Vec<f64>,
+    /// W without `added`, if there are many elements on a lattice.
+    pub(super) blocks: Option<Blocks>,
+    /// Number that the proximal point method has added to W's diagonal.
+    pub(super) added: f64,
+    /// Blocks of W between the components of each element.
+    pub(super) own: Vec<[[f64; 3]; 3]>,
+    /// Changes of force that have moved all elements, in sweeps.
+    pub(super) applied: Vec<f64>,
     pub(super) q: Vec<f64>,
     /// r₀.
     pub(super) anchor: Vec<f64>,
@@ -131,6 +140,10 @@ impl Problem {
         Self {
             count,
             w: vec![0.0; 9 * count * count],
+            blocks: None,
+            added: 0.0,
+            own: vec![[[0.0; 3]; 3]; count],
+            applied: zero(),
             q: zero(),
             anchor: zero(),
             bounds: vec![Bounds::NONE; count],
@@ -152,15 +165,16 @@ impl Problem {
     }
 
     /// Block of W between the components of an element.
-    pub(super) fn block(&self, e: usize) -> [[f64; 3]; 3] {
+    fn block(&self, e: usize) -> [[f64; 3]; 3] {
         let places = self.places(e);
         places.map(|i| places.map(|j| self.w[i * self.size() + j]))
     }
 
-    /// Computes ρ; call it when the diagonal of W has changed.
+    /// Computes ρ and the blocks of elements; call it when the diagonal of W has changed.
     pub(super) fn find_scales(&mut self) {
         for e in 0..self.count {
-            let [[n, ..], [_, xx, xy], [_, _, yy]] = self.block(e);
+            self.own[e] = self.block(e);
+            let [[n, ..], [_, xx, xy], [_, _, yy]] = self.own[e];
             self.rho[e] = [1.0 / n, 1.0 / (xx.max(yy) + xy.abs())];
         }
     }
@@ -173,9 +187,42 @@ impl Problem {
 
     /// Computes y for the present r.
     pub(super) fn respond(&mut self) {
+        if self.blocks.is_some() {
+            self.move_blocks();
+            return self.read_blocks();
+        }
         let Self { w, q, change, y, .. } = self;
         y.copy_from_slice(q);
         dense_multiply_add(w, 1.0, change, y);
+    }
+
+    /// Moves the blocks by the present r.
+    pub(super) fn move_blocks(&mut self) {
+        let Self { blocks: Some(blocks), count, q, change, .. } = self else { return };
+        blocks.rest(q);
+        for e in 0..*count {
+            let force = [e, *count + e, 2 * *count + e].map(|i| change[i]);
+            if force != [0.0; 3] {
+                blocks.push(e, force);
+            }
+        }
+    }
+
+    /// Copies the motion of all blocks to y.
+    fn read_blocks(&mut self) {
+        for e in 0..self.count {
+            let motion = self.motion(e);
+            self.places(e).into_iter().zip(motion).for_each(|(i, y)| self.y[i] = y);
+        }
+    }
+
+    /// Motion of an element in sweeps: by its block, or y.
+    pub(super) fn motion(&self, e: usize) -> [f64; 3] {
+        let places = self.places(e);
+        let Some(blocks) = &self.blocks else { return places.map(|i| self.y[i]) };
+        let mut motion = blocks.motion(e);
+        motion.iter_mut().zip(places).for_each(|(y, i)| *y += self.added * self.change[i]);
+        motion
     }
 
     /// p and t before they are projected.
@@ -241,6 +288,11 @@ impl Problem {
     /// Largest difference of all elements; NaN if one is NaN.
     pub(super) fn residual(&mut self) -> f64 {
         self.respond();
+        self.largest_miss()
+    }
+
+    /// Largest difference of all elements for the present y; NaN if one is NaN.
+    fn largest_miss(&self) -> f64 {
         let larger = |most: f64, miss: f64| if miss <= most { most } else { miss };
         (0..self.count).map(|e| self.miss(e)).fold(0.0, larger)
     }
@@ -268,6 +320,12 @@ impl Problem {
     /// Residual below which r is a solution, N.
     pub(super) fn tolerance(&self) -> f64 {
         (TOLERANCE * self.largest()).max(self.finest)
+    }
+
+    /// Whether the present r is a solution of the problem, by the motions of blocks as they are.
+    pub(super) fn blocks_are_solved(&mut self) -> bool {
+        self.read_blocks();
+        self.largest_miss() <= self.tolerance()
     }
 
     /// Whether the present r is a solution of the problem.

@@ -43,8 +43,10 @@ impl Proximal {
                 problem.w[i * (size + 1)] = self.diagonal[i] + added;
                 problem.q[i] = self.q[i] - added * self.center[i];
             }
+            problem.added = added;
             problem.find_scales();
             let solved = solve(problem);
+            problem.added = 0.0;
             for i in 0..size {
                 problem.w[i * (size + 1)] = self.diagonal[i];
             }

@@ -9,20 +9,28 @@ const LOCAL: usize = 40;
 const KNOWN: usize = 4;
 /// Change at which sweeps end, as a fraction of the residual of a solution.
 const GOAL: f64 = 1e-2;
+/// With blocks: change of an element's projections at which they end, as a fraction of the first.
+const LOCAL_SHARE: f64 = 0.3;
+/// With blocks: change in a sweep after which all elements move, as a fraction of the changes since they last did; and
+/// the largest number of sweeps between.
+const SHARE: f64 = 3e-2;
+const BETWEEN: usize = 12;
+/// With blocks: factor of the number of sweeps, which then are cheap beside a factorization.
+const PATIENCE: usize = 4;
 
 impl Problem {
     /// Makes up to `most` sweeps; returns their number, and whether they found a solution.
     ///
     /// Sweeps that will not converge end early.
     pub(super) fn sweep(&mut self, most: usize) -> (usize, bool) {
+        if self.blocks.is_some() {
+            return self.sweep_blocks(PATIENCE * most);
+        }
         self.respond();
         let mut before = f64::INFINITY;
         for sweep in 1..=most {
-            let (mut largest, tolerance) = (0.0_f64, GOAL * self.tolerance());
-            for e in 0..self.count {
-                let change = self.relax(e, 0.1 * tolerance);
-                largest = if change <= largest { largest } else { change };
-            }
+            let tolerance = GOAL * self.tolerance();
+            let largest = self.relax_all(0.1 * tolerance, 0.0);
             if largest.is_nan() {
                 return (sweep, false);
             }
@@ -40,25 +48,80 @@ impl Problem {
         (most, self.is_solved())
     }
 
-    /// Solves an element with the others fixed until its force changes by no more than `least`; returns its change, N.
-    fn relax(&mut self, e: usize, least: f64) -> f64 {
+    /// Sweeps that move near elements at once, and all others by the sum of several sweeps.
+    fn sweep_blocks(&mut self, most: usize) -> (usize, bool) {
+        self.move_blocks();
+        self.applied.copy_from_slice(&self.change);
+        // Changes up to the last motion of all elements, and in the last sweep; number of sweeps since that motion.
+        let (mut before, mut last, mut sweeps) = (f64::INFINITY, f64::INFINITY, 0);
+        for sweep in 1..=most {
+            let tolerance = GOAL * self.tolerance();
+            let largest = self.relax_all(0.1 * tolerance, LOCAL_SHARE);
+            if largest.is_nan() {
+                return (sweep, false);
+            }
+            sweeps += 1;
+            let changes = self.change.iter().zip(&self.applied).map(|(a, b)| (a - b).abs());
+            let moved = changes.fold(0.0, f64::max);
+            if largest > tolerance.max(SHARE * moved) && sweeps < BETWEEN {
+                if sweeps > KNOWN && largest >= last {
+                    return (sweep, self.is_solved());
+                }
+                last = largest;
+                continue;
+            }
+            let reached = self.move_far(0.1 * tolerance);
+            if largest <= tolerance && (!reached || moved <= tolerance) && self.blocks_are_solved()
+            {
+                return (sweep, true);
+            }
+            // Factor by which these sweeps reduce the change.
+            let rate = moved / before;
+            let left = (tolerance / moved).ln() / rate.ln() * sweeps as f64;
+            if sweep > KNOWN && (rate >= 1.0 || left > 2.0 * (most - sweep) as f64) {
+                return (sweep, self.blocks_are_solved());
+            }
+            (before, last, sweeps) = (moved, f64::INFINITY, 0);
+        }
+        (most, self.is_solved())
+    }
+
+    /// Moves elements by changes of force on others that are not near; returns whether any added more than `least`, N.
+    fn move_far(&mut self, least: f64) -> bool {
+        let Self { blocks: Some(blocks), count, change, applied, .. } = self else { return false };
+        let mut reached = false;
+        for e in 0..*count {
+            let moved = [e, *count + e, 2 * *count + e].map(|i| change[i] - applied[i]);
+            reached |= blocks.push_far(e, moved, least);
+        }
+        applied.copy_from_slice(change);
+        reached
+    }
+
+    /// Solves all elements in turn, as [`Problem::relax`]; returns the largest change, N, or NaN.
+    fn relax_all(&mut self, least: f64, share: f64) -> f64 {
+        let larger = |most: f64, change: f64| if change <= most { most } else { change };
+        (0..self.count).map(|e| self.relax(e, least, share)).fold(0.0, larger)
+    }
+
+    /// Solves an element with the others fixed until its force changes by no more than `least`, or by no more than a
+    /// `share` of its first change; returns its change, N.
+    fn relax(&mut self, e: usize, least: f64, share: f64) -> f64 {
         let places = self.places(e);
         let bounds = self.bounds[e];
         let [normal, tangential] = self.rho[e];
         let start = places.map(|i| self.force(i));
-        let (mut r, mut y) = (start, places.map(|i| self.y[i]));
-        let mut block = None;
-        for _ in 0..LOCAL {
+        let (mut r, mut y, block) = (start, self.motion(e), self.own[e]);
+        let mut least = least;
+        for local in 0..LOCAL {
             let p = bounds.press(r[0] - normal * (y[0] - bounds.offset));
             let pressed = p - r[0];
             if pressed != 0.0 {
-                let block = block.get_or_insert_with(|| self.block(e));
                 (0..3).for_each(|k| y[k] += block[k][0] * pressed);
             }
             let [tx, ty] = bounds.shear(p, [r[1] - tangential * y[1], r[2] - tangential * y[2]]);
             let sheared = [tx - r[1], ty - r[2]];
             if sheared != [0.0; 2] {
-                let block = block.get_or_insert_with(|| self.block(e));
                 for k in 0..3 {
                     y[k] += block[k][1] * sheared[0] + block[k][2] * sheared[1];
                 }
@@ -68,6 +131,19 @@ impl Problem {
             if change.is_nan() || change <= least {
                 break;
             }
+            if local == 0 {
+                least = least.max(share * change);
+            }
+        }
+        if self.blocks.is_some() {
+            let moved: [f64; 3] = std::array::from_fn(|k| r[k] - start[k]);
+            if moved != [0.0; 3] {
+                places.into_iter().zip(r).for_each(|(i, r)| self.set(i, r));
+                if let Some(blocks) = &mut self.blocks {
+                    blocks.push_near(e, moved);
+                }
+            }
+            return moved.iter().map(|moved| moved.abs()).sum();
         }
         let mut change = 0.0;
         for (k, &i) in places.iter().enumerate() {
