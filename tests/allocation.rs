@@ -113,7 +113,7 @@ fn in_plan(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
 fn on_many_cells(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     let body = RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap();
     let ground = ElasticGround::under(soil(SI), &body, 12).unwrap();
-    let shake = || Some(el_centro_1940().scaled(20.0).unwrap());
+    let shake = || Some(el_centro_1940().scaled(60.0).unwrap());
     let motion = Triaxial { x: shake(), y: shake(), up: None };
     Simulation::builder(5e-4).ground(ground).structure(body).interface(law).motion(motion)
 }

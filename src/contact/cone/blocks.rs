@@ -40,7 +40,8 @@ pub(super) struct Blocks {
     starts: Vec<usize>,
     /// End of the near links of each element.
     near: Vec<usize>,
-    blocks: Vec<Block>,
+    /// Different blocks.
+    kinds: Vec<Block>,
     modes: Vec<Modes>,
     rank: usize,
     /// Motions by the soil; amplitudes Lᵀ r of the modes.
@@ -63,7 +64,7 @@ impl Blocks {
             strengths: Vec::with_capacity(count * count),
             starts: vec![0],
             near: Vec::with_capacity(count),
-            blocks: vec![],
+            kinds: vec![],
             modes: vec![[[0.0; RANK]; 3]; count],
             rank: 0,
             motions: vec![[0.0; 4]; count],
@@ -93,15 +94,15 @@ impl Blocks {
                 let strength = block.iter().fold(0.0_f64, |most, [n, x, y, _]| {
                     most.max(normal * n.abs()).max(tangential * x.abs().max(y.abs()))
                 });
-                let blocks = &mut self.blocks;
+                let kinds = &mut self.kinds;
                 let number =
                     *known.entry(block.map(|c| c.map(f64::to_bits))).or_insert_with(|| {
-                        blocks.push(block);
-                        blocks.len() - 1
+                        kinds.push(block);
+                        kinds.len() - 1
                     });
                 links.push((strength, Link { element, block: number }));
             }
-            if self.blocks.len() as f64 > DIFFERENT * (count * count) as f64 {
+            if self.kinds.len() as f64 > DIFFERENT * (count * count) as f64 {
                 return None;
             }
             links.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -125,7 +126,8 @@ impl Blocks {
         loop {
             let pivot = (0..size).max_by(|a, b| rest[*a].total_cmp(&rest[*b]))?;
             if rest[pivot] <= least {
-                return Some(());
+                // A rest that is not positive has no such factors.
+                return rest.iter().all(|rest| *rest >= -10.0 * least).then_some(());
             }
             if self.rank == RANK {
                 return None;
@@ -181,8 +183,8 @@ impl Blocks {
     }
 
     fn push_links(&mut self, begin: usize, end: usize, force: [f64; 3]) {
-        let Self { links, blocks, motions, .. } = self;
-        vectorized(Push { links: &links[begin..end], blocks, force, motions });
+        let Self { links, kinds, motions, .. } = self;
+        vectorized(Push { links: &links[begin..end], blocks: kinds, force, motions });
     }
 
     /// Motion of an element.

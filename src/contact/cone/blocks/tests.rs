@@ -57,7 +57,7 @@ fn blocks_are_w() {
     let mut random = Random(3);
     let mut problem = problem(&mut random, 0.5);
     let blocks = Blocks::new(&problem.w, &problem.rho, soil).unwrap();
-    assert!(blocks.rank == 4 && blocks.blocks.len() < 500, "{}", blocks.blocks.len());
+    assert!(blocks.rank == 4 && blocks.kinds.len() < 500, "{}", blocks.kinds.len());
     assert!(blocks.near.iter().zip(&blocks.starts).all(|(near, start)| near - start < 20));
     problem.change.iter_mut().for_each(|change| *change = random.within(-1.0, 1.0));
     problem.change[7] = 0.0;
@@ -74,6 +74,8 @@ fn blocks_are_w() {
     for ((a, b), change) in problem.y.iter().zip(&wanted).zip(&problem.change) {
         assert!((a - b - 0.1 * change).abs() < 1e-13, "{a} {b}");
     }
+    // The rest is not positive.
+    assert!(Blocks::new(&problem.w, &problem.rho, |i, j| 1.1 * soil(i, j)).is_none());
     // Every block is another one, or the rest has many modes.
     assert!(
         Blocks::new(&problem.w, &problem.rho, |i, j| soil(i, j) * (1 + i + j) as f64).is_none()
