@@ -130,7 +130,7 @@ mod tests {
         assert_eq!((graph.len(), rows.len()), (330, 660));
         assert!(members.iter().all(|own| own.len() == 2));
         let side = dissected(&graph);
-        let count = |part: u8| side.iter().filter(|own| **own == part).count();
+        let count = |part: u8| side.iter().map(|own| usize::from(*own == part)).sum::<usize>();
         assert_eq!(count(SEPARATOR), 30);
         assert!(count(0).max(count(1)) <= 180);
         for v in (0..graph.len()).filter(|v| side[*v] != SEPARATOR) {
