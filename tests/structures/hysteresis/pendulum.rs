@@ -161,6 +161,7 @@ fn reference(climbs: bool, ground: impl Fn(f64) -> f64) -> [f64; 3] {
 
 /// The vertical motion makes the weight vary by a third, and the block slide 11 % further.
 #[test]
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small and > 0")]
 fn a_block_slides_under_a_varying_weight() {
     let record = el_centro_1940().scaled(1.5).unwrap();
     let samples = (record.duration() / record.time_step()).round() as usize;
