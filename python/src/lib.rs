@@ -105,9 +105,10 @@ mod _core {
         structure::{
             PyBeamSection, PyBilinear, PyBoucWen, PyFemModel, PyFrictionPendulum, PyGmshMesh,
             PyGmshSpaceMesh, PyGrid, PyHysteresis, PyLayer, PyLeadRubber, PyMaterial,
-            PyMatrixModel, PyMesh, PyPlanStorey, PyRayleighDamping, PyReducedModel, PyRigidBlock,
-            PyRigidBody, PyShearBuilding, PyShellResultants, PyShellRows, PyStorey,
-            PyStoreyBuilding, PyStructure, PyStructureGroup, PyWithModalDamping, PyWithSprings,
+            PyMatrixModel, PyMesh, PyPendulumBearing, PyPlanStorey, PyRayleighDamping,
+            PyReducedModel, PyRigidBlock, PyRigidBody, PyShearBuilding, PyShellResultants,
+            PyShellRows, PyStorey, PyStoreyBuilding, PyStructure, PyStructureGroup,
+            PyWithModalDamping, PyWithSprings,
         },
         ticker::cancel_when,
         user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance},

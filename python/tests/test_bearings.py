@@ -36,3 +36,29 @@ def test_bearings_slide_in_any_direction() -> None:
         bm.StoreyBuilding(mat, [floor], laws={(0, "xy"): own})
     with pytest.raises(TypeError, match=r"\(row_x, row_y, law\)"):
         bm.WithSprings(building, [(pendulum,)])
+
+
+def test_a_pendulum_carries_the_block_on_it() -> None:
+    """N = k ⟨d²/(2R) − d_z⟩ and N d/R; a block of 100 t on one bearing, its energy closed while N varies."""
+    stiffness = 2.5e8
+    bearing = bm.PendulumBearing(1e6, 2.0, 0.05, stiffness)
+    assert repr(pickle.loads(pickle.dumps(bearing))) == repr(bearing)
+    assert bearing.vertical_force((0.1, 0.0, 0.0025 - 0.004)) == pytest.approx(1e6)
+    assert bearing.force((0.1, 0.0, -0.0015)) == pytest.approx([1e5, 0.0, -1e6])
+    assert bearing.force((0.0, 0.0, 0.001)) == [0.0] * 3
+    corners = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]
+    base = [bm.BaseNode.rigid_face(corners, (0.0, 0.0), list(range(6)))]
+    block = bm.MatrixModel(np.diag([1e4] * 6 + [1e5] * 3), np.zeros((9, 9)), base)
+    rows = [{6 + k: 1.0, k: -1.0} for k in range(3)]
+    isolated = bm.WithSprings(block, [(*rows, bearing)])
+    probes = [bm.Probe.displacement(name, row) for name, row in zip(("dx", "dy", "dz"), rows)]
+    run = simulation(isolated, bm.Bonded(), probes=probes).run(300, warn=False)
+    assert run.energy_error < 1e-9 and max(np.ptp(run["dx"]), np.ptp(run["dy"])) > 1e-3
+    sink = -run.static_displacement[8] + run.static_displacement[2]
+    assert sink == pytest.approx(1e5 * 9.80665 / stiffness, rel=1e-6)
+    with pytest.raises(bm.InputError, match="vertical stiffness"):
+        bm.PendulumBearing(1e6, 2.0, 0.05, 0.0)
+    with pytest.raises(TypeError, match="a PendulumBearing for three rows"):
+        bm.WithSprings(block, [(*rows, bm.FrictionPendulum(1e6, 2.0, 0.05))])
+    with pytest.raises((TypeError, bm.InputError)):
+        bm.WithSprings(block, [(*rows[:2], bearing)])

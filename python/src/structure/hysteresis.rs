@@ -5,7 +5,7 @@ use std::sync::Arc;
 use basemat::Result;
 use basemat::structure::{
     BiaxialSpring, Bilinear, BoucWen, DofCombination, FrictionPendulum, Hysteresis, LeadRubber,
-    WithSprings,
+    PendulumBearing, WithSprings,
 };
 use pyo3::prelude::*;
 
@@ -138,6 +138,44 @@ impl PyFrictionPendulum {
     }
 }
 
+/// Friction pendulum that carries the structure, in plan: its weight is the vertical force on it.
+///
+/// ``weight`` (N; of its stiffness before it slides, and of its friction until the static state is known), ``radius`` of its
+/// dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5 mm by default) before
+/// it slides. `WithSprings` attaches it to three rows: it slides in any direction, climbs on its dish, and lifts off.
+/// Friction follows the vertical force one step later; moments of that force at the displaced bearing are left out.
+#[pyclass(name = "PendulumBearing", module = "basemat", frozen, dict)]
+pub(crate) struct PyPendulumBearing(PendulumBearing);
+
+#[pymethods]
+impl PyPendulumBearing {
+    #[new]
+    #[pyo3(signature = (weight, radius, friction, vertical_stiffness, *, yield_displacement=FrictionPendulum::YIELD_DISPLACEMENT))]
+    fn new(
+        weight: f64,
+        radius: f64,
+        friction: f64,
+        vertical_stiffness: f64,
+        yield_displacement: f64,
+    ) -> PyResult<Self> {
+        FrictionPendulum::new(weight, radius, friction)
+            .and_then(|own| own.with_yield_displacement(yield_displacement))
+            .and_then(|own| own.with_vertical_stiffness(vertical_stiffness))
+            .or_raise()
+            .map(Self)
+    }
+
+    /// Vertical force (N) on a new bearing at a ``deformation`` (along x, along y and up, m); 0 while it is lifted off.
+    fn vertical_force(&self, deformation: [f64; 3]) -> f64 {
+        self.0.vertical_force(deformation)
+    }
+
+    /// Forces (along x, along y and up, N) of a new bearing at a ``deformation`` (m).
+    fn force(&self, deformation: [f64; 3]) -> [f64; 3] {
+        self.0.force(deformation)
+    }
+}
+
 /// Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
 /// of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
 /// after yielding, 10 by default.
@@ -187,18 +225,31 @@ fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<P
     own.or_raise().map(PyLeadRubber)
 }
 
-/// Springs of a list: rows of the deformations, one or two, and the law.
-struct Springs(Vec<(Vec<RowLike>, LawLike)>);
+/// Springs of a list: rows of the deformations, one to three, and the law.
+struct Springs(Vec<(Vec<RowLike>, SpringLaw)>);
+
+/// Law of one or two rows, or a bearing of three.
+enum SpringLaw {
+    Law(LawLike),
+    Bearing(PendulumBearing),
+}
 
 extracts!(Springs, object => {
-    let needed = "a list of (row, law) or (row_x, row_y, law)";
+    let needed = "a list of (row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
     let entries = object.try_iter().map_err(|_| no_such(&object, needed))?;
     let spring = |entry: PyResult<Bound<'py, PyAny>>| {
         let entry = entry?;
-        let count = entry.len().ok().filter(|count| [2, 3].contains(count));
-        let last = count.ok_or_else(|| no_such(&entry, "(row, law) or (row_x, row_y, law)"))? - 1;
+        let count = entry.len().ok().filter(|count| [2, 3, 4].contains(count));
+        let needed = "(row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
+        let last = count.ok_or_else(|| no_such(&entry, needed))? - 1;
         let rows = (0..last).map(|k| entry.get_item(k)?.extract::<RowLike>());
-        Ok((rows.collect::<PyResult<_>>()?, entry.get_item(last)?.extract()?))
+        let law = entry.get_item(last)?;
+        let law = match law.cast::<PyPendulumBearing>() {
+            Ok(own) if last == 3 => SpringLaw::Bearing(own.get().0.clone()),
+            _ if last == 3 => return Err(no_such(&law, "a PendulumBearing for three rows")),
+            _ => SpringLaw::Law(law.extract()?),
+        };
+        Ok((rows.collect::<PyResult<_>>()?, law))
     };
     entries.map(spring).collect::<PyResult<_>>().map(Self)
 });
@@ -207,13 +258,15 @@ extracts!(Springs, object => {
 enum Spring {
     Uniaxial(DofCombination, Recipe<dyn Hysteresis>),
     Biaxial([DofCombination; 2], Make<BiaxialSpring>),
+    Bearing([DofCombination; 3], PendulumBearing),
 }
 
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
 /// freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
 /// In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
 /// (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
-/// along x and y act independently, and carry √2 times their limit on the diagonal.
+/// along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
+/// y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
 #[pyclass(name = "WithSprings", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyWithSprings(
     /// The structure without the springs.
@@ -227,16 +280,20 @@ impl PyWithSprings {
         let (object, structure) = (structure.clone(), recipe(&structure)?);
         let dofs = structure().or_raise()?.dofs();
         let names = DofNames::from_structure(&object, dofs)?;
-        let spring = |(rows, law): (Vec<RowLike>, LawLike)| {
+        let spring = |(rows, law): (Vec<RowLike>, SpringLaw)| {
+            let count = rows.len();
             let row = |RowLike(row, order): RowLike| {
                 order.check("the row of a spring", dofs)?;
                 Ok(row)
             };
             let mut rows = rows.into_iter().map(row).collect::<PyResult<Vec<_>>>()?.into_iter();
-            let first = rows.next().unwrap_or_default();
-            Ok(match rows.next() {
-                Some(second) => Spring::Biaxial([first, second], law.coupled()?),
-                None => Spring::Uniaxial(first, law.0),
+            let mut next = || rows.next().unwrap_or_default();
+            Ok(match law {
+                SpringLaw::Bearing(law) => Spring::Bearing([next(), next(), next()], law),
+                SpringLaw::Law(law) if count == 2 => {
+                    Spring::Biaxial([next(), next()], law.coupled()?)
+                }
+                SpringLaw::Law(law) => Spring::Uniaxial(next(), law.0),
             })
         };
         let springs: Vec<_> = springs.0.into_iter().map(spring).collect::<PyResult<_>>()?;
@@ -246,6 +303,7 @@ impl PyWithSprings {
                 own = match spring {
                     Spring::Uniaxial(row, law) => own.spring(row, law()?)?,
                     Spring::Biaxial(rows, law) => own.biaxial_spring(rows.each_ref(), law()?)?,
+                    Spring::Bearing(rows, law) => own.pendulum(rows.each_ref(), law.clone())?,
                 };
             }
             Ok(own)

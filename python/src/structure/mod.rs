@@ -27,7 +27,8 @@ pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use gmsh_space::PyGmshSpaceMesh;
 pub(crate) use grid::PyGrid;
 pub(crate) use hysteresis::{
-    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyWithSprings,
+    PyBilinear, PyBoucWen, PyFrictionPendulum, PyHysteresis, PyLeadRubber, PyPendulumBearing,
+    PyWithSprings,
 };
 pub(crate) use material::{PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
