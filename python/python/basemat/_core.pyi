@@ -87,6 +87,7 @@ _RowLike: TypeAlias = Union[
 _Spring: TypeAlias = Union[
     tuple[_RowLike, Union["Hysteresis", UserHysteresis]],
     tuple[_RowLike, _RowLike, "Hysteresis"],
+    tuple[_RowLike, _RowLike, _RowLike, "PendulumBearing"],
 ]
 _GmshPart: TypeAlias = Union[
     "Material", tuple["Material", float], tuple["Material", "BeamSection", Sequence[float]], None
@@ -2908,6 +2909,30 @@ class FrictionPendulum(Hysteresis):
         """Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default)."""
 
 @final
+class PendulumBearing:
+    """Friction pendulum that carries the structure, in plan: its weight is the vertical force on it.
+
+    ``weight`` (N; of its stiffness before it slides, and of its friction until the static state is known), ``radius`` of its
+    dish (m), ``friction`` coefficient, ``vertical_stiffness`` (N/m), ``yield_displacement`` (m; 0.5 mm by default) before
+    it slides. `WithSprings` attaches it to three rows: it slides in any direction, climbs on its dish, and lifts off.
+    Friction follows the vertical force one step later; moments of that force at the displaced bearing are left out.
+    """
+
+    def __new__(
+        cls,
+        weight: float,
+        radius: float,
+        friction: float,
+        vertical_stiffness: float,
+        *,
+        yield_displacement: float = ...,
+    ) -> Self: ...
+    def vertical_force(self, deformation: Sequence[float]) -> float:
+        """Vertical force (N) on a new bearing at a ``deformation`` (along x, along y and up, m); 0 while it is lifted off."""
+    def force(self, deformation: Sequence[float]) -> list[float]:
+        """Forces (along x, along y and up, N) of a new bearing at a ``deformation`` (m)."""
+
+@final
 class LeadRubber(Hysteresis):
     """Lead–rubber bearing: ``shear_modulus`` (Pa), ``rubber_area`` (m² per metre) and ``rubber_thickness`` (m)
     of its rubber, ``lead_area`` (m² per metre) of its lead; ``stiffness_ratio``: first stiffness over that
@@ -3225,7 +3250,8 @@ class WithSprings(Structure):
     freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
     In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
     (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
-    along x and y act independently, and carry √2 times their limit on the diagonal.
+    along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
+    y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
     """
 
     def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
