@@ -113,7 +113,7 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         .with_bedrock_damping(Elastic)
         .with_layer(soil(1.0, 1.0), 2.0)
         .unwrap();
-    let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(4, 3).unwrap();
+    let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(8, 4).unwrap();
     let ground = TrenchGround::new(profile, elements).unwrap();
     let s = Complex::new(1e-3, 3.75);
     let at = |depth: f64| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap();
