@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._core import MODES, DeformedShape, Run
+from ._core import DeformedShape, Run
 from ._errors import InputError
-from ._figures import COLORS, SURFACE, label_axes, pyplot
+from ._figures import COLORS, SURFACE, label_axes, mode_key, pyplot
 from ._film import Film, moving
 from ._plots import contact_plan
 from ._shapes import Outline, draw_ground, seen, usual_scale
@@ -183,16 +183,12 @@ def _curve(axes: Axes, x: Any, values: Any) -> Drawn:
 def _strip(run: Run, axes: Axes) -> Drawn:
     """Contact modes along the lower edge of the axes, with their key."""
     from matplotlib.collections import LineCollection
-    from matplotlib.patches import Patch
 
     modes, left, right = run.contact["mode"], run.envelope["left"], run.envelope["right"]
     low = axes.get_ylim()[0]
     strip = LineCollection([[(a, low), (b, low)] for a, b in zip(left, right)], linewidths=12.0, capstyle="butt")
     axes.add_collection(strip, autolim=False)
-    found = [int(own) for own in np.unique(modes)]
-    patches = [Patch(color=COLORS[own], label=MODES[own]) for own in found]
-    place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
-    axes.legend(handles=patches, fontsize="small", ncols=len(patches), **place)
+    mode_key(axes, np.unique(modes))
 
     def draw(frame: int) -> list[Artist]:
         strip.set_color([COLORS[own] for own in modes[frame]])

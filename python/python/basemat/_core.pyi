@@ -1405,7 +1405,7 @@ class Run(Summary):
     def foundation_frame(self) -> DataFrame:
         """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-        Columns are ends (m), the static normal force, residual slip (m), and those of `Run.series`: of a factor
+        Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
         of safety the least value; in plan also the directions across: "torque" and others.
         """
     def energy_frame(self) -> DataFrame:
@@ -1434,16 +1434,16 @@ class Run(Summary):
     ) -> list[Axes]:
         """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
-        Contact modes are those of the snapshots, if ``contact_every`` was given to `Simulation.run`. ``axes``: two of
-        matplotlib to draw into, three with snapshots; those of a new figure unless given. For several runs in the same axes:
+        Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
+        with snapshots; unless given, axes of a new figure. For several runs in the same axes:
         ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
         line style for each run. ``title`` stands above the picture; None for none.
         """
     def plot_modes(self, axes: Axes | None = None, *, title: str | None = None) -> Axes:
         """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
-        It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: those of matplotlib to draw into;
-        unless given, axes of a new figure. ``title`` stands above the picture; None for none.
+        It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
+        new figure unless given. ``title`` stands above the picture; None for none.
         """
     def plot_contact_plan(
         self,

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from ._core import MODES, Run
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -57,6 +58,23 @@ def label_axes(axes: Axes, x: str | None, y: str) -> None:
 def key(axes: Axes, **options: Any) -> None:
     """Key to the curves at the right of the axes, where it hides none."""
     axes.legend(fontsize="small", loc="upper left", bbox_to_anchor=(1.0, 1.0), **options)
+
+
+def mode_key(axes: Axes, modes: Iterable[int]) -> None:
+    """Key to these contact modes, by their numbers, above the axes at the right."""
+    from matplotlib.patches import Patch
+
+    patches = [Patch(color=COLORS[mode], label=MODES[mode]) for mode in modes]
+    place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
+    axes.legend(handles=patches, fontsize="small", ncols=len(patches), **place)
+
+
+def was_kept(run: Run, snapshots: Literal["contact", "motion"]) -> bool:
+    """Whether a run kept snapshots of this kind."""
+    try:
+        return bool(getattr(run, snapshots))
+    except InputError:
+        return False
 
 
 def named(label: str | None, name: str) -> str:

@@ -98,7 +98,7 @@ def envelope_frame(self: Run) -> DataFrame:
 def foundation_frame(self: Run) -> DataFrame:
     """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
 
-    Columns are ends (m), the static normal force, residual slip (m), and those of `Run.series`: of a factor
+    Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
     of safety the least value; in plan also the directions across: "torque" and others.
     """
     rows = []

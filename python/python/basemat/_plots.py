@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ._core import MODES, Impedances, Run, SoilProfile, Spectrum
 from ._errors import InputError
-from ._figures import COLORS, OPEN, axes_for, color_for, key, label_axes, logarithmic, named, results_in
+from ._figures import (
+    COLORS,
+    OPEN,
+    axes_for,
+    color_for,
+    key,
+    label_axes,
+    logarithmic,
+    mode_key,
+    named,
+    results_in,
+    was_kept,
+)
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -30,14 +41,12 @@ def plot_run(
 ) -> list[Axes]:
     """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
 
-    Contact modes are those of the snapshots, if ``contact_every`` was given to `Simulation.run`. ``axes``: two of
-    matplotlib to draw into, three with snapshots; those of a new figure unless given. For several runs in the same axes:
+    Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
+    with snapshots; unless given, axes of a new figure. For several runs in the same axes:
     ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
     line style for each run. ``title`` stands above the picture; None for none.
     """
-    has_modes = False
-    with suppress(InputError):
-        has_modes = bool(self.contact)
+    has_modes = was_kept(self, "contact")
     own = axes_for(axes, 3 if has_modes else 2, title)
     before = results_in(own[0])
     names = {"base_shear": "base shear", "shear_across": "across"} if self.in_plan else {"base_shear": "base shear"}
@@ -68,19 +77,16 @@ def plot_run(
 def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None) -> Axes:
     """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
 
-    It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: those of matplotlib to draw into;
-    unless given, axes of a new figure. ``title`` stands above the picture; None for none.
+    It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
+    new figure unless given. ``title`` stands above the picture; None for none.
     """
     [own] = axes_for(axes, 1, title)
     from matplotlib.colors import ListedColormap
-    from matplotlib.patches import Patch
 
     frames = self.contact
     time, modes = frames["time"], frames["mode"]
     found = np.unique(modes)
-    place: dict[str, Any] = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "borderaxespad": 0.2}
-    patches = [Patch(color=COLORS[mode], label=MODES[mode]) for mode in found]
-    own.legend(handles=patches, fontsize="small", ncols=len(patches), **place)
+    mode_key(own, found)
     if self.in_plan:
         area = np.prod([high - low for low, high in sides(self)], axis=0)
         areas = [(modes == mode) @ area for mode in found]

@@ -19,9 +19,8 @@ from . import _core
 from ._animation import film_of
 from ._core import DeformedShape, Interaction, Record, Run, Simulation, Summary
 from ._errors import FileError, InputError
-from ._figures import axes_for, label_axes, pyplot
+from ._figures import axes_for, label_axes, pyplot, was_kept
 from ._film import Film, quantized
-
 
 _STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
@@ -214,11 +213,7 @@ def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
         for name in floors:
             run.floor_spectrum(name, _core.log_spaced(shortest, 4.0, 120), 0.05).plot(own, label=name)
         yield _picture(own.figure, "floor spectra")
-    has_contact = has_motion = False
-    with suppress(InputError):
-        has_contact = bool(run.contact)
-    with suppress(InputError):
-        has_motion = bool(run.motion)
+    has_contact, has_motion = was_kept(run, "contact"), was_kept(run, "motion")
     if has_contact and run.in_plan:
         yield "<h2>The base when most of it is open</h2>"
         yield _picture(run.plot_contact_plan().figure, "contact in plan")
