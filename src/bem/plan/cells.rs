@@ -51,7 +51,7 @@ pub struct Plan {
     /// Each cell at the outline; empty if no cell is cut.
     pub(super) cuts: Vec<Cut>,
     /// Estimated relative error of a rigid mat's rocking stiffness by oblique edges.
-    pub(super) error: f64,
+    error: f64,
 }
 
 impl Plan {
@@ -225,6 +225,11 @@ impl Plan {
             return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
         }
         Ok(plan)
+    }
+
+    /// The plan without the estimated error by oblique edges, which is one of rigid mats.
+    pub(super) fn under_flexible_mats(self) -> Self {
+        Self { error: 0.0, ..self }
     }
 
     /// Number of cells.

@@ -50,11 +50,18 @@ pub(super) fn overhang(
     OVERHANG * ((STEPS * part).round() / STEPS)
 }
 
+/// Mean side (m) of the faces of a mat, from corners and area of each; two triangles count as one face.
+pub(super) fn mean_side(faces: &[(&[BaseNode], f64)]) -> f64 {
+    let pieces: f64 = faces.iter().map(|(own, _)| 0.5 * (own.len() as f64 - 2.0)).sum();
+    let area: f64 = faces.iter().map(|(_, area)| area).sum();
+    (area / pieces).sqrt()
+}
+
 /// Corners of the faces of a mat.
 struct Points<'a> {
     /// Each corner with its part of the area, m².
     corners: Vec<(&'a BaseNode, f64)>,
-    /// Mean side of a face, m; two triangles count as one face.
+    /// Mean side of a face, m.
     spacing: f64,
 }
 
@@ -65,9 +72,7 @@ impl<'a> Points<'a> {
             let own = area / corners.len() as f64;
             corners.iter().map(move |corner| (corner, own))
         });
-        let pieces: f64 = faces.iter().map(|(own, _)| 0.5 * (own.len() as f64 - 2.0)).sum();
-        let area: f64 = faces.iter().map(|(_, area)| area).sum();
-        Self { corners: corners.collect(), spacing: (area / pieces).sqrt() }
+        Self { corners: corners.collect(), spacing: mean_side(faces) }
     }
 
     /// Stiffness of the mat relative to `springs` (Pa/m) for waves of load along x and along y.

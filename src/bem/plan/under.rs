@@ -3,7 +3,7 @@
 use super::cells::{Plan, check_faces};
 use super::faces::Face;
 use super::outline::OVERHANG;
-use super::overhang::{NAME, overhang};
+use super::overhang::{NAME, mean_side, overhang};
 use crate::error::Result;
 use crate::linalg::SparseMatrix;
 use crate::soil::Soil;
@@ -15,10 +15,11 @@ const MOST_RAISED: f64 = 1000.0;
 impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
-    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]): how far they should extend beyond it
-    /// depends on the soil ([`ElasticGround::under`](crate::bem::ElasticGround::under)). The plan has at least one cell for each flexible face (two triangles count as one): between
-    /// cells only the structure holds its nodes. This raises the number to 1000 cells at most: a base that needs more
-    /// causes an error or a warning of the build ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
+    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because a right overhang depends on
+    /// the soil ([`ElasticGround::under`](crate::bem::ElasticGround::under)). The plan has at least one cell for each
+    /// flexible face (two triangles count as one): between cells only the structure holds its nodes. This raises the
+    /// number to 1000 cells at most: a base that needs more causes an error or a warning of the build
+    /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
     /// As for [`Plan::on_faces`].
@@ -53,31 +54,27 @@ impl Plan {
         let flexible: Vec<_> = mats.filter(|own| cells > 1 && is_flexible(own)).collect();
         let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
         let [shorter, longer] = [sides[0].min(sides[1]), sides[0].max(sides[1])];
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+        let limit = (MOST_RAISED / (longer / shorter)).sqrt() as usize;
         let mut most = cells;
         for own in &flexible {
-            let pieces: f64 = own.iter().map(|(own, _)| 0.5 * (own.len() as f64 - 2.0)).sum();
-            let area = own.iter().map(|(_, area)| area).sum::<f64>();
-            let along = shorter * f64::sqrt(pieces / area);
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-            let along = (along * (1.0 - 1e-9)).ceil() as usize;
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-            let limit = (MOST_RAISED / (longer / shorter)).sqrt() as usize;
+            let along = (shorter / mean_side(own) * (1.0 - 1e-9)).ceil() as usize;
             most = most.max(along.min(limit));
         }
         if flexible.is_empty() {
             return Self::covering(faces, most, OVERHANG).map(Some);
         }
-        let Some(soil) = soil else { return Self::covering(faces, most, 0.0).map(Some) };
-        let mut stiffness = Triplets::new(structure.dofs());
-        base.check(structure.dofs())?;
-        structure.stiffness(&mut stiffness)?;
-        let stiffness = SparseMatrix::new(NAME, &stiffness)?;
-        let mut least = OVERHANG;
-        for own in &flexible {
-            least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
+        let mut least = if soil.is_some() { OVERHANG } else { 0.0 };
+        if let Some(soil) = soil {
+            let mut stiffness = Triplets::new(structure.dofs());
+            base.check(structure.dofs())?;
+            structure.stiffness(&mut stiffness)?;
+            let stiffness = SparseMatrix::new(NAME, &stiffness)?;
+            for own in &flexible {
+                least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
+            }
         }
-        let mut plan = Self::covering(faces, most, least)?;
-        plan.error = 0.0;
-        Ok(Some(plan))
+        Self::covering(faces, most, least).map(|plan| Some(plan.under_flexible_mats()))
     }
 }
