@@ -196,20 +196,20 @@ impl Cone {
         let lasts = lasts(self.is_linear, &self.layers, input);
         let Self { problem, areas, layers, .. } = self;
         let (size, count) = (problem.size(), areas.len());
+        let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
         for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
                 *value = input.delassus[row * size + column] / areas[column % count];
             }
-            values[row] += layers[row % count][(row / count).min(1)] / areas[row % count];
+            values[row] += layer(row);
         }
         problem.find_scales();
         // Blocks of a W that changes would not pay.
         problem.blocks = match input.delassus.soil() {
             Some(soil) if lasts && count >= MANY => {
                 let soil = |row: usize, column: usize| {
-                    let layer = layers[row % count][(row / count).min(1)];
                     let own = soil[row * size + column] / areas[column % count];
-                    if row == column { own + layer / areas[row % count] } else { own }
+                    if row == column { own + layer(row) } else { own }
                 };
                 Blocks::new(&problem.w, &problem.rho, soil)
             }
