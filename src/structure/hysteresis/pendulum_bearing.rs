@@ -46,8 +46,13 @@ impl PendulumBearing {
     }
 
     /// Vertical force N on the bearing, N; zero while it is lifted off.
-    pub fn vertical_force(&self, [x, y, z]: [f64; 3]) -> f64 {
-        self.stiffness * ((x * x + y * y) / (2.0 * self.radius) - z).max(0.0)
+    pub fn vertical_force(&self, deformation: [f64; 3]) -> f64 {
+        self.stiffness * self.shortening(deformation).max(0.0)
+    }
+
+    /// Climb on the dish less the rise of the part above, m; negative while the bearing is lifted off.
+    fn shortening(&self, [x, y, z]: [f64; 3]) -> f64 {
+        (x * x + y * y) / (2.0 * self.radius) - z
     }
 
     /// Forces along x, along y and up at a deformation (m), positive against positive deformations, N.
@@ -60,12 +65,12 @@ impl PendulumBearing {
 
     /// Slopes of the forces over the deformation, N/m: a symmetric matrix, by rows.
     pub(super) fn tangent(&self, deformation: [f64; 3]) -> [[f64; 3]; 3] {
-        let [x, y, z] = deformation;
+        let [x, y, _] = deformation;
         let slopes = self.slider.response([x, y]).tangent;
-        let is_closed = (x * x + y * y) / (2.0 * self.radius) >= z;
+        let is_closed = self.shortening(deformation) >= 0.0;
         let stiffness = if is_closed { self.stiffness } else { 0.0 };
         let climb = self.vertical_force(deformation) / self.radius;
-        // Shortening of the vertical spring by the deformations.
+        // Slopes of the shortening.
         let shortening = [x / self.radius, y / self.radius, -1.0];
         let slope = |i: usize, j: usize| {
             let level = if i < 2 && j < 2 { slopes[i][j] } else { 0.0 };
