@@ -84,17 +84,8 @@ impl Assembled {
     pub(crate) fn on(&self, base: PlacedBase) -> Self {
         let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
         let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
-        let elimination = self.elimination.clone();
-        Self {
-            linear: self.linear,
-            mass,
-            damping,
-            stiffness,
-            at_rest,
-            base,
-            influence,
-            elimination,
-        }
+        let (linear, elimination) = (self.linear, self.elimination.clone());
+        Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination }
     }
 
     /// Number of degrees of freedom.
