@@ -37,7 +37,8 @@ impl Trench {
     /// Trench between `sides` (m along x), `depth` metres deep; of depth 0, a strip of the surface.
     ///
     /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not finite.
+    /// [`Error::Input`](crate::Error::Input) for sides that are not finite or not in order, or a depth below zero or not
+    /// finite.
     pub fn new(sides: Range<f64>, depth: f64) -> Result<Self> {
         let Range { start: left, end: right } = sides;
         finite("left side of a trench", left)?;
@@ -67,8 +68,9 @@ impl Trench {
     /// second order: with 10 elements in all (4 and 3) errors are about 2 %, with 20 (8 and 6) 0.4 %.
     ///
     /// # Errors
-    /// [`Error::Scene`](crate::Error::Scene) for a number of base elements that is zero or odd, or for walls without elements, or elements
-    /// of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow.
+    /// [`Error::Scene`](crate::Error::Scene) for a number of base elements that is zero or odd, or for walls without
+    /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their
+    /// matrices allow.
     pub fn elements(&self, base: usize, wall: usize) -> Result<TrenchElements> {
         check_count(base.saturating_add(wall.saturating_mul(2)), PLANE)?;
         let even = base > 0 && base.is_multiple_of(2);

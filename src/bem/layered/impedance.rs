@@ -22,8 +22,8 @@ use crate::soil::{Bedrock, SoilProfile};
 /// Dynamic stiffness of a rigid, massless strip for motions e^(iωt), per metre of its length.
 ///
 /// x to the right, y down; a positive rotation lowers the right end; forces act on the soil. The reference
-/// point is the middle of the patch, and of the base of a body in a trench. The real part is stiffness (less the inertia of soil that moves along).
-/// The imaginary part is damping, by radiation and in the soil.
+/// point is the middle of the patch, and of the base of a body in a trench. The real part is stiffness (less the
+/// inertia of soil that moves along). The imaginary part is damping, by radiation and in the soil.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
