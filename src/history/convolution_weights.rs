@@ -1,6 +1,8 @@
 //! Weights of a ground's convolution, lag by lag; late weights as exponentials.
 
 use super::exponential_sum::ExponentialSum;
+#[cfg(feature = "embedded")]
+use super::pair_classes::TRENCH_KINDS;
 use super::pair_classes::{KINDS, PairClasses};
 use super::shared_spectra::SharedSpectra;
 use crate::error::{Error, Observer, Result, same_length, unobserved};
@@ -79,6 +81,23 @@ pub trait ConvolutionWeights: Send + Sync {
         Err(OTHER_KINDS)
     }
 
+    /// Like [`ConvolutionWeights::coefficients`], for elements around a trench.
+    ///
+    /// Kinds: along the normal due to pressure, along the tangent due to shear, along the normal due to shear, along the
+    /// tangent due to pressure.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a kernel of another ground (the default); as for [`ConvolutionWeights::coefficients`].
+    #[cfg(feature = "embedded")]
+    fn coefficients_around_trench(
+        &self,
+        _class: usize,
+        _first_lag: usize,
+        _values: [&mut [f64]; TRENCH_KINDS],
+    ) -> Result<()> {
+        Err(OTHER_KINDS)
+    }
+
     /// Last lag at which the coupling of `class` is not zero.
     ///
     /// It is 0 if the coupling is always zero, and `None` (the default) if it never ends. If the coupling ends,
@@ -122,6 +141,13 @@ pub trait ConvolutionWeights: Send + Sync {
         let classes = self.classes();
         same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
         self.prepare(1, &mut unobserved)?;
+        #[cfg(feature = "embedded")]
+        if classes.are_around_trench() {
+            let first = |class, lag: [&mut [f64]; TRENCH_KINDS]| {
+                self.coefficients_around_trench(class, 1, lag)
+            };
+            return scatter_first(classes, matrix, first);
+        }
         if classes.plan().is_some() {
             scatter_first(classes, matrix, |class, lag| self.coefficients_in_plan(class, 1, lag))
         } else {
@@ -158,6 +184,8 @@ pub(super) fn all_kinds(
         [normal, tangential, coupling] => {
             kernel.coefficients(class, first_lag, [normal, tangential, coupling])
         }
+        #[cfg(feature = "embedded")]
+        [nn, tt, nt, tn] => kernel.coefficients_around_trench(class, first_lag, [nn, tt, nt, tn]),
         [zz, xx, yy, xy, zx, zy] => {
             kernel.coefficients_in_plan(class, first_lag, [zz, xx, yy, xy, zx, zy])
         }

@@ -28,6 +28,8 @@ pub use exponentials::{ExponentialFit, ExponentialHistory};
 pub use method::HistoryMethod;
 pub use options::HistoryOptions;
 pub(crate) use pair_classes::KINDS;
+#[cfg(feature = "embedded")]
+pub(crate) use pair_classes::TRENCH_KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::RelaxedFftHistory;
 pub use shared_spectra::SharedSpectra;

@@ -13,6 +13,10 @@ use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const KINDS: usize = 3;
 
+/// Number of kinds around a trench: normal, tangential, normal by tangential, and tangential by normal.
+#[cfg(feature = "embedded")]
+pub(crate) const TRENCH_KINDS: usize = 4;
+
 /// Effect of one traction component of the source on one displacement component of the receiver.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
@@ -33,7 +37,8 @@ pub struct Pair {
     pub scale: f64,
     /// Sign of the coupling between normal and tangential components.
     ///
-    /// It is +1 for a receiver to the right of the source, −1 to the left, 0 for an element on itself.
+    /// It is +1 for a receiver to the right of the source, −1 to the left, 0 for an element on itself. Around a trench it
+    /// is −1 for the mirror image of a pair of the class.
     pub sign: f64,
 }
 
@@ -63,6 +68,9 @@ pub struct PairClasses {
     representatives: Vec<[ContactElement; 2]>,
     /// Lattice of elements in plan, and the column and row of each; `pairs` is then empty.
     plan: Option<(Lattice, Vec<[usize; 2]>)>,
+    /// Around a trench: for each pair, whether receiver and source of the class are exchanged. Otherwise empty.
+    #[cfg(feature = "embedded")]
+    exchanged: Vec<bool>,
 }
 
 impl PairClasses {
@@ -100,7 +108,59 @@ impl PairClasses {
                 pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
             }
         }
-        Ok(Self { elements, pairs, representatives, plan: None })
+        Ok(Self {
+            elements,
+            pairs,
+            representatives,
+            plan: None,
+            #[cfg(feature = "embedded")]
+            exchanged: vec![],
+        })
+    }
+
+    /// Sorts the pairs of elements around a trench into classes.
+    ///
+    /// The elements follow the outline, and the second half mirrors the first one. Counted from the axis along either
+    /// half, class i(i + 1)/2 + j, j ≤ i, has the receiver i of the right half and the source j of the same half. As
+    /// many classes follow, whose source is j of the left half.
+    ///
+    /// # Errors
+    /// As for [`check_count`].
+    #[cfg(feature = "embedded")]
+    pub(crate) fn around_trench(elements: Vec<ContactElement>) -> Result<Self> {
+        check_count(elements.len(), PLANE)?;
+        let (count, half) = (elements.len(), elements.len() / 2);
+        let own = half * (half + 1) / 2;
+        let right = |e: usize| if e < half { half - 1 - e } else { e - half };
+        let (mut pairs, mut exchanged) = (vec![], vec![]);
+        for (p, receiver) in elements.iter().enumerate() {
+            for q in 0..count {
+                let across = (p < half) != (q < half);
+                let [i, j] = [p, q].map(right);
+                let class = i.max(j) * (i.max(j) + 1) / 2 + i.min(j) + if across { own } else { 0 };
+                let swap = i < j;
+                // A receiver of the left half is the mirror image of one of the right half.
+                let mirrored = if swap { q < half } else { p < half };
+                let sign = if mirrored { -1.0 } else { 1.0 };
+                pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
+                exchanged.push(swap);
+            }
+        }
+        let sides = [half, 0].into_iter();
+        let representatives = sides.flat_map(|side| {
+            let source = move |j: usize| if side == 0 { half - 1 - j } else { half + j };
+            let pairs = (0..half).flat_map(|i| (0..=i).map(move |j| [i, j]));
+            pairs.map(move |[i, j]| [source(j), half + i])
+        });
+        let representatives =
+            representatives.map(|pair| pair.map(|element| elements[element])).collect();
+        Ok(Self { elements, pairs, representatives, plan: None, exchanged })
+    }
+
+    /// Whether the elements are around a trench.
+    #[cfg(feature = "embedded")]
+    pub(crate) fn are_around_trench(&self) -> bool {
+        !self.exchanged.is_empty()
     }
 
     /// Classes of the pairs of `cells` (column and row) of a lattice in plan: [`Lattice::classes`].
@@ -122,7 +182,14 @@ impl PairClasses {
             ContactElement::in_plan(along, across)
         };
         let elements = cells.iter().map(element).collect();
-        Ok(Self { elements, pairs: vec![], representatives: vec![], plan: Some((lattice, cells)) })
+        Ok(Self {
+            elements,
+            pairs: vec![],
+            representatives: vec![],
+            plan: Some((lattice, cells)),
+            #[cfg(feature = "embedded")]
+            exchanged: vec![],
+        })
     }
 
     /// Lattice and cells of elements in plan.
@@ -132,6 +199,10 @@ impl PairClasses {
 
     /// Number of kinds of coefficients of a pair: entries of a symmetric matrix, its diagonal first.
     pub(crate) fn kinds(&self) -> usize {
+        #[cfg(feature = "embedded")]
+        if self.are_around_trench() {
+            return TRENCH_KINDS;
+        }
         if self.plan.is_some() { SERIES } else { KINDS }
     }
 
@@ -181,6 +252,8 @@ impl PairClasses {
                 (2, [0, 1], pair.sign),
                 (2, [1, 0], -pair.sign),
             ];
+            #[cfg(feature = "embedded")]
+            let own = self.trench_terms(place).unwrap_or(own);
             for (term, (kind, components, factor)) in terms.iter_mut().zip(own) {
                 *term = Term { kind, components, factor };
             }
@@ -197,6 +270,14 @@ impl PairClasses {
                 put([p, q], &Pair { class, scale, sign: 1.0 }, &terms);
             }
         }
+    }
+
+    /// Kind, components and factor of each term of a pair around a trench; `None` for other pairs.
+    #[cfg(feature = "embedded")]
+    pub(crate) fn trench_terms(&self, place: usize) -> Option<[(usize, [usize; 2], f64); 4]> {
+        let [one, other] = if *self.exchanged.get(place)? { [3, 2] } else { [2, 3] };
+        let sign = self.pairs[place].sign;
+        Some([(0, [0, 0], 1.0), (1, [1, 1], 1.0), (one, [0, 1], sign), (other, [1, 0], sign)])
     }
 
     /// Overwrites `matrix` (row-major) with the coefficients of all pairs.

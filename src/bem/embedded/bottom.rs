@@ -12,11 +12,11 @@ pub(super) struct Bottom {
 /// Angle of the stretched elements relative to the argument of s.
 const TURN: f64 = 0.6;
 /// Longest stretched element, in c/|s|.
-const LONGEST: f64 = 3.0;
-/// Re s·b/c below which stretched elements need a high degree.
-const CLOSE: f64 = 1e-3;
-/// This degree.
-const HIGH: usize = 8;
+const LONGEST: f64 = 6.0;
+/// Least degree of stretched elements: a higher one than of the near field, of longer elements, takes less time.
+const LEAST: usize = 6;
+/// The same for Re s·b/c below a limit.
+const CLOSE: (f64, usize) = (1e-3, 8);
 
 impl Bottom {
     /// Elements for Laplace variables near `s`, below an interval of `last` metres.
@@ -40,8 +40,9 @@ impl Bottom {
             sum += height;
             next = 2.0 * height;
         }
-        let degree = if s.re * size < CLOSE * speed { degree.max(HIGH) } else { degree };
-        Self { heights, degree }
+        let (close, high) = CLOSE;
+        let least = if s.re * size < close * speed { high } else { LEAST };
+        Self { heights, degree: degree.max(least) }
     }
 
     /// No elements: the near field ends on rigid bedrock.

@@ -1,16 +1,17 @@
-//! Soil around a trench, and its response at one frequency.
+//! Ground with a trench in it.
 
-use realfft::num_complex::Complex64;
+use std::path::PathBuf;
 
-use super::bottom::Bottom;
-use super::compliance::{Halves, Model};
-use super::free_field::{Piece, VerticalField};
-use super::grid::{Grid, Layer};
-use super::stack::Moduli;
+use super::soil::TrenchSoil;
+use super::source::TrenchSource;
 use super::trench::TrenchElements;
-use crate::error::{GroundError, Result, positive, require};
-use crate::linalg::Complex;
-use crate::soil::{Bedrock, Relaxation, Soil, SoilProfile};
+use crate::bem::layered::Stages;
+use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround};
+use crate::error::{Observer, Result};
+use crate::geometry::ContactElement;
+use crate::history::{HistoryChoice, HistoryOptions};
+use crate::motion::FreeField;
+use crate::soil::{Relaxation, Soil, SoilProfile};
 
 /// Soil around a trench: profile, contact elements and backfill.
 ///
@@ -20,6 +21,11 @@ use crate::soil::{Bedrock, Relaxation, Soil, SoilProfile};
 /// The soil around the trench is a mesh of finite elements of high degree. Endless columns of elements follow on both
 /// sides. Below are rigid bedrock, or elements of complex height that absorb waves. The mesh is finer at the corners
 /// of the trench and depends on its elements only.
+///
+/// As a [`Ground`] it has the elements of [`TrenchElements::elements`], along the outline. Its convolution weights follow
+/// by Runge–Kutta convolution quadrature, as in layered ground, and are passive for every time step and mesh. The
+/// number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
+/// translations.
 ///
 /// ```
 /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -41,44 +47,14 @@ use crate::soil::{Bedrock, Relaxation, Soil, SoilProfile};
 /// assert!((motion.rotation.abs() * 6.0 - 0.04).abs() < 0.01, "{motion:?}");
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug, Clone)]
 pub struct TrenchGround {
-    profile: SoilProfile,
-    elements: TrenchElements,
-    /// Width of the backfill, m, and a profile of it alone.
-    backfill: Option<(f64, SoilProfile)>,
-    grid: Grid,
+    source: TrenchSource,
+    /// Stages of the last [`Ground::prepare`].
+    used: Option<Stages>,
+    ground: WeightsGround,
 }
 
-/// Degree of the elements.
-const DEGREE: usize = 4;
-/// Largest degree.
-const HIGHEST: usize = 12;
-/// Length of an element of the near field for each degree, in c/|s|.
-const PER_DEGREE: f64 = 0.75;
-/// Longest contact element, in c/ω: a quarter of a shear wave.
-const CONTACT: f64 = 0.25 * std::f64::consts::TAU;
-/// Longest interval of the near field in half widths of the trench, for the slowest soil.
-const LONGEST: f64 = 0.5;
-/// Depth of the stretched elements, in c/|s|, and the factor by which it grows.
-const DEPTH: f64 = 24.0;
-const DEEPER: f64 = 1.3;
-/// Largest depth.
-const DEEPEST: f64 = 100.0;
-/// Relative difference between the compliances of two depths that does not count.
-const SETTLED: f64 = 1e-6;
-/// Re s·b/c below which depths of undamped layers are compared.
-const NEAR_AXIS: f64 = 1e-2;
-/// 2ξ of the least damping with which no comparison is needed.
-const DAMPED: f64 = 4e-3;
-/// Distance between interface and wall element that counts as rounding, in half widths.
-const ROUNDING: f64 = 1e-6;
-
-/// Numbers of a model at Laplace variables near iω.
-pub(super) struct Mesh {
-    degree: usize,
-    bottom: Bottom,
-}
+short_debug! { TrenchGround; self; source: self.source, ground: self.ground }
 
 impl TrenchGround {
     /// Soil of `profile` around a trench with these `elements`.
@@ -87,14 +63,15 @@ impl TrenchGround {
     /// [`Error::Input`](crate::Error::Input) for a trench that reaches down to rigid bedrock;
     /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
     pub fn new(profile: impl Into<SoilProfile>, elements: TrenchElements) -> Result<Self> {
-        let profile = profile.into();
-        profile.check()?;
-        let depth = elements.trench().depth();
-        let above = !matches!(profile.bedrock(), Bedrock::Rigid)
-            || depth + ROUNDING * elements.trench().half_width() < profile.depth();
-        require("depth of a trench", depth, above, "above rigid bedrock")?;
-        let grid = grid(&profile, &elements, 0.0);
-        Ok(Self { profile, elements, backfill: None, grid })
+        let list = elements.elements();
+        let soil = TrenchSoil::new(profile.into(), elements)?;
+        let source = TrenchSource { soil, stages: None, file: None };
+        let ground = WeightsGround::with_unions(source.clone(), list, None);
+        Ok(Self { source, used: None, ground })
+    }
+
+    fn with_source(self, source: TrenchSource) -> Self {
+        Self { ground: self.ground.with_source(source.clone()), source, used: None }
     }
 
     /// Fills the soil beside the walls with `soil`, over a `width` in m and from the surface down to the base.
@@ -102,176 +79,94 @@ impl TrenchGround {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a width that is not finite and above zero.
     pub fn with_backfill(
-        mut self,
+        self,
         width: f64,
         soil: Soil,
         damping: impl Relaxation + 'static,
     ) -> Result<Self> {
-        positive("width of the backfill", width)?;
-        self.grid = grid(&self.profile, &self.elements, width);
-        let alone = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping);
-        self.backfill = Some((width, alone));
-        Ok(self)
+        let source = self.source.clone();
+        let soil = source.soil.with_backfill(width, soil, damping)?;
+        Ok(self.with_source(TrenchSource { soil, ..source }))
+    }
+
+    /// Sets the number of Runge–Kutta stages, in place of the rule.
+    #[must_use]
+    pub fn with_stages(self, stages: Stages) -> Self {
+        let source = TrenchSource { stages: Some(stages), ..self.source.clone() };
+        self.with_source(source)
+    }
+
+    /// Reads convolution weights from the file `path`, and adds missing weights to it.
+    ///
+    /// As for [`ElasticGround::with_kernel_file`](crate::bem::ElasticGround::with_kernel_file).
+    #[must_use]
+    pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
+        let source = TrenchSource { file: Some(path.into()), ..self.source.clone() };
+        self.with_source(source)
+    }
+
+    /// Replaces the options of the ground's history, or its method alone.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
+    pub fn with_history(self, options: impl Into<HistoryOptions>) -> Result<Self> {
+        Ok(Self { ground: self.ground.with_history(options)?, ..self })
+    }
+
+    /// Takes weights from a store shared with other grounds: see [`WeightsGround::with_shared_kernels`].
+    #[must_use]
+    pub fn with_shared_kernels(self, kernels: &SharedKernels) -> Self {
+        Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
     /// Soil beside and below the trench.
     pub fn profile(&self) -> &SoilProfile {
-        &self.profile
+        self.soil().profile()
     }
 
-    /// Contact elements of the trench.
-    pub fn elements(&self) -> &TrenchElements {
-        &self.elements
+    /// Trench, and the division of its faces into contact elements.
+    pub fn trench_elements(&self) -> &TrenchElements {
+        self.soil().elements()
     }
 
-    pub(super) fn has_backfill(&self) -> bool {
-        self.backfill.is_some()
-    }
-
-    /// Soils from the surface down, and the backfill.
-    fn soils(&self) -> impl Iterator<Item = Soil> {
-        let fill = self.backfill.iter().flat_map(|(_, alone)| alone.soils());
-        self.profile.soils().chain(fill).map(|(soil, _)| soil)
-    }
-
-    fn moduli(&self, s: Complex) -> Result<Vec<Moduli>> {
-        let (mut shear, mut fill) = (vec![], vec![]);
-        self.profile.moduli(s, &mut shear)?;
-        if let Some((_, alone)) = &self.backfill {
-            alone.moduli(s, &mut fill)?;
-        }
-        let square = s.inner() * s.inner();
-        let all = shear.iter().chain(&fill).zip(self.soils());
-        Ok(all
-            .map(|(modulus, soil)| {
-                let shear = modulus.inner();
-                let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
-                Moduli { shear, lame, inertia: square * soil.density() }
-            })
-            .collect())
-    }
-
-    /// Mesh for Laplace variables near `s`.
-    ///
-    /// # Errors
-    /// [`Error::Input`](crate::Error::Input) for a frequency that the elements do not resolve;
-    /// [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
-    pub(super) fn mesh(&self, s: Complex) -> Result<Mesh> {
-        let size = self.elements.trench().half_width();
-        let speeds: Vec<f64> = self.soils().map(|soil| soil.shear_wave_speed()).collect();
-        let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let crossing = LONGEST * size * s.im / slowest;
-        let degree = (DEGREE..=HIGHEST).find(|degree| crossing <= PER_DEGREE * *degree as f64);
-        let resolved = degree.is_some() && s.im * self.grid.slowest_crossing(&speeds) <= CONTACT;
-        let frequency = s.im / std::f64::consts::TAU;
-        let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
-        require("frequency of a trench (Hz)", frequency, resolved, needed)?;
-        let degree = degree.unwrap_or(HIGHEST);
-        let mut found = self.mesh_of_depth(s, DEPTH, degree);
-        if !self.needs_comparison(s, size)? {
-            return Ok(found);
-        }
-        let mut depth = DEPTH;
-        let mut before = self.compliances(s, &found)?;
-        loop {
-            depth *= DEEPER;
-            if depth > DEEPEST {
-                return Err(GroundError::GuidedWave { re: s.re, im: s.im }.into());
-            }
-            let deeper = self.mesh_of_depth(s, depth, degree);
-            let after = self.compliances(s, &deeper)?;
-            if before.difference(&after) < SETTLED {
-                return Ok(found);
-            }
-            (found, before) = (deeper, after);
-        }
-    }
-
-    /// Mesh for Laplace variables near `s` with stretched elements to a `depth` in c/|s|, of a `degree` or higher.
-    pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> Mesh {
-        let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
-            return Mesh { degree, bottom: Bottom::rigid(degree) };
-        };
-        let size = self.elements.trench().half_width();
-        let last = self.grid.below.last().map_or(size, |interval| interval.length);
-        let bottom = Bottom::new(s.inner(), last, soil.shear_wave_speed(), size, depth, degree);
-        Mesh { degree, bottom }
-    }
-
-    /// Whether a guided wave near its cut-off may need a deeper bottom at `s`.
-    fn needs_comparison(&self, s: Complex, size: f64) -> Result<bool> {
-        let fastest = self.soils().map(|soil| soil.shear_wave_speed()).fold(0.0, f64::max);
-        let open = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let near = open && s.re * size < NEAR_AXIS * fastest;
-        let moduli = self.moduli(Complex::new(0.0, s.im))?;
-        let layers = self.profile.layers().len();
-        let damped = |own: &Moduli| own.shear.im.abs() >= DAMPED * own.shear.re;
-        Ok(near && layers > 0 && !moduli[..layers + usize::from(open)].iter().all(damped))
-    }
-
-    /// Compliances of the faces at `s`.
-    ///
-    /// # Errors
-    /// [`Error::Singular`](crate::Error::Singular), [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
-    pub(super) fn compliances(&self, s: Complex, mesh: &Mesh) -> Result<Halves> {
-        let soils = self.moduli(s)?;
-        let Mesh { degree, bottom } = mesh;
-        Model { grid: &self.grid, degree: *degree, bottom, soils: &soils }
-            .compliances()?
-            .ok_or_else(|| GroundError::GuidedWave { re: s.re, im: s.im }.into())
-    }
-
-    /// Shear and pressure waves that move the surface by one: integrals over each wall element, and values at the base.
-    ///
-    /// Lists are ordered as [`TrenchElements::wall`], from the surface down. Each pair: shear, pressure.
-    pub(super) fn free_field(&self, s: Complex) -> Result<FreeFieldAtFaces> {
-        let moduli = self.moduli(s)?;
-        let zero = VerticalField { displacement: Complex64::ZERO, stress: Complex64::ZERO };
-        let mut fields = [VerticalField::SURFACE; 2];
-        let mut walls = vec![[zero; 2]; self.grid.walls()];
-        let mut ratios = vec![Complex64::ZERO; self.grid.walls()];
-        for (interval, element) in &self.grid.wall {
-            let Moduli { shear, lame, inertia } = moduli[interval.soil];
-            let pressure = lame + shear * 2.0;
-            for (wave, modulus) in [shear, pressure].into_iter().enumerate() {
-                let piece = Piece { height: interval.length, modulus, inertia };
-                let (below, integrals) = fields[wave].below(piece);
-                fields[wave] = below;
-                walls[*element][wave].displacement += integrals.displacement;
-                walls[*element][wave].stress += integrals.stress;
-                if wave == 1 {
-                    ratios[*element] += lame / pressure * integrals.stress;
-                }
-            }
-        }
-        Ok(FreeFieldAtFaces { walls, side_stresses: ratios, base: fields })
+    pub(super) fn soil(&self) -> &TrenchSoil {
+        &self.source.soil
     }
 }
 
-/// Vertical waves at the faces of a trench: shear and pressure.
-pub(super) struct FreeFieldAtFaces {
-    /// Integrals over wall elements: displacement, σ_xz of shear and σ_zz of pressure waves.
-    pub(super) walls: Vec<[VerticalField; 2]>,
-    /// Integrals of σ_xx of pressure waves.
-    pub(super) side_stresses: Vec<Complex64>,
-    /// At the depth of the base.
-    pub(super) base: [VerticalField; 2],
-}
+impl Ground for TrenchGround {
+    forward! {
+        self.ground;
+        fn elements(&self) -> &[ContactElement];
+        fn step_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn history(&mut self, displacement: &mut [f64]) -> Result<()>;
+        fn commit(&mut self, traction: &[f64]);
+        fn static_compliance(&self, matrix: &mut [f64]) -> Result<()>;
+        fn increment_error_bound(&self) -> f64;
+        fn save(&self) -> Result<Vec<f64>>;
+        fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()>;
+        fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]);
+    }
 
-/// Lines of the mesh around `elements` with backfill of a `width`, which may be zero.
-fn grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> Grid {
-    let size = elements.trench().half_width();
-    let slowest =
-        profile.soils().map(|(soil, _)| soil.shear_wave_speed()).fold(f64::INFINITY, f64::min);
-    let mut bottom = 0.0;
-    let layer = |(index, (soil, _)): (usize, (Soil, &dyn Relaxation))| {
-        bottom += profile.layers().get(index).map_or(f64::INFINITY, |layer| layer.thickness);
-        // An interface beside a line of the wall is this line.
-        let line = elements.wall().iter().find(|line| (*line - bottom).abs() < ROUNDING * size);
-        let longest = LONGEST * size * soil.shear_wave_speed() / slowest;
-        Layer { bottom: line.copied().unwrap_or(bottom), longest }
-    };
-    let layers: Vec<Layer> = profile.soils().enumerate().map(layer).collect();
-    let rigid = matches!(profile.bedrock(), Bedrock::Rigid);
-    Grid::new(elements.base(), elements.wall(), &layers, rigid, width)
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()> {
+        self.source.soil.check_causal()?;
+        self.ground.prepare(time_step, steps, observer)?;
+        self.used = Some(self.source.stages(time_step));
+        Ok(())
+    }
+
+    fn description(&self) -> GroundDescription {
+        let description = self.ground.description();
+        let stages = self.used.map(Stages::count);
+        GroundDescription {
+            soils: self.soil().soils().collect(),
+            history: description.history.map(|history| HistoryChoice { stages, ..history }),
+            ..description
+        }
+    }
 }

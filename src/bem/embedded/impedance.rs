@@ -8,8 +8,9 @@
 use realfft::num_complex::Complex64;
 
 use super::compliance::Halves;
-use super::ground::{FreeFieldAtFaces, Mesh, TrenchGround};
+use super::ground::TrenchGround;
 use super::motion::KinematicMotion;
+use super::soil::{FreeFieldAtFaces, Mesh, TrenchSoil};
 use crate::bem::layered::{StripImpedance, impedance_watch, points, stiffnesses};
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Block, Complex, DenseFactor};
@@ -55,7 +56,7 @@ impl TrenchGround {
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        let found = self.responses(frequencies, observer)?;
+        let found = self.soil().responses(frequencies, observer)?;
         let impedance = |(frequency, values): (&f64, Response)| {
             let [horizontal, vertical, rocking, coupling, ..] = values;
             StripImpedance { frequency: *frequency, horizontal, vertical, rocking, coupling }
@@ -91,15 +92,17 @@ impl TrenchGround {
     ) -> Result<Vec<KinematicMotion>> {
         let needed =
             "a trench without it: beside backfill waves of the free field do not travel vertically";
-        require_part("backfill", !self.has_backfill(), needed)?;
-        let found = self.responses(frequencies, observer)?;
+        require_part("backfill", !self.soil().has_backfill(), needed)?;
+        let found = self.soil().responses(frequencies, observer)?;
         let motion = |(frequency, values): (&f64, Response)| {
             let [.., horizontal, rotation, vertical] = values;
             KinematicMotion { frequency: *frequency, horizontal, rotation, vertical }
         };
         Ok(frequencies.iter().zip(found).map(motion).collect())
     }
+}
 
+impl TrenchSoil {
     fn responses(&self, frequencies: &[f64], observer: &mut Observer<'_>) -> Result<Vec<Response>> {
         let watch = &mut impedance_watch(frequencies, observer);
         let profile = self.profile();
@@ -115,11 +118,15 @@ impl TrenchGround {
         let found = stiffnesses(&lists, &[0, 1, 2], watch, |s| {
             // All points of a frequency have one mesh, which therefore is analytic in s.
             let known = mesh.take().filter(|(omega, _)| *omega == s.im);
-            let (_, own) = mesh.insert(match known {
-                Some(known) => known,
-                None => (s.im, self.mesh(s)?),
-            });
-            self.response(s, own)
+            let (own, compliances) = match known {
+                Some((_, own)) => (own, None),
+                None => self.mesh(s)?,
+            };
+            let (_, own) = mesh.insert((s.im, own));
+            match compliances {
+                Some(compliances) => self.response_of(s, &compliances),
+                None => self.response(s, own),
+            }
         });
         found.map_err(|error| match error {
             Error::Ground(GroundError::Unresolved { re, im, .. }) => {
@@ -130,13 +137,17 @@ impl TrenchGround {
     }
 
     pub(super) fn response(&self, s: Complex, mesh: &Mesh) -> Result<Response> {
-        let Halves { symmetric, antisymmetric } = self.compliances(s, mesh)?;
+        self.response_of(s, &self.compliances(s, mesh)?)
+    }
+
+    fn response_of(&self, s: Complex, compliances: &Halves) -> Result<Response> {
+        let Halves { symmetric, antisymmetric } = compliances;
         let faces = Faces::new(self);
         let field = self.free_field(s)?;
         let motions = faces.motions();
         let [shear, pressure] = [0, 1].map(|wave| faces.free_field(&field, wave));
-        let (stiff, forces) = reduced(&antisymmetric, &motions, &shear)?;
-        let (vertical, lift) = reduced(&symmetric, &motions, &pressure)?;
+        let (stiff, forces) = reduced(antisymmetric, &motions, &shear)?;
+        let (vertical, lift) = reduced(symmetric, &motions, &pressure)?;
         let coupling = (stiff[0][2] + stiff[2][0]) * 0.5;
         let determinant = stiff[0][0] * stiff[2][2] - coupling * coupling;
         let horizontal = (stiff[2][2] * forces[0] - coupling * forces[2]) / determinant;
@@ -161,7 +172,7 @@ struct Field {
 }
 
 impl<'a> Faces<'a> {
-    fn new(ground: &'a TrenchGround) -> Self {
+    fn new(ground: &'a TrenchSoil) -> Self {
         Self { base: ground.elements().base(), wall: ground.elements().wall() }
     }
 

@@ -1,4 +1,4 @@
-//! Foundations below the surface, in the plane: impedances and kinematic motion of a rigid body in a trench.
+//! Foundations below the surface, in the plane: soil around a trench.
 //!
 //! | file | content |
 //! |---|---|
@@ -6,7 +6,9 @@
 //! | grid | lines of the mesh around it |
 //! | polynomials, stack, bottom | finite elements; a column of them; stretched elements below |
 //! | compliance | compliances F(s) of the faces |
-//! | ground, free_field | the soil; vertical waves at the faces |
+//! | soil, free_field | the soil; vertical waves at the faces |
+//! | pairs, source | compliances of pairs of elements; convolution weights |
+//! | ground | the ground of a simulation |
 //! | impedance, motion | a rigid body in the trench |
 
 mod bottom;
@@ -16,7 +18,10 @@ mod grid;
 mod ground;
 mod impedance;
 mod motion;
+mod pairs;
 mod polynomials;
+mod soil;
+mod source;
 mod stack;
 mod trench;
 

@@ -186,7 +186,7 @@ impl Panels {
 }
 
 /// For each class: the classes of the pairs of its two elements with themselves.
-pub(super) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
+pub(in crate::bem) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
     let mut own = vec![[0; 2]; classes.count()];
     let (pairs, elements) = (classes.pairs(), classes.elements().len());
     for (place, pair) in pairs.iter().enumerate() {

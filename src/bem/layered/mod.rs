@@ -29,6 +29,8 @@ mod weights;
 
 pub(super) use coefficients::Quadrature;
 pub(super) use compliance::{Compliance, SurfaceCompliance};
+#[cfg(feature = "embedded")]
+pub(super) use contour::own_classes;
 pub(super) use form_factors::{DEGREES, POINTS, legendre};
 pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
 pub use impedance::{StripContact, StripImpedance};

@@ -11,18 +11,16 @@ use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle of the check.
 pub(crate) const RADIUS: f64 = 0.99;
-/// Number of points on the upper half of the circle.
-pub(crate) const POINTS: usize = 40;
 
-/// ln |z| and angle of these points.
-pub(crate) fn places() -> impl Iterator<Item = [f64; 2]> {
-    (0..POINTS)
-        .map(|point| [RADIUS.ln(), std::f64::consts::PI * (point as f64 + 0.5) / POINTS as f64])
+/// ln |z| and angle of `count` points on the upper half of the circle.
+pub(crate) fn places(count: usize) -> impl Iterator<Item = [f64; 2]> {
+    let angle = move |point| std::f64::consts::PI * (point as f64 + 0.5) / count as f64;
+    (0..count).map(move |point| [RADIUS.ln(), angle(point)])
 }
 
 /// Fingerprint of the weights, after a check of Herm[(1−z) Ĝ(z)] ≥ 0.
 ///
-/// The check uses 40 points of |z| = 0.99. It allows the tolerance of the quadrature times the number of
+/// The check uses [`Compliances::GATE_POINTS`] points of |z| = 0.99. It allows the tolerance of the quadrature times the number of
 /// degrees of freedom, with every pair relative to the mobilities of its elements. The theorem guarantees
 /// passivity; the check finds errors of the quadrature and damping laws that are not passive. The fingerprint
 /// is a hash of all values at these points, of the `mesh` and of all other data on which a weight depends.
@@ -40,7 +38,7 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
     let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
     sizes.iter().chain(mesh).for_each(|number| fingerprint.add_number(*number));
-    for (point, [logarithm, angle]) in places().enumerate() {
+    for (point, [logarithm, angle]) in places(I::GATE_POINTS).enumerate() {
         quadrature.mobility([logarithm, angle], &mut work, &mut scratch, &mut values)?;
         watch.reach(point + 1)?;
         let passes = classes.exceeds(allowed, own(&values), |_, pair| real(&values[pair.class]));

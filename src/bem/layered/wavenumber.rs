@@ -36,6 +36,9 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     /// Sum of the errors of late weights, divided by the 2/3 power of the tolerance and the sum of all weights.
     const LATE_ERROR: f64 = 0.0;
 
+    /// Number of points of the passivity gate.
+    const GATE_POINTS: usize = 40;
+
     /// Computes the data common to all compliances, if they are missing.
     ///
     /// # Errors

@@ -10,6 +10,8 @@ use super::runge_kutta::Stages;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
 use crate::geometry::{ContactElement, SERIES};
+#[cfg(feature = "embedded")]
+use crate::history::TRENCH_KINDS;
 use crate::history::{
     ConvolutionWeights, KINDS as STRIP_KINDS, OTHER_KINDS, PairClasses, SharedSpectra,
 };
@@ -107,11 +109,11 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         let most = |number| self.quadrature.most_samples(number);
         let expected = (0..=last).map(|n| if missing.contains(&n) { most(n) } else { 0 });
         let expected: Vec<usize> = expected.collect();
-        let total = passivity::POINTS + expected.iter().sum::<usize>();
+        let total = I::GATE_POINTS + expected.iter().sum::<usize>();
         let mut watch = Watch::new("convolution weights of layered ground", total, observer);
         let fingerprint = self.admit(&mut watch)?;
         let complete = self.blocks.missing(0..last + 1).is_empty();
-        let mut done = passivity::POINTS;
+        let mut done = I::GATE_POINTS;
         watch.reach(done)?;
         for (number, count) in expected.into_iter().enumerate() {
             self.block(number, &mut watch, done..done + count)?;
@@ -165,6 +167,16 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         class: usize,
         first_lag: usize,
         values: [&mut [f64]; SERIES],
+    ) -> Result<()> {
+        self.copy(class, first_lag, values)
+    }
+
+    #[cfg(feature = "embedded")]
+    fn coefficients_around_trench(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: [&mut [f64]; TRENCH_KINDS],
     ) -> Result<()> {
         self.copy(class, first_lag, values)
     }

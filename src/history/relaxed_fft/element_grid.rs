@@ -80,6 +80,10 @@ impl ElementGrid {
             let rows = lattice.counts[1];
             return Some(Self::new(cells, Offsets::Plan(lattice.clone()), scale, lengths, rows));
         }
+        #[cfg(feature = "embedded")]
+        if pairs.are_around_trench() {
+            return None;
+        }
         let elements = pairs.elements();
         let (first, last) = (elements.first()?, elements.last()?);
         let pitch = first.length();

@@ -39,6 +39,7 @@ pub mod table;
 pub mod tabled_structures;
 pub mod tower;
 pub mod truncation;
+pub mod welded_block;
 pub mod wrapped;
 
 pub use csv;

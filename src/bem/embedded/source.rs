@@ -1,0 +1,94 @@
+//! Soil around a trench as a source of convolution weights.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::pairs::TrenchPairs;
+use super::soil::TrenchSoil;
+use crate::bem::WeightsSource;
+use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, own_classes};
+use crate::error::{Result, positive, same_length};
+use crate::geometry::ContactElement;
+use crate::history::{ConvolutionWeights, PairClasses, TRENCH_KINDS};
+use crate::linalg::Complex;
+
+/// Relative accuracy of the compliances.
+const TOLERANCE: f64 = 1e-9;
+/// Degree of the finite elements.
+const DEGREE: usize = 4;
+/// The same for steps of at most this number of b/c: waves of such steps are short beside the elements.
+const SHORT: (f64, usize) = (0.03, 8);
+
+/// Soil around a trench, with the method of its convolution weights.
+#[derive(Debug, Clone)]
+pub(super) struct TrenchSource {
+    pub(super) soil: TrenchSoil,
+    pub(super) stages: Option<Stages>,
+    pub(super) file: Option<PathBuf>,
+}
+
+impl TrenchSource {
+    /// Runge–Kutta stages for steps of `time_step` seconds.
+    pub(super) fn stages(&self, time_step: f64) -> Stages {
+        self.stages.unwrap_or_else(|| Stages::for_profile(self.soil.profile(), time_step))
+    }
+
+    /// Convolution weights for steps of `time_step` seconds, not yet computed.
+    pub(super) fn weights(
+        &self,
+        time_step: f64,
+    ) -> Result<QuadratureWeights<TrenchPairs, TRENCH_KINDS>> {
+        positive("time step", time_step)?;
+        self.soil.check_causal()?;
+        let trench = self.soil.elements();
+        let classes = PairClasses::around_trench(trench.elements())?;
+        let speeds = self.soil.soils().map(|soil| soil.shear_wave_speed());
+        let slowest = speeds.fold(f64::INFINITY, f64::min);
+        let (most, high) = SHORT;
+        let is_short = slowest * time_step <= most * trench.trench().half_width();
+        let pairs = TrenchPairs::new(self.soil.clone(), if is_short { high } else { DEGREE });
+        let (profile, stages) = (self.soil.profile().clone(), self.stages(time_step));
+        let own = own_classes(&classes);
+        let quadrature = Quadrature::over(profile, pairs, own, stages, [time_step, TOLERANCE]);
+        let mesh = [trench.base(), trench.wall()].concat();
+        Ok(QuadratureWeights::new(quadrature, classes, None, mesh, self.file.clone()))
+    }
+}
+
+impl WeightsSource for TrenchSource {
+    fn kernel(
+        &self,
+        _elements: &[ContactElement],
+        time_step: f64,
+    ) -> Result<Arc<dyn ConvolutionWeights>> {
+        Ok(Arc::new(self.weights(time_step)?))
+    }
+
+    fn static_compliance(&self, _elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
+        let classes = PairClasses::around_trench(self.soil.elements().elements())?;
+        same_length("static compliance", matrix.len(), classes.layout().square())?;
+        let halves = self.soil.static_compliances()?;
+        let mut values = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
+        let pairs = TrenchPairs::new(self.soil.clone(), DEGREE);
+        pairs.read([&halves.symmetric, &halves.antisymmetric], &mut values);
+        classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
+        Ok(())
+    }
+
+    fn shear_wave_speed(&self) -> Option<f64> {
+        self.soil.profile().surface().map(|soil| soil.shear_wave_speed())
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        let stages = self.stages.map_or(0.0, |stages| stages.count() as f64);
+        // A ground with a file does not share its kernel with a ground without a file.
+        let file = self.file.as_ref().map(|file| file.as_os_str().as_encoded_bytes());
+        let mut numbers = vec![stages, file.map_or(-1.0, |bytes| bytes.len() as f64)];
+        numbers.extend(file.unwrap_or_default().iter().map(|byte| f64::from(*byte)));
+        numbers.extend(self.soil.identity()?);
+        Some(numbers)
+    }
+}
+
+#[cfg(test)]
+mod tests;

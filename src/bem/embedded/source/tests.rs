@@ -1,0 +1,144 @@
+use super::*;
+use crate::bem::embedded::Trench;
+use crate::bem::layered::on_circle;
+use crate::bem::{ElasticGround, Strip};
+use crate::history::KINDS;
+use crate::soil::{KelvinVoigt, Soil, SoilProfile};
+use crate::unobserved;
+
+const STEP: f64 = 0.8;
+const LAGS: usize = 128;
+
+/// A layer on rigid bedrock in which waves die out within the first block of lags.
+fn profile() -> SoilProfile {
+    SoilProfile::on_rigid_bedrock()
+        .with_layer(Soil::new(1.0, 0.3, 1.0).unwrap(), 2.0)
+        .unwrap()
+        .with_damping(KelvinVoigt::new(1.0).unwrap())
+}
+
+fn source(depth: f64, base: usize, wall: usize) -> TrenchSource {
+    let elements = Trench::new(-1.0..1.0, depth).unwrap().elements(base, wall).unwrap();
+    let soil = TrenchSoil::new(profile(), elements).unwrap();
+    TrenchSource { soil, stages: None, file: None }
+}
+
+/// All lags of a class, one list for each kind.
+fn lags(weights: &dyn ConvolutionWeights, class: usize) -> [Vec<f64>; TRENCH_KINDS] {
+    let mut lags = [(); TRENCH_KINDS].map(|()| vec![0.0; LAGS]);
+    let slices = lags.each_mut().map(Vec::as_mut_slice);
+    weights.coefficients_around_trench(class, 1, slices).unwrap();
+    lags
+}
+
+/// Σ Gⁿ is the compliance at rest, and (1 − z) Σ Gⁿ zⁿ⁻¹ the mobility at z.
+#[test]
+fn weights_are_the_coefficients_of_the_mobility() {
+    let source = source(1.0, 4, 2);
+    let weights = source.weights(STEP).unwrap();
+    weights.prepare(LAGS, &mut unobserved).unwrap();
+    let halves = source.soil.static_compliances().unwrap();
+    let mut still = vec![[Complex::default(); TRENCH_KINDS]; weights.classes.count()];
+    TrenchPairs::new(source.soil.clone(), DEGREE)
+        .read([&halves.symmetric, &halves.antisymmetric], &mut still);
+    let place = [0.8_f64.ln(), 0.7];
+    let [z, rest] = on_circle(place[0], place[1]);
+    let mut mobility = still.clone();
+    let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), still.clone());
+    weights.quadrature.mobility(place, &mut work, &mut scratch, &mut mobility).unwrap();
+    let largest = still.iter().flatten().map(|value| value.re.abs()).fold(0.0, f64::max);
+    let mut worst = [0.0_f64; 2];
+    for class in 0..weights.classes.count() {
+        for (kind, lags) in lags(&weights, class).iter().enumerate() {
+            let sum: f64 = lags.iter().sum();
+            worst[0] = worst[0].max((sum - still[class][kind].re).abs());
+            let (mut power, mut sum) = (rest, Complex::default());
+            for lag in lags {
+                sum += power.scale(*lag);
+                power = power * z;
+            }
+            worst[1] = worst[1].max((sum - mobility[class][kind]).abs());
+        }
+    }
+    println!("{:e} {:e}", worst[0] / largest, worst[1] / largest);
+    assert!(worst[0] < 1e-5 * largest && worst[1] < 1e-6 * largest, "{worst:?}");
+}
+
+/// A trench without depth is a strip, whose weights are integrals over wavenumbers; elements of degree 4.
+#[test]
+fn weights_without_depth_are_the_weights_of_a_strip() {
+    let source = source(0.0, 8, 0);
+    let weights = source.weights(STEP).unwrap();
+    let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
+    let strip = strip.with_stages(source.stages(STEP)).weights(STEP).unwrap();
+    let size = weights.classes.layout().len();
+    // Receiver, source, and sum over lags with cos(0.3 n).
+    let sums =
+        |matrix: &mut [f64], classes: &PairClasses, values: &dyn Fn(usize, &mut [&mut [f64]])| {
+            classes.each(|[receiver, source], pair, terms| {
+                let mut lags = vec![vec![0.0; LAGS]; classes.kinds()];
+                let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
+                values(pair.class, &mut slices);
+                for term in terms {
+                    let [to, from] = term.components;
+                    let layout = classes.layout();
+                    let place = layout.place(to, receiver) * size + layout.place(from, source);
+                    let lags = lags[term.kind].iter().enumerate();
+                    let sum: f64 = lags.map(|(n, lag)| lag * (0.3 * n as f64).cos()).sum();
+                    matrix[place] = sum * term.factor * pair.scale;
+                }
+            });
+        };
+    let [mut found, mut wanted] = [(); 2].map(|()| vec![0.0; size * size]);
+    sums(&mut found, &weights.classes, &|class, values| {
+        let [nn, tt, nt, tn] = values else { panic!("kinds") };
+        weights.coefficients_around_trench(class, 1, [nn, tt, nt, tn]).unwrap();
+    });
+    sums(&mut wanted, strip.classes(), &|class, values| {
+        let values: &mut [&mut [f64]; KINDS] = values.try_into().unwrap();
+        let [zz, xx, zx] = values;
+        strip.coefficients(class, 1, [zz, xx, zx]).unwrap();
+    });
+    let largest = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let worst = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("{:e}", worst / largest);
+    assert!(worst < 1e-3 * largest, "{:e}", worst / largest);
+}
+
+/// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
+#[test]
+fn static_compliance_holds_a_rigid_body_as_the_impedance_does() {
+    let source = source(1.2, 4, 3);
+    let elements = source.soil.elements().elements();
+    let (count, size) = (elements.len(), 2 * elements.len());
+    let mut matrix = vec![0.0; size * size];
+    source.static_compliance(&elements, &mut matrix).unwrap();
+    // To the right, down, and a rotation about the middle of the base that lowers the right end.
+    let motion = |place: usize| {
+        let (element, component) = (&elements[place % count], place / count);
+        let [x, _, z] = element.center();
+        let [along, _, up] = element.directions()[component];
+        [along, -up, along * (1.2 + z) - up * x]
+    };
+    let rows: Vec<[f64; 3]> = (0..size).map(motion).collect();
+    let mut factor = crate::linalg::DenseFactor::with_columns(size, 1);
+    assert!(factor.factor(&matrix, size));
+    let mut stiffness = [[0.0; 3]; 3];
+    for k in 0..3 {
+        let mut solved: Vec<f64> = rows.iter().map(|row| row[k]).collect();
+        factor.solve(&mut solved);
+        for i in 0..3 {
+            let parts = (0..size).map(|p| rows[p][i] * elements[p % count].length() * solved[p]);
+            stiffness[i][k] = parts.sum();
+        }
+    }
+    let wanted = source
+        .soil
+        .response(Complex::default(), &source.soil.mesh_of_depth(Complex::default(), 24.0, DEGREE));
+    let [hh, vv, rr, hr, ..] = wanted.unwrap().map(|value| value.re);
+    let found =
+        [stiffness[0][0], stiffness[1][1], stiffness[2][2], stiffness[0][2], stiffness[2][0]];
+    for (found, wanted) in found.into_iter().zip([hh, vv, rr, hr, hr]) {
+        assert!((found - wanted).abs() < 1e-9 * rr, "{found} {wanted}");
+    }
+}
