@@ -93,10 +93,6 @@ impl HistoryOptions {
             HistoryMethod::Exponentials => {
                 ChosenHistory::exponentials(exponentials(ExponentialHistory::TOLERANCE)?, steps)
             }
-            #[cfg(feature = "embedded")]
-            HistoryMethod::Auto if weights.classes().are_around_trench() => {
-                ChosenHistory::direct(DirectHistory::new(kernel()).within(self.memory), steps)
-            }
             HistoryMethod::Auto => {
                 let early = |late: &dyn LateWeights| late.window() <= LONGEST_WINDOW;
                 let early = weights.late_weights().is_some_and(early);

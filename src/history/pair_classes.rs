@@ -17,6 +17,9 @@ pub(crate) const KINDS: usize = 3;
 #[cfg(feature = "embedded")]
 pub(crate) const TRENCH_KINDS: usize = 4;
 
+/// Largest number of kinds in the plane.
+pub(crate) const MOST_KINDS: usize = if cfg!(feature = "embedded") { KINDS + 1 } else { KINDS };
+
 /// Effect of one traction component of the source on one displacement component of the receiver.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Term {
@@ -246,14 +249,9 @@ impl PairClasses {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
         for (place, pair) in self.pairs.iter().enumerate() {
-            let own = [
-                (0, [0, 0], 1.0),
-                (1, [1, 1], 1.0),
-                (2, [0, 1], pair.sign),
-                (2, [1, 0], -pair.sign),
-            ];
-            #[cfg(feature = "embedded")]
-            let own = self.trench_terms(place).unwrap_or(own);
+            let [(one, factor), (other, back)] = self.coupling(place);
+            let own =
+                [(0, [0, 0], 1.0), (1, [1, 1], 1.0), (one, [0, 1], factor), (other, [1, 0], back)];
             for (term, (kind, components, factor)) in terms.iter_mut().zip(own) {
                 *term = Term { kind, components, factor };
             }
@@ -272,12 +270,15 @@ impl PairClasses {
         }
     }
 
-    /// Kind, components and factor of each term of a pair around a trench; `None` for other pairs.
-    #[cfg(feature = "embedded")]
-    pub(crate) fn trench_terms(&self, place: usize) -> Option<[(usize, [usize; 2], f64); 4]> {
-        let [one, other] = if *self.exchanged.get(place)? { [3, 2] } else { [2, 3] };
+    /// Kind and factor of a pair's mixed effects: of shear on the normal, of pressure on the tangential displacement.
+    pub(crate) fn coupling(&self, place: usize) -> [(usize, f64); 2] {
         let sign = self.pairs[place].sign;
-        Some([(0, [0, 0], 1.0), (1, [1, 1], 1.0), (one, [0, 1], sign), (other, [1, 0], sign)])
+        #[cfg(feature = "embedded")]
+        if let Some(exchanged) = self.exchanged.get(place) {
+            let kinds = if *exchanged { [3, 2] } else { [2, 3] };
+            return kinds.map(|kind| (kind, sign));
+        }
+        [(2, sign), (2, -sign)]
     }
 
     /// Overwrites `matrix` (row-major) with the coefficients of all pairs.

@@ -43,7 +43,7 @@ fn a_ground_with_a_trench_steps_as_by_fourier_synthesis_and_gives_no_work() {
     assert!(least > 0.5, "{least}");
     let description = ground.description();
     let history = description.history.unwrap();
-    assert_eq!((history.kind, history.stages), (HistoryMethod::Direct, Some(2)));
+    assert_eq!((history.kind, history.stages), (HistoryMethod::RelaxedFft, Some(2)));
     assert_eq!(description.soils.len(), 1);
     let many = ground.prepare(STEP, Some(usize::MAX / 64), &mut unobserved);
     assert!(matches!(many, Err(Error::Memory(_))), "{many:?}");

@@ -12,25 +12,15 @@ pub(super) struct Bottom {
 /// Angle of the stretched elements relative to the argument of s.
 const TURN: f64 = 0.6;
 /// Longest stretched element, in c/|s|.
-const LONGEST: f64 = 6.0;
+const LONGEST: f64 = 8.0;
 /// Least degree of stretched elements: a higher one than of the near field, of longer elements, takes less time.
-const LEAST: usize = 6;
-/// The same for Re s·b/c below a limit.
-const CLOSE: (f64, usize) = (1e-3, 8);
+const LEAST: usize = 8;
 
 impl Bottom {
     /// Elements for Laplace variables near `s`, below an interval of `last` metres.
     ///
-    /// `speed`: of shear waves in the half-plane, m/s. `depth`: of all elements, in c/|s|. `size`: half the width of
-    /// the trench, m.
-    pub(super) fn new(
-        s: Complex64,
-        last: f64,
-        speed: f64,
-        size: f64,
-        depth: f64,
-        degree: usize,
-    ) -> Self {
+    /// `speed`: of shear waves in the half-plane, m/s. `depth`: of all elements, in c/|s|.
+    pub(super) fn new(s: Complex64, last: f64, speed: f64, depth: f64, degree: usize) -> Self {
         let wave = speed / s.norm();
         let turn = Complex64::from_polar(1.0, -TURN * s.arg());
         let (mut heights, mut sum, mut next) = (vec![], 0.0, 2.0 * last);
@@ -40,9 +30,7 @@ impl Bottom {
             sum += height;
             next = 2.0 * height;
         }
-        let (close, high) = CLOSE;
-        let least = if s.re * size < close * speed { high } else { LEAST };
-        Self { heights, degree: degree.max(least) }
+        Self { heights, degree: degree.max(LEAST) }
     }
 
     /// No elements: the near field ends on rigid bedrock.

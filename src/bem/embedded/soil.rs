@@ -194,7 +194,7 @@ impl TrenchSoil {
         };
         let size = self.elements.trench().half_width();
         let last = self.grid.below.last().map_or(size, |interval| interval.length);
-        let bottom = Bottom::new(s.inner(), last, soil.shear_wave_speed(), size, depth, degree);
+        let bottom = Bottom::new(s.inner(), last, soil.shear_wave_speed(), depth, degree);
         Mesh { degree, bottom }
     }
 

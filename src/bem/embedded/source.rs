@@ -13,7 +13,7 @@ use crate::history::{ConvolutionWeights, PairClasses, TRENCH_KINDS};
 use crate::linalg::Complex;
 
 /// Relative accuracy of the compliances.
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
 /// Degree of the finite elements.
 const DEGREE: usize = 4;
 /// The same for steps of at most this number of b/c: waves of such steps are short beside the elements.

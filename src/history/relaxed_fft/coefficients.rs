@@ -7,6 +7,7 @@ use std::sync::Arc;
 use super::ring::LEAF;
 use super::tables::{Class, Tables};
 use crate::error::Result;
+use crate::geometry::PLANE;
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows};
@@ -49,8 +50,9 @@ impl Coefficients {
     /// Adds the next class to `tables`; `values` may be longer than [`Coefficients::length`].
     pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
         let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
-        for ((table, values), end) in tables.iter_mut().zip(values).zip([LEAF, LEAF, reach + 1]) {
-            table.push(values[..end].to_vec());
+        for (kind, (table, values)) in tables.iter_mut().zip(values).enumerate() {
+            let end = if kind < PLANE { LEAF } else { reach + 1 };
+            table.push(values[..end.min(values.len())].to_vec());
         }
     }
 }
@@ -72,7 +74,7 @@ impl WithSimd for Scatter<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { coefficients: Coefficients { classes, near, .. }, rows, stride, now, .. } = self;
         let (ahead, count) = (self.ahead, classes.elements().len());
-        let [normal, tangential, coupling] = &**near;
+        let [normal, tangential, ..] = &**near;
         for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
             let scale = pairs[p].scale;
             for (row, table, other) in [(p, normal, 0), (count + p, tangential, count)] {
@@ -93,13 +95,16 @@ impl WithSimd for Scatter<'_> {
                     q += 1;
                 }
             }
-            for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
-                let coupling = &coupling[class];
-                let reach = self.coupled.min(coupling.len() - 1);
-                if sign == 0.0 || reach == 0 {
-                    continue;
-                }
-                for (row, source, sign) in [(p, count + q, sign), (count + p, q, -sign)] {
+            for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
+                let ends = [(p, count + q), (count + p, q)];
+                for ((kind, sign), (row, source)) in
+                    classes.coupling(p * count + q).into_iter().zip(ends)
+                {
+                    let coupling = &near[kind][class];
+                    let reach = self.coupled.min(coupling.len() - 1);
+                    if sign == 0.0 || reach == 0 {
+                        continue;
+                    }
                     let value = sign * scale * rows[source * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..reach];
                     add_row(simd, value, &coupling[1..=reach], output);

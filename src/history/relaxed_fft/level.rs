@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::ring::Ring;
 use super::tables::Class;
 use crate::geometry::PLANE;
-use crate::history::pair_classes::{KINDS, Pair, PairClasses};
+use crate::history::pair_classes::{MOST_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
@@ -21,7 +21,7 @@ pub(super) struct Level {
     inverse: Arc<dyn ComplexToReal<f64>>,
     /// Spectra over 2b of each kind and class: b + 1 real parts, then as many imaginary parts. The coupling has none if
     /// it ends within smaller blocks.
-    spectra: [Vec<f64>; KINDS],
+    spectra: [Vec<f64>; MOST_KINDS],
 }
 
 /// Scratch of the transforms of all levels.
@@ -85,16 +85,13 @@ impl Level {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 
-    /// Blocks of `size`, without spectra yet, with memory for `classes` spectra of each kind.
-    ///
-    /// `couples`: with memory for the coupling.
+    /// Blocks of `size`, without spectra yet, with memory for `classes` spectra of each of the first `kinds`.
     pub(super) fn new(
         size: usize,
         classes: usize,
-        couples: bool,
+        kinds: usize,
         planner: &mut RealFftPlanner<f64>,
     ) -> Self {
-        let kinds = if couples { KINDS } else { PLANE };
         let numbers = |kind| if kind < kinds { classes * 2 * (size + 1) } else { 0 };
         Self {
             size,
@@ -104,10 +101,9 @@ impl Level {
         }
     }
 
-    /// Adds the spectra of the next class, from at least 2b coefficients.
-    pub(super) fn add_class(&mut self, values: &Class, couples: bool, work: &mut Work) {
-        let count = if couples { KINDS } else { PLANE };
-        for (values, stored) in values.iter().zip(&mut self.spectra).take(count) {
+    /// Adds the spectra of the first `kinds` of the next class, from at least 2b coefficients.
+    pub(super) fn add_class(&mut self, values: &Class, kinds: usize, work: &mut Work) {
+        for (values, stored) in values.iter().zip(&mut self.spectra).take(kinds) {
             let real = &mut work.real[..2 * self.size];
             let spectrum = &mut work.spectra[..=self.size];
             real.copy_from_slice(&values[..2 * self.size]);
@@ -177,7 +173,7 @@ impl Level {
         components: usize,
         work: &mut Work,
     ) {
-        let [normal, tangential, coupling] = &self.spectra;
+        let [normal, tangential, ..] = &self.spectra;
         let (bins, count) = (self.size + 1, classes.elements().len());
         let tiles = bins.div_ceil(TILE);
         let width = bins.div_ceil(tiles);
@@ -204,7 +200,7 @@ impl Level {
                 }
             };
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
-                for (q, &Pair { class, sign, .. }) in pairs.iter().enumerate() {
+                for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
                     match part {
                         Components::Even => add(1.0, &self.spectra[kind], class, q, p),
                         Components::Coupling => {}
@@ -213,9 +209,16 @@ impl Level {
                             add(1.0, tangential, class, count + q, count + p);
                         }
                     }
-                    if part != Components::Even && sign != 0.0 && !coupling.is_empty() {
-                        add(sign, coupling, class, count + q, p);
-                        add(-sign, coupling, class, q, count + p);
+                    if part == Components::Even {
+                        continue;
+                    }
+                    let ends = [(count + q, p), (q, count + p)];
+                    let coupling = classes.coupling(p * count + q).into_iter().zip(ends);
+                    for ((kind, sign), (source, receiver)) in coupling {
+                        let stored = &self.spectra[kind];
+                        if sign != 0.0 && !stored.is_empty() {
+                            add(sign, stored, class, source, receiver);
+                        }
                     }
                 }
             }

@@ -14,8 +14,8 @@ pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> 
         let [all, own] = waves_in_plan(lattice).map(|count| count as f64);
         return Ok((96.0 * own + 48.0 * all) * length + 48.0 * LEAF as f64 * (own + 2.0 * all));
     }
-    // A coupling that does not end is a third series of coefficients.
-    let kinds = if couples_without_end(kernel)? { 3.0 } else { 2.0 };
+    // A coupling that does not end is a third series of coefficients; around a trench there are two.
+    let kinds = if couples_without_end(kernel)? { classes.kinds() as f64 } else { 2.0 };
     let (q, classes) = (classes.elements().len() as f64, classes.count() as f64);
     Ok(if takes_wavenumbers(kernel) {
         ((32.0 + 16.0 * kinds) * q + 32.0) * length

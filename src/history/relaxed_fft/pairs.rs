@@ -11,8 +11,8 @@ use super::ring::{LEAF, Ring, widened};
 use super::tables::{Class, Tables};
 use super::wave_level::Levels;
 use crate::error::{Result, Watch, unobserved};
-use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::KINDS;
+use crate::geometry::PLANE;
+use crate::history::convolution_weights::{ConvolutionWeights, all_kinds};
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
@@ -85,27 +85,32 @@ impl Pairs {
         watch: &mut Watch,
     ) -> Result<Vec<Arc<Level>>> {
         let (count, classes) = (self.elements(), self.coefficients.classes.count());
+        let all = self.coefficients.classes.kinds();
         let mut levels = Vec::new();
         for number in first..end {
             let couples = self.couples(LEAF << number);
-            let level = Level::new(LEAF << number, classes, couples, &mut self.planner);
+            let kinds = if couples { all } else { PLANE };
+            let level = Level::new(LEAF << number, classes, kinds, &mut self.planner);
             self.work.grow(&level, if couples { 2 * count } else { count });
-            levels.push((level, couples));
+            levels.push((level, kinds));
         }
         let mut tables = near.is_none().then(Tables::default);
         let far = if levels.is_empty() { 0 } else { LEAF << end };
         let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
         if length > 0 {
-            let mut values: Class = [(); KINDS].map(|()| vec![0.0; length]);
+            let mut values: Class =
+                std::array::from_fn(|kind| vec![0.0; if kind < all { length } else { 0 }]);
             for class in 0..classes {
                 watch.reach(PARTS * class / classes)?;
                 // The first weight is the step compliance, which does not belong to the history.
-                kernel.coefficients(class, 2, values.each_mut().map(|kind| &mut kind[1..]))?;
+                let kinds = values.iter_mut().take(all);
+                let mut slices: Vec<_> = kinds.map(|kind| &mut kind[1..]).collect();
+                all_kinds(kernel, class, 2, &mut slices)?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }
-                for (level, couples) in &mut levels {
-                    level.add_class(&values, *couples, &mut self.work);
+                for (level, kinds) in &mut levels {
+                    level.add_class(&values, *kinds, &mut self.work);
                 }
             }
         }

@@ -67,9 +67,9 @@ fn weights_are_the_coefficients_of_the_mobility() {
 /// A trench without depth is a strip, whose weights are integrals over wavenumbers; elements of degree 4.
 #[test]
 fn weights_without_depth_are_the_weights_of_a_strip() {
-    let source = source(0.0, 8, 0);
+    let source = source(0.0, 4, 0);
     let weights = source.weights(STEP).unwrap();
-    let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 8).unwrap()).unwrap();
+    let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
     let strip = strip.with_stages(source.stages(STEP)).weights(STEP).unwrap();
     let size = weights.classes.layout().len();
     // Receiver, source, and sum over lags with cos(0.3 n).
@@ -102,7 +102,7 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
     let largest = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
     let worst = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     println!("{:e}", worst / largest);
-    assert!(worst < 1e-3 * largest, "{:e}", worst / largest);
+    assert!(worst < 2e-3 * largest, "{:e}", worst / largest);
 }
 
 /// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
