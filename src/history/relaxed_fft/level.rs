@@ -173,7 +173,6 @@ impl Level {
         components: usize,
         work: &mut Work,
     ) {
-        let [normal, tangential, ..] = &self.spectra;
         let (bins, count) = (self.size + 1, classes.elements().len());
         let tiles = bins.div_ceil(TILE);
         let width = bins.div_ceil(tiles);
@@ -189,36 +188,30 @@ impl Level {
                 }
             }
             outputs[..components * 2 * width].fill(0.0);
-            let mut add = |sign: f64, stored: &[f64], class: usize, source, receiver| {
-                let re = &stored[class * 2 * bins + begin..][..width];
-                let im = &stored[(class * 2 + 1) * bins + begin..][..width];
-                let (output, input) = (&mut outputs[of(receiver)], &inputs[of(source)]);
-                if sign > 0.0 {
-                    multiply_add::<true>(output, [re, im], input);
-                } else {
-                    multiply_add::<false>(output, [re, im], input);
+            let mut add = |(kind, sign): (usize, f64), class: usize, source, receiver| {
+                let stored = &self.spectra[kind];
+                if sign == 0.0 || stored.is_empty() {
+                    return;
                 }
+                let part = |k: usize| &stored[(class * 2 + k) * bins + begin..][..width];
+                let plus = sign > 0.0;
+                let multiply = if plus { multiply_add::<true> } else { multiply_add::<false> };
+                multiply(&mut outputs[of(receiver)], [part(0), part(1)], &inputs[of(source)]);
             };
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
                 for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
                     match part {
-                        Components::Even => add(1.0, &self.spectra[kind], class, q, p),
+                        Components::Even => add((kind, 1.0), class, q, p),
                         Components::Coupling => {}
                         Components::All => {
-                            add(1.0, normal, class, q, p);
-                            add(1.0, tangential, class, count + q, count + p);
+                            add((0, 1.0), class, q, p);
+                            add((1, 1.0), class, count + q, count + p);
                         }
                     }
-                    if part == Components::Even {
-                        continue;
-                    }
-                    let ends = [(count + q, p), (q, count + p)];
-                    let coupling = classes.coupling(p * count + q).into_iter().zip(ends);
-                    for ((kind, sign), (source, receiver)) in coupling {
-                        let stored = &self.spectra[kind];
-                        if sign != 0.0 && !stored.is_empty() {
-                            add(sign, stored, class, source, receiver);
-                        }
+                    if part != Components::Even {
+                        let [one, other] = classes.coupling(p * count + q);
+                        add(one, class, count + q, p);
+                        add(other, class, q, count + p);
                     }
                 }
             }
