@@ -17,6 +17,7 @@ mod outlines;
 mod pictures;
 mod raft;
 mod random;
+mod reduced;
 mod refused;
 mod results;
 mod sections;

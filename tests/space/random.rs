@@ -182,6 +182,15 @@ fn energies_of_random_flexible_scenes_close() {
     assert!(outcome.opened > 150 && outcome.slid > 200, "{outcome:?}");
 }
 
+/// Scenes whose Ritz vectors do not converge are stepped in all modes.
+#[test]
+fn small_flexible_scenes_are_reduced_without_refusal() {
+    let mut outcome = Outcome::default();
+    [33, 37].into_iter().for_each(|number| outcome.run(number));
+    println!("{outcome:?}");
+    assert!(outcome.refused.is_empty() && outcome.reduced == 2, "{outcome:?}");
+}
+
 /// Saved anywhere and resumed in another simulation, steps have the same bits: half as many scenes.
 #[test]
 fn random_scenes_resume_to_the_last_bit() {

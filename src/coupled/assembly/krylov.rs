@@ -8,8 +8,8 @@
 //!
 //! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on: each round adds one power of every shift (Ruhe
 //! 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction exact. Lower shifts
-//! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
-//! step cannot follow.
+//! represent modes at lower frequencies, of which few are soon complete. With few forces one higher shift represents
+//! motion that a step cannot follow.
 
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED, Subspace};
@@ -24,6 +24,10 @@ use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
+/// Number of forces from which no shift above the scheme's is used.
+///
+/// It adds a vector for each force in every round. With the responses to many forces, the rest converges without it.
+const MANY: usize = 100;
 /// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
 /// tolerance.
 ///
@@ -139,33 +143,31 @@ impl<'a> Reduction<'a> {
         let (rotations, lowest) = self.held(&translations, matrices);
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
-        space.extend(self.motions.clone(), LEAST_NEW);
         let rows = &self.rows.all;
+        let forces = if self.has_many() { space.balanced(rows.clone()) } else { rows.clone() };
+        space.extend(self.motions.clone(), LEAST_NEW);
+        let count = (rows.len() / self.assembled.dofs()).max(1);
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
-        let mut blocks = vec![rows.clone(); factors.len()];
+        let mut blocks = vec![forces.clone(); factors.len()];
+        // Rows in terms of the vectors.
+        let mut products = Vec::new();
         let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
         let mut last: Option<StepResponses> = None;
         let [mut change, mut reached] = [f64::INFINITY; 2];
         for round in 1..=ROUNDS {
-            let before = space.count();
-            for (factor, block) in factors.iter().zip(&mut blocks) {
-                let before = space.count();
-                factor.solve_many(block);
-                space.extend(std::mem::take(block), least);
-                block.extend_from_slice(space.momenta(before));
-            }
-            if space.count() == before {
+            if !grow(&mut space, &factors, &mut blocks, least) {
                 if least <= LEAST_NEW {
                     return Ok(space.basis(&space.ritz()?));
                 }
                 // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
-                blocks.fill(rows.clone());
+                blocks.fill(forces.clone());
                 continue;
             }
             let modes = space.ritz()?;
-            let shares = space.shares(&modes, rows);
+            products.extend(space.products(products.len() / count, rows));
+            let shares = Subspace::shares(&modes, &products);
             let steps = self.steps.clamp(1, LONGEST);
             let responses =
                 StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps);
@@ -190,6 +192,10 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(reached, tolerance, space.count()))
     }
 
+    fn has_many(&self) -> bool {
+        self.rows.counts[1] >= MANY
+    }
+
     /// Mass, damping and stiffness; an error if they cannot be reduced.
     fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
         require_part(REDUCED, self.assembled.linear, "they need a linear structure")?;
@@ -202,7 +208,8 @@ impl<'a> Reduction<'a> {
                 return Err(error.within(REDUCED));
             }
         }
-        if SparseFactor::positive_definite(names[0], matrices[0]).is_err() {
+        let factor = SparseFactor::of(names[0], matrices[0], &self.assembled.elimination);
+        if !factor.is_ok_and(|factor| factor.is_positive_definite()) {
             let needed = "it must be positive definite";
             let error = Error::Scene { quantity: names[0], needed };
             return Err(error.within(REDUCED));
@@ -210,7 +217,7 @@ impl<'a> Reduction<'a> {
         Ok(matrices)
     }
 
-    /// Factors at one shift above the scheme's shift and at the shifts below it.
+    /// Factors at the shifts below the scheme's, and at one above it unless there are many forces.
     fn shifts(
         &self,
         lowest: f64,
@@ -222,7 +229,8 @@ impl<'a> Reduction<'a> {
         let own = (c.acceleration[0] / c.displacement[0]).sqrt().min(RATIO * stiffest);
         let lowest = lowest.max(LOWEST * own);
         let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
-        let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
+        let above = (!self.has_many()).then_some(RATIO * own);
+        let shifts = above.into_iter().chain(below.take_while(move |s| *s > lowest));
         shifts.filter(move |shift| *shift < stiffest).map(move |shift| {
             let terms = [(shift * shift, mass), (1.0, stiffness)];
             let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
@@ -260,6 +268,23 @@ impl<'a> Reduction<'a> {
         let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
         (rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt())
     }
+}
+
+/// Adds the next power of each shift to the space; returns whether there is a new direction.
+fn grow(
+    space: &mut Subspace<'_>,
+    factors: &[&SparseFactor],
+    blocks: &mut [Vec<f64>],
+    least: f64,
+) -> bool {
+    let start = space.count();
+    for (factor, block) in factors.iter().zip(blocks) {
+        let before = space.count();
+        factor.solve_many(block);
+        space.extend(std::mem::take(block), least);
+        block.extend_from_slice(space.momenta(before));
+    }
+    space.count() > start
 }
 
 /// Adds a row unless it is zero; returns whether it was added.

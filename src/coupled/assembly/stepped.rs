@@ -18,6 +18,9 @@ use crate::structure::{Structure, Tangent};
 /// Default number of steps within which computing the modes must save time.
 const STEPS: usize = 4_000;
 
+/// Largest number of degrees of freedom of which all modes may replace Ritz modes that are not accurate.
+const SMALL: usize = 1_000;
+
 /// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
@@ -79,7 +82,8 @@ impl Stepped {
             Coordinates::Reduced { tolerance } => {
                 let factor = factored()?;
                 let reduction = Reduction::new(parts, assembled, [&factor, held], steps)?;
-                Chosen::Modes(reduction.modes(tolerance)?)
+                let modes = reduction.modes(tolerance);
+                Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, error))?)
             }
         };
         let (model, factor) = match chosen {
@@ -100,6 +104,13 @@ impl Stepped {
 enum Chosen {
     Physical(Box<SparseFactor>),
     Modes(ModalBasis),
+}
+
+/// All modes of a small structure for which fewer do not suffice; otherwise `error`.
+fn instead_of_few(assembled: &Assembled, error: Error) -> Result<ModalBasis> {
+    let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= SMALL;
+    let all = if is_small { vibration_modes(assembled) } else { None };
+    all.ok_or(error)
 }
 
 /// Cause of `error`: the reason why the effective stiffness cannot be factored.

@@ -194,13 +194,26 @@ impl<'a> Subspace<'a> {
         Ok(Ritz { stiffness, damping, combinations })
     }
 
-    /// F Φᵀ: the rows of F in terms of the modes.
-    pub(crate) fn shares(&self, modes: &Ritz, rows: &[f64]) -> Vec<f64> {
+    /// Forces without their resultants on the vectors, and the momenta of the vectors.
+    ///
+    /// If these are rigid motions, responses to the rest do not hide deformations behind them.
+    pub(crate) fn balanced(&self, mut forces: Vec<f64>) -> Vec<f64> {
+        let resultants = row_products(&self.vectors, &forces, self.order());
+        add_combined_rows(&resultants, &self.momenta, self.order(), -1.0, &mut forces);
+        forces.extend_from_slice(&self.momenta);
+        forces
+    }
+
+    /// Products of the vectors from number `first` on with the rows of F, a row for each vector.
+    pub(crate) fn products(&self, first: usize, rows: &[f64]) -> Vec<f64> {
+        row_products(&self.vectors[first * self.order()..], rows, self.order())
+    }
+
+    /// F Φᵀ: the rows of F in terms of the modes, from the products of all vectors.
+    pub(crate) fn shares(modes: &Ritz, products: &[f64]) -> Vec<f64> {
         let count = modes.stiffness.len();
-        let vectors = &self.vectors[..count * self.order()];
-        let mut shares = vec![0.0; rows.len() / self.order() * count];
-        let products = row_products(vectors, rows, self.order());
-        add_combined_rows(&products, &modes.combinations, count, 1.0, &mut shares);
+        let mut shares = vec![0.0; products.len()];
+        add_combined_rows(products, &modes.combinations, count, 1.0, &mut shares);
         shares
     }
 

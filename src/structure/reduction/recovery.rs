@@ -53,8 +53,10 @@ impl Basis {
             {
                 matrix.multiply_add(1.0, row, product);
             }
-            let entries = row_products(&self.transposed, &products, self.full);
             let columns = rows.len() / self.full;
+            // Rows after the block are the columns of later blocks.
+            let upto = (BLOCK * block + columns) * self.full;
+            let entries = row_products(&self.transposed[..upto], &products, self.full);
             for (place, value) in entries.iter().enumerate() {
                 let (i, j) = (place / columns, BLOCK * block + place % columns);
                 if i <= j {

@@ -1,0 +1,74 @@
+//! Reduced coordinates of bricks on many cells, beside their degrees of freedom: the base bends, lifts off and slides.
+
+use basemat::Simulation;
+use basemat::bem::SpringGround;
+use basemat::bem::plan::Plan;
+use basemat::coupled::{Coordinates, Probe, State};
+use basemat::fem::{Direction, Hex8, Material, Mesh};
+use basemat::interface::Coulomb;
+use basemat::motion::{Triaxial, el_centro_1940};
+use basemat::results::Quantity;
+use basemat::structure::{FemModel, RayleighDamping, Structure};
+use basemat_problems::scenes::{apart, states};
+
+/// Bricks on a side, and layers of them.
+const SIDE: usize = 7;
+const LAYERS: usize = 6;
+
+/// A soft block of 8 m × 8 m × 9 m.
+fn block() -> FemModel {
+    let material = Material::new(1.5e8, 0.2, 1800.0).unwrap();
+    let mut mesh = Mesh::in_space();
+    let line = |k: usize| 8.0 * k as f64 / SIDE as f64 - 4.0;
+    let foot =
+        mesh.add_grid(SIDE + 1, SIDE + 1, |row, column| [line(column), line(row), 0.0]).unwrap();
+    let heights: Vec<f64> = (1..=LAYERS).map(|k| 1.5 * k as f64).collect();
+    for brick in foot.extrude(&mut mesh, &heights).unwrap() {
+        mesh.add(Hex8::new(brick, material)).unwrap();
+    }
+    let damping = RayleighDamping::from_ratios([2.0, 15.0], [0.05; 2]).unwrap();
+    FemModel::on_base(mesh).unwrap().with_rayleigh(damping)
+}
+
+/// States on 6 × 6 cells, which receive 108 tractions.
+fn march(coordinates: Coordinates) -> Vec<State> {
+    let model = block();
+    assert_eq!(model.dofs(), 1344);
+    let corner = model.mesh().node_at_point([4.0, 4.0, 9.0]).unwrap();
+    let roof = model.row(corner, Direction::X).unwrap();
+    let plan = Plan::rectangle(-4.0..4.0, -4.0..4.0, 6).unwrap();
+    let springs = SpringGround::in_plan(plan, [4.0e7, 2.0e7, 2.0e7]).unwrap();
+    let record = el_centro_1940().scaled(1.5).unwrap();
+    let y = Some(record.padded(0.3, 0.0).unwrap());
+    let motion = Triaxial { x: Some(record.clone()), y, up: Some(record.scaled(0.5).unwrap()) };
+    let mut simulation = Simulation::builder(0.01)
+        .structure(model)
+        .ground(springs.with_dashpots(6.0e5, 3.0e5).unwrap())
+        .interface(Coulomb::new(0.3).unwrap())
+        .motion(motion)
+        .probe(Probe::displacement("roof", roof))
+        .coordinates(coordinates)
+        .build()
+        .unwrap();
+    states(&mut simulation, 250)
+}
+
+#[test]
+fn many_cells_keep_the_tolerance() {
+    let full = march(Coordinates::Physical);
+    let most = |of: &dyn Fn(&State) -> f64| full.iter().map(of).fold(0.0, f64::max);
+    let uplift = most(&|state| state.uplifted_fraction);
+    let slip = most(&|state| state.value(Quantity::LargestSlip));
+    assert!(uplift > 0.1 && slip > 1e-3, "{uplift} {slip}");
+    let tolerance = 1e-3;
+    let few = march(Coordinates::Reduced { tolerance });
+    assert!(few.iter().all(|state| state.energy_balance.residual() < 1e-9));
+    let errors = [
+        apart(&full, &few, |state| vec![state.base_shear]),
+        apart(&full, &few, |state| state.absolute_displacement().to_vec()),
+        apart(&full, &few, |state| vec![state.probes[0]]),
+    ];
+    println!("{errors:?}, {uplift} {slip}");
+    // All coordinates would leave rounding only.
+    assert!(errors.iter().all(|error| (1e-12..tolerance).contains(error)), "{errors:?}");
+}
