@@ -59,7 +59,7 @@ pub enum Coordinates {
     /// 17 times over the expected steps; a load that acts only in between is projected without a check. Loads of
     /// the builder have no such gap. Building takes three to six times as long as with other coordinates:
     /// orthogonalizing 100 to 250 vectors takes 70 % of it, factors at other shifts take a tenth. Each element in plan
-    /// adds three forces, so 64 cells need about 1 000 vectors.
+    /// adds three forces, so 64 cells need 1 000 to 1 300 vectors.
     Reduced {
         /// Relative error of responses to sudden tractions, above 0 and below 1.
         ///
