@@ -142,7 +142,12 @@ impl ElasticGround {
     /// Cells under a flexible base in plan extend beyond its outline by a part of the overhang under a rigid base: all
     /// of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The part
     /// follows from the structure's stiffness matrix. It is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h for
-    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h.
+    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h. Edges oblique to the cells
+    /// extend by twice as much, at most by 0.12 of a cell, unless the base is stiff.
+    ///
+    /// Moments of round bases under loads on the edge need more cells than moments of square ones: in a circular plate with
+    /// D/(G R³) = 0.02 they are wrong by 38, 16 and 7 % of the largest on 8, 13 and 21 cells across, under an even load by 6,
+    /// 3 and 2 %.
     ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
     /// triangles count as one). Elements receive only means of its displacement, and only the structure resists shapes

@@ -2,6 +2,8 @@
 //!
 //! Reference: Ritz solutions in Legendre polynomials; shells and cell means of an independent program on the half-space.
 
+use std::f64::consts::PI;
+
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
 use basemat::coupled::{Load, SimulationBuilder};
@@ -152,6 +154,44 @@ fn loads_on_the_edges_of_a_stiff_raft() {
             assert!(own[k] < gates[k] && ratio * own[k] < without[k], "{own:?} {without:?}");
         }
     }
+}
+
+/// A load on the edge of a circular raft with D/(G R³) = 0.02: the edge sinks 2 % too far below the middle, and 10 % if
+/// oblique edges move outwards as little as under a rigid raft.
+///
+/// Reference: Ritz solution of `tests/data/plan/disc_on_half_space.py`, settlements times G R/P.
+#[test]
+fn a_load_on_the_edge_of_a_round_raft() {
+    const SECTORS: usize = 24;
+    let (soil, thickness) = (Soil::new(30.0e6, 1.0 / 3.0, 1900.0).unwrap(), 0.3_f64);
+    let radius = 0.5 * SIDE;
+    let rigidity = 0.02 * soil.shear_modulus() * radius.powi(3);
+    let concrete = Material::new(12.0 * 0.96 * rigidity / thickness.powi(3), 0.2, 2400.0).unwrap();
+    // A polygon of the circle's area.
+    let half = PI / SECTORS as f64;
+    let outer = radius * (half / (half.sin() * half.cos())).sqrt();
+    let meridian = [0, 1, 2, 3, 4, 5, 6].map(|k| [outer * f64::from(k) / 6.0, 0.0]);
+    let mut mesh = Mesh::in_space();
+    let surface = mesh.revolve([0.0; 2], &meridian, SECTORS).unwrap();
+    for shell in surface.shells(concrete, |_| thickness).unwrap() {
+        mesh.add(shell).unwrap();
+    }
+    let model = FemModel::on_base(mesh).unwrap();
+    let row = |node: usize| model.row(node, Direction::Z).unwrap();
+    let edge = || surface.row(6).iter().map(|&node| row(node));
+    let ground = ElasticGround::under(soil, &model, 13).unwrap();
+    let builder = Simulation::builder(0.01).structure(model.clone()).ground(ground).gravity(1e-6);
+    let law = Coulomb::new(0.0).unwrap().with_tensile_strength(1.0e9).unwrap();
+    let loads = edge().map(|row| Load::constant(row, -LOAD / SECTORS as f64));
+    let simulation = loads.fold(builder, SimulationBuilder::load).interface(law).build().unwrap();
+    let displacement = simulation.static_displacement();
+    let scale = -soil.shear_modulus() * radius / LOAD;
+    let middle = scale * row(surface.row(0)[0]).value(displacement);
+    let edge = edge().map(|row| scale * row.value(displacement)).sum::<f64>() / SECTORS as f64;
+    println!("middle {middle:.5}, edge {edge:.5}");
+    let exact = [0.0963, 0.2086];
+    assert!((edge / exact[1] - 1.0).abs() < 0.03, "{edge}");
+    assert!(((edge - middle) / (exact[1] - exact[0]) - 1.0).abs() < 0.05, "{middle} {edge}");
 }
 
 /// The overhang under rafts of known bending stiffness D, one shell on each cell.

@@ -4,8 +4,9 @@
 //! inside, its compliance C becomes about C/g, so that its force is proportional to the area inside. In the scene it is
 //! a rectangle of this area, whose centre is the centre of area. Pressures then have the resultants of the outline.
 //!
-//! Oblique edges are moved outwards by less than the overhang, the less the more cells there are. Static stiffnesses of
-//! turned squares, polygons and discs so fall steadily as the number of cells grows.
+//! Oblique edges of rigid mats are moved outwards by less than the overhang, the less the more cells there are. Static
+//! stiffnesses of turned squares, polygons and discs so fall steadily as the number of cells grows. Oblique edges of
+//! flexible mats move further: their bending moments depend on the pressure at the edge itself.
 
 use super::faces::Face;
 use crate::geometry::span;
@@ -13,9 +14,13 @@ use crate::linalg::gauss::Rule;
 
 /// Overhang of outer cells beyond the outline of a rigid mat, as a fraction of their side.
 pub(super) const OVERHANG: f64 = 0.105;
-/// Distance in cells by which oblique edges move outwards: the first number, plus the second over √n for n cells along
-/// the shorter side. Found with discs and squares at several angles.
+/// Distance in cells by which oblique edges of rigid mats move outwards: the first number, plus the second over √n for n
+/// cells along the shorter side. Found with discs and squares at several angles.
 const SHIFT: [f64; 2] = [0.03, 0.15];
+/// The same for flexible mats: a multiple of the overhang, and the largest distance.
+///
+/// Found with circular plates and turned square ones under loads on the edge, on walls and everywhere.
+const FLEXIBLE_SHIFT: [f64; 2] = [2.0, 0.12];
 /// Sine of the angle to the lattice from which an edge is oblique.
 const OBLIQUE: f64 = 0.1;
 /// Smallest fraction of a cell inside that makes it a contact element.
@@ -69,8 +74,11 @@ pub(super) fn cut(
     overhang: f64,
 ) -> (Vec<Option<usize>>, Vec<Cells>) {
     let along = grid.counts[0].min(grid.counts[1]) as f64;
-    let part = overhang / OVERHANG;
-    let oblique = (part * (SHIFT[0] + SHIFT[1] / along.sqrt())).min(overhang);
+    let oblique = if overhang < OVERHANG {
+        (FLEXIBLE_SHIFT[0] * overhang).min(FLEXIBLE_SHIFT[1])
+    } else {
+        (SHIFT[0] + SHIFT[1] / along.sqrt()).min(OVERHANG)
+    };
     let distance = |normal: [f64; 2]| {
         let parallel = (1.0 - normal[0].abs().min(normal[1].abs()) / OBLIQUE).max(0.0);
         let shift = oblique + (overhang - oblique) * parallel;
