@@ -11,6 +11,7 @@ macro_rules! forward_structure {
             fn has_active_damping(&$own) -> bool;
             fn has_active_stiffness(&$own) -> bool;
             fn tallest_storey(&$own) -> Option<f64>;
+            fn triangle_sides(&$own) -> Option<[f64; 2]>;
             fn describe(&$own, dofs: &[usize]) -> Option<String>;
             fn load(&$own, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
         }
@@ -202,6 +203,14 @@ pub trait Structure: Any + Send {
     ///
     /// A run warns of a height above 100 m, which is probably in another unit.
     fn tallest_storey(&self) -> Option<f64> {
+        None
+    }
+
+    /// Mean side of the triangles of doubly curved thin shells, and the longest with which they bend right, m.
+    ///
+    /// The longest is √(R t) for the radius R and the thickness t ([`Shell`](crate::fem::Shell)). A run warns of longer
+    /// sides. Default: `None`.
+    fn triangle_sides(&self) -> Option<[f64; 2]> {
         None
     }
 

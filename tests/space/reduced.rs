@@ -50,7 +50,7 @@ fn march(coordinates: Coordinates) -> Vec<State> {
         .coordinates(coordinates)
         .build()
         .unwrap();
-    states(&mut simulation, 250)
+    states(&mut simulation, 150)
 }
 
 #[test]

@@ -347,6 +347,7 @@ impl SimulationBuilder {
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
         let of_units = Warning::of_units(is_to_scale, &scene, given.gravity, pressure, storey);
         warnings.extend(of_units);
+        warnings.extend(Warning::of_triangles(structure.triangle_sides()));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         if scene.model.linear {

@@ -152,6 +152,19 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
+    /// Triangles of a doubly curved thin shell with sides above √(R t), for the radius R and the thickness t.
+    ///
+    /// Their membrane resists bending. The load points of a pinched hemisphere move by 0.93 of their displacement with
+    /// sides of 1.4 √(R t), and by half of it with 2.8 √(R t).
+    #[error(
+        "triangles of {side:.2} m are too stiff on a doubly curved thin shell: take quadrilaterals, or sides of {longest:.2} m"
+    )]
+    LongTriangles {
+        /// Mean side of the triangles, m.
+        side: f64,
+        /// √(R t), m.
+        longest: f64,
+    },
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.

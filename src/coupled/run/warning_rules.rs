@@ -201,6 +201,12 @@ impl Warning {
         (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
     }
 
+    /// Warning of triangles with a mean side above the longest, m.
+    pub(crate) fn of_triangles(sides: Option<[f64; 2]>) -> Option<Self> {
+        let [side, longest] = sides.filter(|[side, longest]| side > longest)?;
+        Some(Self::LongTriangles { side, longest })
+    }
+
     /// Warning of friction for which steps in plan may have several solutions.
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;

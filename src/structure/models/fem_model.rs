@@ -203,8 +203,7 @@ impl FemModel {
         Self { damping, ..self }
     }
 
-    /// Allows elements whose damping matrices are unsymmetric or feed energy in
-    /// ([`Structure::has_active_damping`]).
+    /// Allows elements whose damping matrices are unsymmetric or feed energy in ([`Structure::has_active_damping`]).
     ///
     /// Otherwise `build` returns an error for such an element.
     #[must_use]
@@ -382,6 +381,10 @@ impl Structure for FemModel {
 
     fn has_active_stiffness(&self) -> bool {
         self.active_stiffness
+    }
+
+    fn triangle_sides(&self) -> Option<[f64; 2]> {
+        crate::fem::triangle_sides(&self.mesh)
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {

@@ -271,6 +271,12 @@ impl Structure for StructureGroup {
         self.members.iter().filter_map(|member| member.structure.tallest_storey()).reduce(f64::max)
     }
 
+    /// The sides that exceed the longest by the largest ratio.
+    fn triangle_sides(&self) -> Option<[f64; 2]> {
+        let sides = self.members.iter().filter_map(|member| member.structure.triangle_sides());
+        sides.max_by(|one, other| (one[0] / one[1]).total_cmp(&(other[0] / other[1])))
+    }
+
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         for member in &self.members {
             if let Some(load) = load.get_mut(member.range()) {

@@ -338,6 +338,11 @@ impl Structure for ReducedModel {
         full.structure.tallest_storey()
     }
 
+    fn triangle_sides(&self) -> Option<[f64; 2]> {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        full.structure.triangle_sides()
+    }
+
     /// Kept degrees of freedom as the full model describes them, and modes by number.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
