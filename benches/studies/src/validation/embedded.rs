@@ -8,6 +8,7 @@ use super::outcome::{Case, Check, Outcome, worse};
 use crate::AnyError;
 use crate::figure::{BLUE, Figure, Panel, RED};
 use basemat_problems::table;
+use basemat_problems::welded_block::{self, Cause};
 
 pub(crate) const CASE: Case = Case {
     name: "embedded",
@@ -67,6 +68,29 @@ fn errors(found: &[[Complex; 6]], wanted: &[[Complex; 6]]) -> [f64; 6] {
     worst
 }
 
+/// A block welded to 20 elements, stepped under waves and forces, against Fourier synthesis with the same elements.
+fn steps() -> Result<Vec<Check>, AnyError> {
+    let mut checks = vec![];
+    for (step, of, count, limit) in [(0.2, "dt02", 128, 1e-2), (0.1, "dt01", 256, 2.5e-3)] {
+        let elements = Trench::new(-1.0..1.0, 1.0)?.elements(8, 6)?;
+        let mut ground = TrenchGround::new(Soil::new(1.0, 1.0 / 3.0, 1.0)?, elements)?;
+        for (cause, name) in [(Cause::Waves(1.0), "SV"), (Cause::Force, "force")] {
+            let found = welded_block::march(&mut ground, step, count, cause);
+            let table = format!("{name}_h1f_{of}");
+            for (motion, error) in
+                ["motion", "rotation"].iter().zip(welded_block::errors(&found, &table))
+            {
+                checks.push(Check::below(
+                    format!("cΔt/b = {step}, {name}, {motion}"),
+                    error,
+                    limit,
+                ));
+            }
+        }
+    }
+    Ok(checks)
+}
+
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let Curves { frequencies, values } = tabled();
     let step = if short { 4 } else { 1 };
@@ -87,6 +111,9 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
         checks.extend(each.map(|((name, error), limit)| {
             Check::below(format!("{count} elements, {name}"), error, *limit)
         }));
+    }
+    if !short {
+        checks.extend(steps()?);
     }
     let titles = [
         "horizontal: K_hh/μ",

@@ -105,6 +105,45 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
     assert!(worst < 2e-3 * largest, "{:e}", worst / largest);
 }
 
+/// Without depth on a half-plane: the strip's closed form, but for a translation down and one to the right.
+#[test]
+fn static_compliance_without_depth_is_the_strips_up_to_translations() {
+    let half_plane = Soil::new(1.0, 0.3, 1.0).unwrap();
+    let trench = Trench::new(-1.0..1.0, 0.0).unwrap().elements(8, 0).unwrap();
+    let soil = TrenchSoil::new(half_plane.into(), trench).unwrap();
+    let source = TrenchSource { soil, stages: None, file: None };
+    let strip = Strip::graded(-1.0..1.0, 8).unwrap();
+    let (count, size) = (8, 16);
+    let [mut found, mut wanted] = [(); 2].map(|()| vec![0.0; size * size]);
+    source.static_compliance(&strip.elements(), &mut found).unwrap();
+    let ground = ElasticGround::new(half_plane, strip).unwrap();
+    crate::bem::Ground::static_compliance(&ground, &mut wanted).unwrap();
+    // Tractions of the same force are compared: a translation is proportional to the force.
+    let lengths: Vec<f64> =
+        source.soil.elements().elements().iter().map(ContactElement::length).collect();
+    let difference = |matrix: &[f64], i: usize, j: usize| {
+        let per_force = |i: usize, j: usize| matrix[i * size + j] / lengths[j % count];
+        per_force(i, j) - per_force(j / count * count, j / count * count)
+    };
+    let mut worst = 0.0_f64;
+    for i in 0..size {
+        for j in 0..size {
+            let own = i / count == j / count;
+            let [found, wanted] = [&found, &wanted].map(|matrix| {
+                if own {
+                    difference(matrix, i, j)
+                } else {
+                    matrix[i * size + j] / lengths[j % count]
+                }
+            });
+            worst = worst.max((found - wanted).abs());
+        }
+    }
+    // Finite elements of degree 4; the largest entry is about 1.
+    println!("{worst:e}");
+    assert!(worst < 5e-3, "{worst:e}");
+}
+
 /// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
 #[test]
 fn static_compliance_holds_a_rigid_body_as_the_impedance_does() {
