@@ -186,7 +186,9 @@ fn energies_of_random_flexible_scenes_close() {
 #[test]
 fn small_flexible_scenes_are_reduced_without_refusal() {
     let mut outcome = Outcome::default();
-    [33, 37].into_iter().for_each(|number| outcome.run(number));
+    for number in [33, 37] {
+        outcome.run(number);
+    }
     println!("{outcome:?}");
     assert!(outcome.refused.is_empty() && outcome.reduced == 2, "{outcome:?}");
 }
