@@ -5,9 +5,11 @@
 
 mod elliptic_integral;
 mod line_load;
+mod loaded_rectangle;
 mod rigid_strip;
 mod rocking_block;
 mod sliding_block;
+mod sliding_estimate;
 mod sliding_history;
 mod strip;
 mod uplift_law;
@@ -17,9 +19,11 @@ pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
+pub use loaded_rectangle::loaded_rectangle_settlement;
 pub use rigid_strip::RigidStrip;
 pub use rocking_block::RockingBlock;
 pub use sliding_block::SlidingBlock;
+pub use sliding_estimate::SlidingEstimate;
 pub use sliding_history::{SlidingEvent, SlidingHistory};
 pub use strip::{NoTensionStrip, StripContact};
 pub use uplift_law::UpliftLaw;

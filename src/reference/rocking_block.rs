@@ -76,6 +76,35 @@ impl RockingBlock {
         Ok(-(-least / acceleration).ln_1p() / self.frequency_parameter())
     }
 
+    /// Velocity V (m/s) at which two opposite impulses just overturn the block, the second one right after an impact.
+    ///
+    /// The ground's velocity jumps by V, and back by V when the block has fallen onto its other corner. From the moment of
+    /// momentum, each jump adds 3 V cos α/(4 R) to the rate of rotation, and the impact keeps [`restitution`] η of it;
+    /// from the energy, the block overturns at the rate 2 p sin(α/2), so that
+    /// V = (8/3) p R sin(α/2)/((1 + η) cos α). No other time of the second impulse overturns it at a lower V. The
+    /// problem is that of Nabeshima, Taniguchi, Kojima and Takewaki, Frontiers in Built Environment 2 (2016), 9, of which
+    /// the abstract was read, not the formula.
+    ///
+    /// ```
+    /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;
+    /// // Four times as large: twice the velocity.
+    /// let large = basemat::reference::RockingBlock::new(2.0, 8.0, 9.81)?;
+    /// let ratio = large.overturning_double_impulse()? / block.overturning_double_impulse()?;
+    /// assert!((ratio - 2.0).abs() < 1e-14);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// [`restitution`]: RockingBlock::restitution
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) if the motion ends in an impact (η ≤ 0).
+    pub fn overturning_double_impulse(&self) -> Result<f64> {
+        let kept = positive("restitution of the block", self.restitution())?;
+        let (angle, size) = (self.slenderness_angle(), self.half_width.hypot(self.half_height));
+        let rate = 2.0 * self.frequency_parameter() * (0.5 * angle).sin();
+        Ok(4.0 * size * rate / (3.0 * angle.cos() * (1.0 + kept)))
+    }
+
     /// Ratio 1 − 1.5 sin²α of the angular velocities after and before an impact.
     ///
     /// It follows from the moment of momentum about the new corner. Housner's r is the square of this ratio.

@@ -3,6 +3,7 @@
 mod analytic;
 mod layered;
 mod linear;
+mod overturning;
 mod reference;
 mod reference_tables;
 mod refine;

@@ -3,11 +3,11 @@
 //! SCENE: rocking and sliding blocks, tilted strips, line loads.
 //! REFERENCE: statics, differential equations, integration in small steps.
 
-use basemat::motion::{Record, el_centro_1940};
+use basemat::motion::{Record, SpectralOrdinate, el_centro_1940};
 use basemat::reference::{
-    NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, UpliftLaw, WinklerStrip,
-    flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
-    kelvin_relative_displacement,
+    NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEstimate, UpliftLaw,
+    WinklerStrip, flamant_horizontal_displacement, flamant_radial_stress,
+    flamant_relative_settlement, kelvin_relative_displacement, loaded_rectangle_settlement,
 };
 use basemat::{Error, Soil};
 use proptest::prelude::*;
@@ -109,47 +109,6 @@ fn slender_blocks_rock_as_housner_says() {
     }
 }
 
-/// ∫ f dx over the contact, by a substitution that tames both ends.
-/// Whether a slender block at rest overturns by a rectangular pulse, by steps of the linear equation.
-fn overturns(block: &RockingBlock, acceleration: f64, duration: f64) -> bool {
-    let (angle, p) = (block.slenderness_angle(), block.frequency_parameter());
-    let steps = 20_000;
-    let step = duration / f64::from(steps);
-    let (mut tilt, mut rate) = (0.0, 0.0);
-    // Exact for a constant right-hand side: the tilt's distance from its unstable equilibrium grows and falls.
-    let mut advance = |equilibrium: f64, step: f64| {
-        let from = tilt - equilibrium;
-        let (growth, fall) = (0.5 * (from + rate / p), 0.5 * (from - rate / p));
-        tilt = equilibrium + growth * (p * step).exp() + fall * (-p * step).exp();
-        rate = p * (growth * (p * step).exp() - fall * (-p * step).exp());
-        tilt
-    };
-    for _ in 0..steps {
-        advance(angle - acceleration / 9.81, step);
-    }
-    loop {
-        let tilt = advance(angle, 1e-3 / p);
-        if !(0.0..angle).contains(&tilt) {
-            return tilt > 0.0;
-        }
-    }
-}
-
-#[test]
-fn pulses_overturn_from_the_duration_of_housner() {
-    let block = RockingBlock::new(0.5, 2.0, 9.81).unwrap();
-    for factor in [1.05, 1.5, 4.0, 30.0] {
-        let acceleration = factor * 9.81 * block.slenderness_angle();
-        let duration = block.overturning_pulse(acceleration).unwrap();
-        assert!(overturns(&block, acceleration, 1.0001 * duration), "{factor}");
-        assert!(!overturns(&block, acceleration, 0.9999 * duration), "{factor}");
-    }
-    let least = 9.81 * block.slenderness_angle();
-    for bad in [least, 0.0, -1.0, f64::NAN, f64::INFINITY] {
-        refused(block.overturning_pulse(bad));
-    }
-}
-
 /// The uplift law with α = 6 is the strip on springs, with α = 4 the smooth strip on the half-plane.
 #[test]
 fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
@@ -182,6 +141,57 @@ fn uplift_laws_are_exact_on_springs_and_on_the_half_plane() {
     }
 }
 
+/// Spectra of constant displacement give it back; of constant velocity v, the slip v²/(2 μₑ g) of a block whose ground
+/// jumps to this velocity.
+#[test]
+fn slip_of_a_spectrum_is_that_of_a_velocity_pulse() {
+    let spectrum = |power: i32, value: f64| -> Vec<SpectralOrdinate> {
+        let periods = (1..=60).map(|k| 0.1 * f64::from(k));
+        let ordinate = |period: f64| {
+            let acceleration = value * (std::f64::consts::TAU / period).powi(power);
+            SpectralOrdinate {
+                period,
+                displacement: f64::NAN,
+                pseudo_velocity: f64::NAN,
+                pseudo_acceleration: acceleration,
+                acceleration: f64::NAN,
+            }
+        };
+        periods.map(ordinate).collect()
+    };
+    let estimate = SlidingEstimate::new(0.3, 2.5, 10.0).unwrap();
+    close("c", estimate.spectral_acceleration(), 2.0 * 0.3 * 0.9 * 10.0, 1e-14, 0.0);
+    let slip = |list: &[SpectralOrdinate]| estimate.slip(list).unwrap();
+    close("displacement", slip(&spectrum(2, 0.4)).unwrap(), 0.4, 1e-14, 0.0);
+    // A jump of the velocity: one sample of acceleration.
+    let (velocity, step) = (1.3, 1e-5);
+    let jump = Record::new(step, vec![0.0, velocity / step, 0.0]).unwrap();
+    let pushed = SlidingBlock::new(0.3 * 0.9, 10.0).unwrap().slide(&jump).minimum();
+    close("velocity", slip(&spectrum(1, velocity)).unwrap(), -pushed, 0.0, 1e-4);
+    // The longest period of several counts.
+    let mut twice = spectrum(2, 0.4);
+    twice[1].pseudo_acceleration = 0.1;
+    close("last", slip(&twice).unwrap(), 0.4, 1e-14, 0.0);
+    assert_eq!(slip(&spectrum(0, 1.0)), None);
+
+    refused(estimate.slip(&spectrum(0, 6.0)));
+    for bad in BAD {
+        refused(SlidingEstimate::new(bad, 0.0, 9.81));
+        refused(SlidingEstimate::new(0.3, 0.0, bad));
+        let mut list = spectrum(2, 0.4);
+        list[7].pseudo_acceleration = bad;
+        refused(estimate.slip(&list));
+        list = spectrum(2, 0.4);
+        list[7].period = bad;
+        refused(estimate.slip(&list));
+    }
+    for bad in [-0.1, 25.0, f64::NAN, f64::INFINITY] {
+        refused(SlidingEstimate::new(0.3, bad, 10.0));
+    }
+    assert!(estimate.slip(&spectrum(2, 0.4)[..1]).is_err());
+}
+
+/// ∫ f dx over the contact, by a substitution that tames both ends.
 fn integral(strip: &NoTensionStrip, eccentricity: f64, weight: impl Fn(f64) -> f64) -> f64 {
     let contact = strip.contact(5.0, eccentricity).unwrap();
     let (middle, half) = (f64::midpoint(contact.left, contact.right), contact.length() / 2.0);
@@ -250,6 +260,43 @@ fn line_loads_satisfy_equilibrium() {
     let slope = -(1.0 - 0.3) / (2.0 * 3.0) * flamant_radial_stress(load, 1.0, 0.0).unwrap();
     close("slope", settlement / 1e-6, slope, 0.0, 1e-6);
     assert_eq!(flamant_horizontal_displacement(soil(), 1.0, 0.0).unwrap(), 0.0);
+}
+
+/// The settlement under a loaded rectangle is a sum of point loads, by rays from a point inside and by cells outside.
+#[test]
+fn loaded_rectangles_settle_as_point_loads_do() {
+    let unit = (1.0 - 0.3) / (2.0 * std::f64::consts::PI * 3.0);
+    let settled = |point| loaded_rectangle_settlement(soil(), 5.0, [2.0, 3.0], point).unwrap();
+    for [x, y] in [[0.0, 0.0], [0.3, -1.1], [-0.9, 1.4]] {
+        // ∫ dA/r is the mean length of the rays to the outline, times 2π.
+        let count = 400_000;
+        let ray = |k: i32| {
+            let (sine, cosine) =
+                (std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(count)).sin_cos();
+            ((1.0_f64.copysign(cosine) - x) / cosine).min((1.5_f64.copysign(sine) - y) / sine)
+        };
+        let rays: f64 = (0..count).map(ray).sum();
+        let wanted = 5.0 * unit * rays * std::f64::consts::TAU / f64::from(count);
+        close("inside", settled([x, y]), wanted, 0.0, 1e-9);
+    }
+    for [x, y] in [[2.0, 0.0], [1.5, -3.0], [0.2, 2.5]] {
+        let count = 400;
+        let cell = |i: i32, j: i32| {
+            let along = 2.0 * (f64::from(i) + 0.5) / f64::from(count) - 1.0;
+            let away = 3.0 * (f64::from(j) + 0.5) / f64::from(count) - 1.5;
+            1.0 / (along - x).hypot(away - y)
+        };
+        let sum: f64 = (0..count).flat_map(|i| (0..count).map(move |j| cell(i, j))).sum();
+        let wanted = 5.0 * unit * sum * 6.0 / f64::from(count * count);
+        close("outside", settled([x, y]), wanted, 0.0, 1e-5);
+    }
+    for bad in BAD {
+        refused(loaded_rectangle_settlement(soil(), 1.0, [1.0, bad], [0.0; 2]));
+        if !bad.is_finite() {
+            refused(loaded_rectangle_settlement(soil(), bad, [1.0; 2], [0.0; 2]));
+            refused(loaded_rectangle_settlement(soil(), 1.0, [1.0; 2], [0.0, bad]));
+        }
+    }
 }
 
 /// Kelvin's solution satisfies Navier's equation (by differences) and reciprocity.

@@ -9,6 +9,7 @@
 //! `cargo study` is short for `cargo run --release -p basemat-studies --`. Files go to a folder of the study's
 //! name under `target/study`; with `--docs docs` tables and pictures go between the markers of the documents.
 
+mod artificial_motion;
 mod contact_chatter;
 mod contact_problems;
 mod containment;

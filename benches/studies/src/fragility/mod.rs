@@ -16,7 +16,7 @@
 //! A run that is killed goes on where it was; `docs/guide.md`, Sweeps, spreads it over a cluster.
 
 mod lognormal;
-mod motions;
+pub(crate) mod motions;
 mod picture;
 mod scene;
 #[cfg(test)]

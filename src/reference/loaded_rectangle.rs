@@ -1,0 +1,48 @@
+//! Settlement of the surface of a half-space under an even load.
+
+use crate::Soil;
+use crate::error::{Result, finite, positive};
+
+/// Settlement (m) of the surface of a half-space under an even `pressure` (Pa) on a rectangle, at a `point`.
+///
+/// The `sides` (m) lie along x and y, the middle at the origin; `point` (m) may lie under the load or beside it. Integral
+/// of Boussinesq's solution p (1 − ν)/(2πμ r) over the rectangle; Johnson, *Contact Mechanics*, 1985, section 3.3. A
+/// perfectly flexible square plate settles by 4 ln(1 + √2)/π · p B (1 − ν)/(2μ) in its middle:
+///
+/// ```
+/// use basemat::{Soil, reference::loaded_rectangle_settlement};
+/// let soil = Soil::new(1.0, 0.5 - 1e-12, 1.0)?;
+/// let middle = loaded_rectangle_settlement(soil, 4.0, [1.0, 1.0], [0.0, 0.0])?;
+/// let corner = loaded_rectangle_settlement(soil, 4.0, [1.0, 1.0], [0.5, 0.5])?;
+/// assert!((middle - 1.122_199).abs() < 1e-6);
+/// assert!((middle - 2.0 * corner).abs() < 1e-12);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Input`](crate::Error::Input) unless pressure and point are finite, and the sides finite and above zero.
+pub fn loaded_rectangle_settlement(
+    soil: Soil,
+    pressure: f64,
+    sides: [f64; 2],
+    point: [f64; 2],
+) -> Result<f64> {
+    finite("pressure on the rectangle", pressure)?;
+    for k in 0..2 {
+        positive("side of the rectangle", sides[k])?;
+        finite("coordinate of the point", point[k])?;
+    }
+    // Rectangles with a corner under the point, with signs outside the load.
+    let corners = [0, 1].map(|k| [0.5 * sides[k] - point[k], 0.5 * sides[k] + point[k]]);
+    let integral: f64 = corners[0]
+        .into_iter()
+        .flat_map(|a| corners[1].map(|b| inverse_distance(a, b) + inverse_distance(b, a)))
+        .sum();
+    let unit = (1.0 - soil.poisson()) / (2.0 * std::f64::consts::PI * soil.shear_modulus());
+    Ok(pressure * unit * integral)
+}
+
+/// a arsinh(b/|a|): half the integral of 1/r over a rectangle from its corner, odd in both sides.
+fn inverse_distance(a: f64, b: f64) -> f64 {
+    if a == 0.0 { 0.0 } else { a * (b / a.abs()).asinh() }
+}
