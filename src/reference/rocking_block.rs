@@ -81,9 +81,9 @@ impl RockingBlock {
     /// The ground's velocity jumps by V, and back by V when the block has fallen onto its other corner. From the moment of
     /// momentum, each jump adds 3 V cos α/(4 R) to the rate of rotation, and the impact keeps [`restitution`] η of it;
     /// from the energy, the block overturns at the rate 2 p sin(α/2), so that
-    /// V = (8/3) p R sin(α/2)/((1 + η) cos α). No other time of the second impulse overturns it at a lower V. The
-    /// problem is that of Nabeshima, Taniguchi, Kojima and Takewaki, Frontiers in Built Environment 2 (2016), 9, of which
-    /// the abstract was read, not the formula.
+    /// V = (8/3) p R sin(α/2)/((1 + η) cos α). No other time of the second impulse overturns it at a lower V.
+    /// Nabeshima, Taniguchi, Kojima and Takewaki pose the problem in Frontiers in Built Environment 2 (2016), 9; their
+    /// abstract was read, not their formula.
     ///
     /// ```
     /// let block = basemat::reference::RockingBlock::new(0.5, 2.0, 9.81)?;

@@ -144,7 +144,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
             left = left.line("basemat, 16 × 16", BLUE, along(&found));
             right = right.reference("Boussinesq", RED, along(&exact)).circles(
                 "basemat, 16 × 16",
-                color,
+                BLUE,
                 along(&own),
             );
         }
