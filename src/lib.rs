@@ -133,7 +133,7 @@
 //!
 //! | feature | what it adds |
 //! |---|---|
-//! | `embedded` | `bem::embedded`: impedances and kinematic motion of foundations below the surface, in the plane |
+//! | `embedded` | `bem::embedded`: the ground of structures with walls below the surface, in the plane; impedances |
 //! | `full-plane` | `bem::full_plane`: boundaries that are not flat, the paper's own scheme and its stability; `fundamental::FullPlane` |
 //! | `io` | `io`: meshes from Gmsh, matrices by Matrix Market, grids for ParaView; `results::DeformedShape`; `sweep`: files |
 //! | `reference` | `reference`: closed forms from the literature, to check against |

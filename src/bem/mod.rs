@@ -180,6 +180,10 @@ pub struct GroundDescription {
     ///
     /// Above 1 % a run warns: [`Warning::ObliqueOutline`](crate::coupled::Warning::ObliqueOutline).
     pub outline_error: f64,
+    /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
+    ///
+    /// It acts on the walls of a structure in the ground before the run, and is zero below its base.
+    pub pressure_at_rest: Vec<f64>,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,
 }

@@ -115,5 +115,7 @@ pub use scheme::{
 pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};
 pub use simulation::Observed;
 pub use state::energy_balance::{EnergyBalance, EnergyTerm};
+#[cfg(feature = "embedded")]
+pub use state::face_forces::{Face, FaceForces};
 pub use state::foundation::Foundation;
 pub use state::{State, Transition};

@@ -185,11 +185,7 @@ impl Parts {
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let mut start_motion = vec![0.0; layout.len()];
-        ground.free_field(given.motion.as_ref(), 0.0, &mut start_motion);
-        for displacement in &start_motion {
-            finite("free field at t = 0", *displacement)?;
-        }
+        let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
         let soil = Arc::new(Thinned::new(soil, start_motion.len()));
         Ok(Self {
             structure,
@@ -202,6 +198,23 @@ impl Parts {
             moment_center,
         })
     }
+}
+
+/// Displacement of the free field at t = 0.
+fn start_motion(ground: &dyn Ground, motion: &dyn FreeField, elements: &Patch) -> Result<Vec<f64>> {
+    let mut displacement = vec![0.0; elements.layout().len()];
+    if elements.has_walls() {
+        let mut impulse = displacement.clone();
+        let known = motion.at_faces(elements, 0.0, &mut displacement, &mut impulse);
+        let needed = "one that is known at walls below the surface, as a `TrenchMotion` is";
+        require_part("free field", known, needed)?;
+    } else {
+        ground.free_field(motion, 0.0, &mut displacement);
+    }
+    for displacement in &displacement {
+        finite("free field at t = 0", *displacement)?;
+    }
+    Ok(displacement)
 }
 
 /// Error for loads and motions with degrees of freedom that the structure lacks, and for numbers that are not

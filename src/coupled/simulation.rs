@@ -80,6 +80,8 @@ impl Simulation {
         }
         state.advance(scene, forcing, increment);
         increment.spread.copy_from_slice(&increment.traction);
+        let free = increment.spread.iter_mut().zip(&forcing.free_traction);
+        free.for_each(|(traction, free)| *traction -= free);
         scene.base.elements().spread_inside(&mut increment.spread);
         ground.commit(&increment.spread);
         if let Some(force) = structure.nonlinear_mut() {

@@ -85,9 +85,10 @@ impl Footing {
             };
             Edge::of_base(outline, ends[0]).into_iter().filter(faces).map(with_reach).collect()
         });
+        let bottom = patch[patch.floor().start].center()[2];
         let arm = |own: &ContactElement| {
             let [x, y, z] = own.center();
-            [x - center[0], y - center[1], z]
+            [x - center[0], y - center[1], z - bottom]
         };
         let arms = patch[elements].iter().map(arm).collect();
         let turn = patch.layout().turn();

@@ -1,5 +1,7 @@
 //! The elements of a ground.
 
+use std::ops::Range;
+
 use super::{ContactElement, ContactLayout, PLANE, SPACE, far_ends, middle};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
@@ -9,6 +11,8 @@ pub(crate) struct Patch {
     elements: Vec<ContactElement>,
     /// Area of each element inside the outline, m² (in the plane: length, m).
     areas: Vec<f64>,
+    /// Elements that face down, side by side; all of them unless the ground has walls.
+    floor: Range<usize>,
 }
 
 impl Patch {
@@ -29,7 +33,18 @@ impl Patch {
             _ => check_order(&elements)?,
         }
         let areas = elements.iter().map(ContactElement::area).collect();
-        Ok(Self { elements, areas })
+        let floor = floor(&elements)?;
+        Ok(Self { elements, areas, floor })
+    }
+
+    /// Elements that face down; all of them unless the ground has walls.
+    pub(crate) fn floor(&self) -> Range<usize> {
+        self.floor.clone()
+    }
+
+    /// Whether elements face to the side.
+    pub(crate) fn has_walls(&self) -> bool {
+        self.floor.len() < self.elements.len()
     }
 
     /// Parts of each element in its place: halves, in plan quarters.
@@ -74,6 +89,29 @@ impl Patch {
     pub(crate) fn center(&self) -> [f64; 2] {
         [0, 1].map(|axis| middle(far_ends(self.elements.iter().map(|own| own.ends()[axis]))))
     }
+}
+
+/// Elements that face down.
+///
+/// Returns an error unless they are neighbours in the list.
+fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
+    let is_down = |own: &ContactElement| own.directions()[0][2] < -0.5;
+    let first = elements.iter().position(is_down);
+    let last = elements.iter().rposition(is_down);
+    let (Some(first), Some(last)) = (first, last) else {
+        return Err(Error::Scene {
+            quantity: "contact elements of the ground",
+            needed: "some that face down",
+        });
+    };
+    let floor = first..last + 1;
+    if elements[floor.clone()].iter().all(is_down) {
+        return Ok(floor);
+    }
+    Err(Error::Scene {
+        quantity: "contact elements of the ground",
+        needed: "those that face down next to each other, between the walls",
+    })
 }
 
 impl std::ops::Deref for Patch {

@@ -2,6 +2,7 @@
 
 use super::Record;
 use crate::error::{Result, finite, positive, require};
+use crate::geometry::ContactElement;
 
 /// Motion of the ground surface without the structure.
 #[auto_impl::auto_impl(Box)]
@@ -18,6 +19,21 @@ pub trait FreeField: Send {
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
         let [horizontal, vertical] = self.displacement(place[0], time);
         [horizontal, 0.0, vertical]
+    }
+
+    /// Displacement and tractions at contact elements below the surface, for a ground with walls.
+    ///
+    /// Overwrites `displacement` (m) and `impulse`, the integral of the tractions on the soil from the beginning to
+    /// `time` (Pa s): both 2Q, ordered as the [contact vectors](crate::bem), means over the elements. A pressure is
+    /// positive in compression. Returns whether the motion is known there; by default it is known at the surface only.
+    fn at_faces(
+        &self,
+        _elements: &[ContactElement],
+        _time: f64,
+        _displacement: &mut [f64],
+        _impulse: &mut [f64],
+    ) -> bool {
+        false
     }
 
     /// Whether the motion has a component along y. Default: no.
@@ -77,6 +93,18 @@ pub struct AtRest;
 impl FreeField for AtRest {
     fn displacement(&self, _x: f64, _time: f64) -> [f64; 2] {
         [0.0; 2]
+    }
+
+    fn at_faces(
+        &self,
+        _elements: &[ContactElement],
+        _time: f64,
+        displacement: &mut [f64],
+        impulse: &mut [f64],
+    ) -> bool {
+        displacement.fill(0.0);
+        impulse.fill(0.0);
+        true
     }
 
     fn velocity(&self, _x: f64, _time: f64) -> [f64; 2] {

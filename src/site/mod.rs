@@ -14,6 +14,8 @@ mod site_motion;
 mod slowness;
 mod soil_column;
 mod transform;
+#[cfg(feature = "embedded")]
+mod trench_motion;
 mod vertical;
 
 pub use equivalent_linear::{EquivalentLinear, LayerResponse};
@@ -22,6 +24,8 @@ pub use iteration::{ComplexModulus, EquivalentLinearOptions};
 pub use oblique::InclinedControl;
 pub use site_motion::SiteMotion;
 pub use soil_column::SoilColumn;
+#[cfg(feature = "embedded")]
+pub use trench_motion::TrenchMotion;
 pub use vertical::{ControlPoint, VerticalWave};
 
 use std::fmt;

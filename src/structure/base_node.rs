@@ -145,10 +145,12 @@ impl BaseNode {
 
     /// Whether the nodes stay a flat, uniformly strained body for any degrees of freedom.
     ///
-    /// Their displacements are then linear in the coordinates, as on any rigid base.
+    /// Their displacements are then linear in the coordinates, as on any rigid base. Nodes in the plane may have any
+    /// heights.
     pub(crate) fn are_flat(nodes: &[Self]) -> bool {
         let Some(first) = nodes.first() else { return true };
-        let from = |node: &Self| [node.x - first.x, node.y - first.y];
+        let second = |node: &Self| if node.directions() == PLANE { node.z } else { node.y };
+        let from = |node: &Self| [node.x - first.x, second(node) - second(first)];
         let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
             let far = nodes.iter().map(|node| (distance(from(node)), node));
             far.fold((0.0, first), |most, own| if own.0 > most.0 { own } else { most })

@@ -41,14 +41,18 @@ impl<'a> HeldBase<'a> {
 
     /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
     ///
-    /// In the plane: the rotation of x and up. In plan: the rotations of x and up, of y and up, and of x and
-    /// y.
+    /// In the plane: the rotation of x and up, at the height of the lowest node. In plan: the rotations of x and up, of
+    /// y and up, and of x and y.
     pub(crate) fn turns<'b>(
         &self,
         nodes: impl Iterator<Item = &'b BaseNode> + Clone,
         [x, y]: [f64; 2],
     ) -> Vec<Vec<f64>> {
-        let mut turns = vec![self.forces(nodes.clone().map(|node| (&node.vertical, node.x - x)))];
+        let lowest = nodes.clone().map(|node| node.z).fold(f64::INFINITY, f64::min);
+        let walls = nodes.clone().filter(|node| node.z > lowest);
+        let along = walls.map(|node| (&node.horizontal, lowest - node.z));
+        let up = nodes.clone().map(|node| (&node.vertical, node.x - x));
+        let mut turns = vec![self.forces(up.chain(along))];
         if self.directions() == SPACE {
             turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
             let [along, across] = [

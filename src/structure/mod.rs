@@ -50,6 +50,8 @@ pub use hysteresis::{
 };
 pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiffness, massless};
 pub use modal_damping::{ModalDamping, WithModalDamping};
+#[cfg(feature = "embedded")]
+pub use models::WithWalls;
 pub use models::{
     FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section,
     ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding, StructureGroup,

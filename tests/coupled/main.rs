@@ -4,6 +4,7 @@ mod checkpoint;
 mod conditioning;
 mod conveniences;
 mod coordinates;
+mod embedded;
 mod energy_balance;
 mod forms;
 mod interaction;

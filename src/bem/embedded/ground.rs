@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use super::earth_pressure;
 use super::soil::TrenchSoil;
 use super::source::TrenchSource;
 use super::trench::TrenchElements;
 use crate::bem::layered::Stages;
 use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround};
-use crate::error::{Observer, Result};
+use crate::error::{Observer, Result, not_negative};
 use crate::geometry::ContactElement;
 use crate::history::{HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
@@ -49,6 +50,8 @@ use crate::soil::{Relaxation, Soil, SoilProfile};
 /// ```
 pub struct TrenchGround {
     source: TrenchSource,
+    /// K₀ of all soils; `None` for ν/(1 − ν) of each.
+    at_rest: Option<f64>,
     /// Stages of the last [`Ground::prepare`].
     used: Option<Stages>,
     ground: WeightsGround,
@@ -67,11 +70,11 @@ impl TrenchGround {
         let soil = TrenchSoil::new(profile.into(), elements)?;
         let source = TrenchSource { soil, stages: None, file: None };
         let ground = WeightsGround::with_unions(source.clone(), list, None);
-        Ok(Self { source, used: None, ground })
+        Ok(Self { source, at_rest: None, used: None, ground })
     }
 
     fn with_source(self, source: TrenchSource) -> Self {
-        Self { ground: self.ground.with_source(source.clone()), source, used: None }
+        Self { ground: self.ground.with_source(source.clone()), source, used: None, ..self }
     }
 
     /// Fills the soil beside the walls with `soil`, over a `width` in m and from the surface down to the base.
@@ -87,6 +90,15 @@ impl TrenchGround {
         let source = self.source.clone();
         let soil = source.soil.with_backfill(width, soil, damping)?;
         Ok(self.with_source(TrenchSource { soil, ..source }))
+    }
+
+    /// Sets K₀, the pressure at rest on the walls over the pressure of the soil above; default ν/(1 − ν) of each soil.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a ratio below zero or not finite.
+    pub fn with_pressure_at_rest(self, ratio: f64) -> Result<Self> {
+        let at_rest = Some(not_negative("pressure at rest over the vertical pressure", ratio)?);
+        Ok(Self { at_rest, ..self })
     }
 
     /// Sets the number of Runge–Kutta stages, in place of the rule.
@@ -129,6 +141,11 @@ impl TrenchGround {
         self.soil().elements()
     }
 
+    /// Whether the soil beside the walls is not the profile's.
+    pub(crate) fn has_backfill(&self) -> bool {
+        self.soil().fill().is_some()
+    }
+
     pub(super) fn soil(&self) -> &TrenchSoil {
         &self.source.soil
     }
@@ -165,6 +182,7 @@ impl Ground for TrenchGround {
         let stages = self.used.map(Stages::count);
         GroundDescription {
             soils: self.soil().soils().collect(),
+            pressure_at_rest: earth_pressure::at_rest(self.soil(), self.at_rest),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

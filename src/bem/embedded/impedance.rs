@@ -92,7 +92,7 @@ impl TrenchGround {
     ) -> Result<Vec<KinematicMotion>> {
         let needed =
             "a trench without it: beside backfill waves of the free field do not travel vertically";
-        require_part("backfill", !self.soil().has_backfill(), needed)?;
+        require_part("backfill", self.soil().fill().is_none(), needed)?;
         let found = self.soil().responses(frequencies, observer)?;
         let motion = |(frequency, values): (&f64, Response)| {
             let [.., horizontal, rotation, vertical] = values;

@@ -8,11 +8,12 @@
 //! | compliance | compliances F(s) of the faces |
 //! | soil, free_field | the soil; vertical waves at the faces |
 //! | pairs, source | compliances of pairs of elements; convolution weights |
-//! | ground | the ground of a simulation |
+//! | ground, earth_pressure | the ground of a simulation; pressure at rest |
 //! | impedance, motion | a rigid body in the trench |
 
 mod bottom;
 mod compliance;
+mod earth_pressure;
 mod free_field;
 mod grid;
 mod ground;

@@ -96,8 +96,9 @@ impl TrenchSoil {
         &self.elements
     }
 
-    pub(super) fn has_backfill(&self) -> bool {
-        self.backfill.is_some()
+    /// Soil of the backfill.
+    pub(super) fn fill(&self) -> Option<Soil> {
+        self.backfill.as_ref().and_then(|(_, alone)| alone.surface())
     }
 
     /// Soils from the surface down, and the backfill.

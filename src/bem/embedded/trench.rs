@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use crate::error::{Result, finite, not_negative, positive, require_part};
 use crate::geometry::{ContactElement, PLANE, check_count};
+use crate::interface::InterfaceLaw;
 
 /// Rectangular trench in the surface of the ground, in the plane: its sides and its depth.
 ///
@@ -121,6 +122,21 @@ impl TrenchElements {
         corners.extend(self.base.iter().skip(1).map(|x| [middle + x, bottom]));
         corners.extend(self.wall.iter().rev().skip(1).map(|z| [right, -z]));
         corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
+    }
+
+    /// Interface laws of all elements, one for the base and one for both walls.
+    ///
+    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder.
+    pub fn interfaces(
+        &self,
+        base: impl InterfaceLaw + Clone + 'static,
+        walls: impl InterfaceLaw + Clone + 'static,
+    ) -> Vec<Box<dyn InterfaceLaw>> {
+        let is_base = |own: &ContactElement| own.directions()[0][2] < -0.5;
+        let law = |own: &ContactElement| -> Box<dyn InterfaceLaw> {
+            if is_base(own) { Box::new(base.clone()) } else { Box::new(walls.clone()) }
+        };
+        self.elements().iter().map(law).collect()
     }
 
     /// Ends of the base elements of the right half, m from the axis.

@@ -13,7 +13,7 @@
 //! depending on the columns' places. Slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2,
 //! 0.9, 2.4 and 11.
 
-use super::static_stages;
+use super::at_rest;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
@@ -64,7 +64,7 @@ pub(crate) fn check(
     if !base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
-    let own_soil = static_stages::compliance(parts)?;
+    let own_soil = at_rest::compliance(parts)?;
     let shape =
         UnseenShape::softest(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
@@ -77,7 +77,7 @@ pub(crate) fn check(
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
             let under = |assembled: &Assembled, soil: &[f64]| {
-                static_stages::under_loads(parts, assembled, soil, law).ok()
+                at_rest::under_loads(parts, assembled, soil, law).ok()
             };
             let with_first;
             let coarse = if parts.given.laws.len() == 1 {

@@ -2,12 +2,14 @@
 //!
 //! 1. `parts.rs`: the given parts, each checked alone;
 //! 2. `model/assembled.rs`: matrices, base and influence vectors of the structure, in its own degrees of freedom;
-//! 3. `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
+//! 3. `at_rest.rs`, `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
 //!    `flexible_base.rs` compares the result with the static state on twice the elements if these may be too few;
 //! 4. `stepped.rs`: choice of the coordinates; matrices, base and operators in them; `vibration_modes.rs` computes
 //!    all modes, `krylov.rs` Ritz modes;
 //! 5. `scene.rs`: the scene; `initial_motion.rs`: the motion at t = 0.
 
+mod at_rest;
+mod backfilled;
 mod flexible_base;
 mod initial_motion;
 mod krylov;
@@ -317,7 +319,7 @@ impl SimulationBuilder {
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let at_rest = static_stages::solve(&mut parts, &assembled)?;
+        let at_rest = at_rest::solve(&mut parts, &assembled)?;
         let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),

@@ -1,19 +1,15 @@
-//! The static state in stages: weight first, then the loads at t = 0.
+//! Stages of the static state: weight, and then the loads at t = 0.
 
-use crate::coupled::base::influence::UP;
 use crate::coupled::gravity_stage::GravityStage;
-use crate::coupled::model::assembled::Assembled;
-use crate::coupled::parts::Parts;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::stability::cause;
 use crate::coupled::statics::static_state::StaticState;
-use crate::error::{Error, LawError, Result, all_finite, finite};
+use crate::error::{Error, LawError, Result};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, PreviousContacts,
     Tolerance, law_of,
 };
 use crate::linalg::largest;
-use crate::structure::{Structure, nonlinear_state};
 
 /// Number of load increments if elements slide, since friction depends on the path.
 const INCREMENTS: usize = 10;
@@ -28,75 +24,15 @@ const UNSETTLED: f64 = 1e-6;
 const PLACED: f64 = 1e-6;
 
 /// Step length that laws see in a gravity stage, s.
-const TIME_STEP: f64 = 1.0;
+pub(super) const TIME_STEP: f64 = 1.0;
 
-/// The state under weight and the loads at t = 0; trivial without gravity.
-///
-/// Commits the structure's internal variables to it.
-pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
-    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
-    if parts.given.is_static() {
-        state = under_loads(parts, assembled, &compliance(parts)?, &parts.given.laws)?;
-        if let Some(force) = parts.structure.nonlinear_mut() {
-            force.commit(&state.displacement);
-        }
-    }
-    let structure = &parts.structure;
-    (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;
-    all_finite("nonlinear force at t = 0", &state.force)?;
-    if let Some(energy) = &state.energy {
-        finite("energy that the nonlinear force stores at t = 0", energy.stored)?;
-        finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
-    }
-    Ok(state)
-}
-
-/// Static compliance of the ground, for tractions inside the outline.
-pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
-    let mut soil = vec![0.0; parts.elements.layout().square()];
-    parts.ground.static_compliance(&mut soil)?;
-    parts.elements.refer_inside(&mut soil);
-    Ok(soil)
-}
-
-/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws.
-///
-/// The structure's internal variables stay unchanged.
-pub(crate) fn under_loads(
-    parts: &Parts,
-    assembled: &Assembled,
-    soil: &[f64],
-    laws: &[Box<dyn InterfaceLaw>],
-) -> Result<StaticState> {
-    let Parts { structure, given, .. } = parts;
-    let n = assembled.dofs();
-    let mut own = vec![0.0; n];
-    structure.load(0.0, &mut own)?;
-    all_finite("load of the structure at t = 0", &own)?;
-    let mut load = own.clone();
-    for external in &given.loads {
-        let force = external.value(0.0);
-        external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
-    }
-    let mut weight = vec![0.0; n];
-    let up = assembled.influence.of(UP, n);
-    assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
-    all_finite("weight", &weight)?;
-    all_finite("load at t = 0", &load)?;
-    let (structure, frictionless) = (structure.as_ref(), false);
-    let stage = Standing { assembled, structure, soil, frictionless };
-    let mut state = in_stages(&stage, laws, given.gravity_stage, [&weight, &load])?;
-    state.load = own;
-    Ok(state)
-}
-
-/// The state under `weight` by the chosen gravity stage, and then under `load` with the interface laws.
-fn in_stages(
+/// The state under `weight` by the chosen gravity stage, and the contact states at which laws start.
+pub(super) fn placed(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     gravity_stage: GravityStage,
-    [weight, load]: [&[f64]; 2],
-) -> Result<StaticState> {
+    weight: &[f64],
+) -> Result<(StaticState, Vec<ContactState>)> {
     let layout = stage.assembled.base.layout();
     let count = layout.elements();
     let is_placed = gravity_stage == GravityStage::Frictionless;
@@ -131,12 +67,22 @@ fn in_stages(
             if keeps(e, own) { own.to_vec() } else { Vec::new() }
         })
         .collect();
+    Ok((state, (0..count).map(|e| *start.state(e)).collect()))
+}
+
+/// The state under `load` in addition to the `weight`, with the interface laws.
+pub(super) fn loaded(
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    (mut state, contact): (StaticState, Vec<ContactState>),
+    [weight, load]: [&[f64]; 2],
+) -> Result<StaticState> {
     if load.iter().all(|force| *force == 0.0) {
         return Ok(state);
     }
     // From now on the base sticks at its place.
     state.modes = state.modes_with(laws);
-    under_growing_load(stage, laws, (state, &start), [weight, load])
+    under_growing_load(stage, laws, (state, &contact), [weight, load])
 }
 
 /// The state under `weight` and `load`, from the `state` under the weight, with its contact states.
@@ -145,13 +91,13 @@ fn in_stages(
 fn under_growing_load(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
-    (state, start): (StaticState, &PreviousContacts),
+    (state, contact): (StaticState, &[ContactState]),
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let count = state.modes.len();
     let placed: Vec<_> = (0..count)
         .map(|e| {
-            let start = PreviousContact::new(*start.state(e), state.modes[e], TIME_STEP);
+            let start = PreviousContact::new(contact[e], state.modes[e], TIME_STEP);
             start.with_state_variables(&state.state_variables[e])
         })
         .collect();

@@ -110,14 +110,14 @@ fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
 fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
     let mean =
         |place: fn(&BaseNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
-    let [x, y] = [mean(|node| node.x), mean(|node| node.y)];
+    let [x, y, z] = [mean(|node| node.x), mean(|node| node.y), mean(|node| node.z)];
     let motion = |of: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
         nodes.iter().flat_map(|node| of(node).into_iter().take(directions)).collect()
     };
     let mut motions = vec![
         motion(&|_| [1.0, 0.0, 0.0]),
         motion(&|_| [0.0, 1.0, 0.0]),
-        motion(&|node| [0.0, node.x - x, 0.0]),
+        motion(&|node| [z - node.z, node.x - x, 0.0]),
     ];
     if directions == 3 {
         motions.push(motion(&|_| [0.0, 0.0, 1.0]));

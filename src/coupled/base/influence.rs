@@ -7,7 +7,6 @@
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::Terms;
-use crate::geometry::ContactLayout;
 use crate::linalg::matrix::spread;
 use crate::structure::BaseNode;
 
@@ -134,28 +133,33 @@ impl ConnectedPart {
     /// are equal.
     pub(crate) fn mean(&self, base: &PlacedBase, displacement: &[f64]) -> [f64; 3] {
         let Some(&first) = self.elements.first() else { return [0.0; 3] };
-        let [down, along, across] = base.layout().split(displacement);
         let areas = base.areas();
         let area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
-        let mean = |direction: usize, values: &[f64]| {
-            if self.vectors[direction].is_empty() {
-                return 0.0;
-            }
-            let apart = self.elements.iter().map(|&e| areas[e] * (values[e] - values[first]));
-            values[first] + apart.sum::<f64>() / area
-        };
-        [mean(0, along), -mean(UP, down), mean(2, across)]
+        let start = base.motion_of(first, displacement);
+        let mut apart = [0.0; 3];
+        for &e in &self.elements {
+            let own = base.motion_of(e, displacement);
+            apart
+                .iter_mut()
+                .enumerate()
+                .for_each(|(k, sum)| *sum += areas[e] * (own[k] - start[k]));
+        }
+        let mean =
+            |k: usize| if self.vectors[k].is_empty() { 0.0 } else { start[k] + apart[k] / area };
+        [0, 1, 2].map(mean)
     }
 
     /// Subtracts a translation `[right, up, away]` from contact displacements.
     pub(crate) fn subtract(
         &self,
-        layout: ContactLayout,
+        base: &PlacedBase,
         [right, up, away]: [f64; 3],
         displacement: &mut [f64],
     ) {
+        let layout = base.layout();
         for &e in &self.elements {
-            for (component, moved) in (0..layout.components()).zip([-up, right, away]) {
+            let moved = base.elements()[e].components([right, away, up]);
+            for (component, moved) in (0..layout.components()).zip(moved) {
                 displacement[layout.place(component, e)] -= moved;
             }
         }

@@ -203,13 +203,32 @@ impl PlacedBase {
         self.rows.multiply(u, out);
     }
 
+    /// Displacement `[right, up, away]` of element `e` from contact displacements.
+    pub(crate) fn motion_of(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
+        let layout = self.layout();
+        let mut components = [0.0; 3];
+        let own = components.iter_mut().take(layout.components()).enumerate();
+        own.for_each(|(component, value)| *value = displacement[layout.place(component, e)]);
+        let [right, away, up] = self.elements[e].vector(components);
+        [right, up, away]
+    }
+
     /// Mean `[right, up, away]` of contact displacements over the whole base.
     ///
     /// Nothing moves away in the plane.
     pub(crate) fn mean(&self, displacement: &[f64]) -> [f64; 3] {
-        let [down, along, across] = self.layout().split(displacement);
+        let layout = self.layout();
+        let [down, along, across] = layout.split(displacement);
         let areas = self.areas();
         let area: f64 = areas.iter().sum();
+        if self.elements.has_walls() {
+            let mut mean = [0.0; 3];
+            for (e, own) in areas.iter().enumerate() {
+                let moved = mean.iter_mut().zip(self.motion_of(e, displacement));
+                moved.for_each(|(sum, moved)| *sum += own / area * moved);
+            }
+            return mean;
+        }
         let mean = |values: &[f64]| dot(values, areas) / area;
         [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
     }

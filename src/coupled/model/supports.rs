@@ -101,9 +101,7 @@ pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize)
         for (direction, vector) in part.vectors.iter().enumerate() {
             base.means(&spread(vector, dofs), &mut means);
             for &e in part.elements().iter().filter(|_| !vector.is_empty()) {
-                let [down, along, across] = base.layout().places(e);
-                let (component, sign) = [(along, 1.0), (down, -1.0), (across, 1.0)][direction];
-                let moved = sign * means[component];
+                let moved = base.motion_of(e, &means)[direction];
                 if (moved - 1.0).abs() > exact {
                     return Err(Error::Input {
                         quantity: "mean of the base under a rigid translation of 1 m",

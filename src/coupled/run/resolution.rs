@@ -196,9 +196,11 @@ impl Resolution {
         let (longest, fineness) =
             if in_plan { (cell(0).max(cell(1)), CELLS) } else { (widest(0), STRIPS) };
         let foundations = state.foundations.iter().map(|own| {
-            let ends = |axis: usize| {
-                elements[own.elements.clone()].iter().map(|own| own.ends()[axis]).collect()
-            };
+            let floor = elements.floor();
+            let [first, last] =
+                [own.elements.start.max(floor.start), own.elements.end.min(floor.end)];
+            let ends =
+                |axis: usize| elements[first..last].iter().map(|own| own.ends()[axis]).collect();
             let unlimited = Axis { elements: usize::MAX, ..Axis::default() };
             let mut axes = [unlimited; 2];
             for (axis, moment) in elements.layout().axes().zip([own.base_moment, own.moment_across])

@@ -1,6 +1,8 @@
 //! The state after a step, and a sequence of states.
 
 pub(crate) mod energy_balance;
+#[cfg(feature = "embedded")]
+pub(crate) mod face_forces;
 pub(crate) mod foundation;
 pub(crate) mod origin;
 pub(crate) mod sequence;

@@ -50,6 +50,8 @@ pub(crate) struct Standing<'a> {
     pub(crate) soil: &'a [f64],
     /// Whether the laws act without friction and cohesion, in plan.
     pub(crate) frictionless: bool,
+    /// Jumps in addition to those by displacements and tractions; empty for none.
+    pub(crate) offset: &'a [f64],
 }
 
 impl Standing<'_> {
@@ -138,6 +140,7 @@ impl Standing<'_> {
         for jump in &mut free_jump {
             *jump = -*jump;
         }
+        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
         let input = ContactInput {
             delassus: &current.delassus,
             free_jump: &free_jump,

@@ -5,6 +5,7 @@
 //! | Δu, v, a | increment, velocity and acceleration of the structure, all total |
 //! | τ | change of contact traction against the static state |
 //! | s, `s_ff` | soil displacement by tractions; free field |
+//! | τ_ff | tractions of the free field on faces below the surface |
 //! | y, R | translation of the free field under a part; influence vectors |
 
 use crate::bem::Ground;
@@ -279,8 +280,10 @@ impl EnergyAccumulator {
             let jump = end.jump()[k];
             let opening = jump - self.jump[i];
             self.jump[i] = jump;
-            energy_balance.soil += area * change * (soil[i] - self.soil_displacement[i]);
-            energy_balance.soil_error_bound += area * change.abs() * doubt;
+            let free = forcing.free_traction.get(i).copied().unwrap_or(0.0);
+            let moved = soil[i] - self.soil_displacement[i];
+            energy_balance.soil += area * (change - free) * moved;
+            energy_balance.soil_error_bound += area * (change - free).abs() * doubt;
             let mut elastic = 0.0;
             if !self.compliance.is_empty() {
                 let (c0, c1) = (self.compliance[e][k.min(1)], increment.compliance[e][k.min(1)]);
@@ -300,6 +303,9 @@ impl EnergyAccumulator {
             energy_balance.contact -= area * (at_rest + change) * (opening - elastic);
             energy_balance.static_contact += area * at_rest * opening;
             energy_balance.input -= area * change * (forcing.free_field[i] - self.free_field[i]);
+            if free != 0.0 {
+                energy_balance.input -= area * free * moved;
+            }
         }
         self.free_field.copy_from_slice(&forcing.free_field);
         self.compliance.copy_from_slice(&increment.compliance);

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `s_ff` | free field: motion of the soil without structure |
 //! | y | its mean translation under each connected part of the structure |
-//! | h | soil displacement by all earlier tractions |
+//! | τ_ff | tractions of the free field on faces below the surface |
+//! | h | soil displacement by all earlier tractions, less the effect of tractions of the free field |
 //! | R | influence vectors |
 
 use crate::bem::Ground;
@@ -25,8 +26,10 @@ pub(crate) struct Forcing {
     pub(crate) free_field: Vec<f64>,
     /// Free field minus the translation y of the part above, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
-    /// Convolution history of the soil at the end of the step, 2Q or 3Q.
+    /// Displacement of the soil against the free field without the tractions of this step, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
+    /// Mean tractions τ_ff of the free field in this step, 2Q; empty on the surface.
+    pub(crate) free_traction: Vec<f64>,
     /// Translation of the free field under each part.
     pub(crate) translations: Vec<Translation>,
     /// R Δy, in stepping coordinates.
@@ -34,6 +37,8 @@ pub(crate) struct Forcing {
     /// R ẏ at v*, in stepping coordinates; zero without damping.
     pub(crate) dragged: Vec<f64>,
     dofs: Vec<f64>,
+    /// Time integral of the free field's tractions; empty on the surface.
+    impulse: Vec<f64>,
 }
 
 impl Forcing {
@@ -46,6 +51,8 @@ impl Forcing {
             free_field: contact(),
             distortion: contact(),
             history: contact(),
+            free_traction: if scene.base.elements().has_walls() { contact() } else { Vec::new() },
+            impulse: if scene.base.elements().has_walls() { contact() } else { Vec::new() },
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
             dragged: structure(),
@@ -63,7 +70,7 @@ impl Forcing {
         motion: &dyn FreeField,
         time: f64,
     ) -> Result<(), StepError> {
-        ground.free_field(motion, time, &mut self.free_field);
+        self.observe_free_field(scene, state, ground, motion, time);
         for (value, start) in self.free_field.iter_mut().zip(&scene.start_motion) {
             *value -= start;
         }
@@ -74,13 +81,14 @@ impl Forcing {
         {
             StepError::check_finite(quantity, values)?;
         }
+        self.subtract_free_traction(scene)?;
         self.distortion.copy_from_slice(&self.free_field);
         let influence = &scene.model.influence;
         let last = &state.kinematics.translations;
         for ((part, now), last) in influence.parts().iter().zip(&mut self.translations).zip(last) {
             let displacement = part.mean(&scene.base, &self.free_field);
             *now = last.next(displacement, &scene.coefficients);
-            part.subtract(scene.layout(), displacement, &mut self.distortion);
+            part.subtract(&scene.base, displacement, &mut self.distortion);
         }
         self.carried.fill(0.0);
         let increments = self.translations.iter().map(|translation| translation.increment);
@@ -108,6 +116,40 @@ impl Forcing {
             Some((index, value)) => {
                 Err(StepError::NotFinite { quantity: "external load", index, value })
             }
+        }
+    }
+}
+
+impl Forcing {
+    /// Subtracts the effect of the free field's tractions in this step from the history.
+    fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
+        let minus = self.impulse.iter_mut().zip(&self.free_traction);
+        minus.for_each(|(own, traction)| *own = -traction);
+        if !self.free_traction.is_empty() {
+            StepError::check_finite("tractions of the free field", &self.free_traction)?;
+            scene.soil.multiply_add(&self.impulse, &mut self.history);
+        }
+        Ok(())
+    }
+
+    /// Computes displacements of the free field at `time`, and its mean tractions since the last step.
+    fn observe_free_field(
+        &mut self,
+        scene: &Scene,
+        state: &State,
+        ground: &dyn Ground,
+        motion: &dyn FreeField,
+        time: f64,
+    ) {
+        if self.free_traction.is_empty() {
+            return ground.free_field(motion, time, &mut self.free_field);
+        }
+        let (elements, impulse) = (scene.base.elements(), &mut self.impulse);
+        // The motion is known at the faces: the build has checked it.
+        motion.at_faces(elements, state.time, &mut self.free_field, &mut self.free_traction);
+        motion.at_faces(elements, time, &mut self.free_field, impulse);
+        for (traction, impulse) in self.free_traction.iter_mut().zip(impulse) {
+            *traction = (*impulse - *traction) / scene.time_step;
         }
     }
 }

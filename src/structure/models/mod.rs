@@ -19,6 +19,8 @@ mod space_section;
 mod storey_building;
 mod storey_laws;
 mod storey_section;
+#[cfg(feature = "embedded")]
+mod with_walls;
 
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
@@ -31,3 +33,5 @@ pub use shell_rows::ShellRows;
 pub use space_section::SpaceSection;
 pub use storey_building::{PlanStorey, StoreyBuilding};
 pub use storey_laws::IsolationLevel;
+#[cfg(feature = "embedded")]
+pub use with_walls::WithWalls;

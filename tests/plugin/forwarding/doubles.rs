@@ -235,6 +235,19 @@ impl FreeField for Double {
         [x, y, CORRECT]
     }
 
+    fn at_faces(
+        &self,
+        _: &[ContactElement],
+        time: f64,
+        displacement: &mut [f64],
+        impulse: &mut [f64],
+    ) -> bool {
+        self.0.asked("at_faces");
+        displacement.fill(time);
+        impulse.fill(CORRECT);
+        true
+    }
+
     fn moves_across(&self) -> bool {
         self.0.asked("moves_across");
         true

@@ -106,6 +106,9 @@ fn boxed_motions() {
     fn ask(part: impl FreeField) {
         assert_eq!(part.displacement(3.0, 1.0), [3.0, CORRECT]);
         assert_eq!(part.displacement_at([3.0, 2.0], 1.0), [3.0, 2.0, CORRECT]);
+        let [mut moved, mut impulse] = [[0.0]; 2];
+        assert!(part.at_faces(&[], 3.0, &mut moved, &mut impulse));
+        assert_eq!([moved, impulse], [[3.0], [CORRECT]]);
         assert!(part.moves_across() && part.records().is_empty());
         assert_eq!(part.velocity(3.0, 1.0), [CORRECT, 3.0]);
     }

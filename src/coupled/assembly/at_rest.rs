@@ -1,0 +1,79 @@
+//! The static state of a scene: in stages, with walls after backfilling.
+
+use super::backfilled;
+use super::static_stages::{loaded, placed};
+use crate::coupled::base::held::holds;
+use crate::coupled::base::influence::UP;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::parts::Parts;
+use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::static_state::StaticState;
+use crate::error::{Result, all_finite, finite};
+use crate::interface::InterfaceLaw;
+use crate::structure::nonlinear_state;
+
+/// The state under weight and the loads at t = 0; trivial without gravity.
+///
+/// Commits the structure's internal variables to it.
+pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
+    let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    if parts.given.is_static() {
+        state = under_loads(parts, assembled, &compliance(parts)?, &parts.given.laws)?;
+        if let Some(force) = parts.structure.nonlinear_mut() {
+            force.commit(&state.displacement);
+        }
+    }
+    let structure = &parts.structure;
+    (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;
+    all_finite("nonlinear force at t = 0", &state.force)?;
+    if let Some(energy) = &state.energy {
+        finite("energy that the nonlinear force stores at t = 0", energy.stored)?;
+        finite("energy that the nonlinear force has dissipated at t = 0", energy.dissipated)?;
+    }
+    Ok(state)
+}
+
+/// Static compliance of the ground, for tractions inside the outline.
+pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
+    let mut soil = vec![0.0; parts.elements.layout().square()];
+    parts.ground.static_compliance(&mut soil)?;
+    parts.elements.refer_inside(&mut soil);
+    Ok(soil)
+}
+
+/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws.
+///
+/// The structure's internal variables stay unchanged.
+pub(crate) fn under_loads(
+    parts: &Parts,
+    assembled: &Assembled,
+    soil: &[f64],
+    laws: &[Box<dyn InterfaceLaw>],
+) -> Result<StaticState> {
+    let Parts { structure, given, .. } = parts;
+    let n = assembled.dofs();
+    let mut own = vec![0.0; n];
+    structure.load(0.0, &mut own)?;
+    all_finite("load of the structure at t = 0", &own)?;
+    let mut load = own.clone();
+    for external in &given.loads {
+        let force = external.value(0.0);
+        external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
+    }
+    let mut weight = vec![0.0; n];
+    let up = assembled.influence.of(UP, n);
+    assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
+    all_finite("weight", &weight)?;
+    all_finite("load at t = 0", &load)?;
+    let (structure, frictionless) = (structure.as_ref(), false);
+    let stage = Standing { assembled, structure, soil, frictionless, offset: &[] };
+    let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
+    let mut state = if walls {
+        backfilled::state(parts, &stage, laws, [&weight, &load])?
+    } else {
+        let placed = placed(&stage, laws, given.gravity_stage, &weight)?;
+        loaded(&stage, laws, placed, [&weight, &load])?
+    };
+    state.load = own;
+    Ok(state)
+}

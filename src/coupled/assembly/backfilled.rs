@@ -1,0 +1,92 @@
+//! Static state of a structure in the ground: cast on the bottom of an open cut, then backfilled.
+//!
+//! The base alone carries the weight. The soil at rest presses on the walls, without shear, and the walls stay closed.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | S, B | static compliance of the soil, element means of the base displacement |
+//! | u₀, τ₀ | displacement and tractions after backfilling |
+
+use super::static_stages::{TIME_STEP, loaded, placed};
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::parts::Parts;
+use crate::coupled::statics::equilibrium::Standing;
+use crate::coupled::statics::static_state::StaticState;
+use crate::error::{Result, all_finite, same_length};
+use crate::geometry::{ContactLayout, Patch};
+use crate::interface::{ContactState, InterfaceLaw, PreviousContact, PreviousContacts, law_of};
+use crate::linalg::dense_multiply_add;
+
+/// The state under weight and backfill, and then under the loads at t = 0.
+pub(super) fn state(
+    parts: &Parts,
+    stage: &Standing<'_>,
+    laws: &[Box<dyn InterfaceLaw>],
+    [weight, load]: [&[f64]; 2],
+) -> Result<StaticState> {
+    let (elements, base) = (&parts.elements, &stage.assembled.base);
+    let (layout, floor) = (elements.layout(), elements.floor());
+    let below = Patch::new(elements[floor.clone()].to_vec())?;
+    let (own, _) = Assembled::new(stage.structure, &below)?;
+    let places: Vec<usize> = places(layout, floor.clone()).collect();
+    let mut soil = Vec::with_capacity(places.len() * places.len());
+    for row in &places {
+        soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
+    }
+    let on_floor = Standing { assembled: &own, soil: &soil, ..*stage };
+
+    let mut traction = at_rest(parts)?;
+    let mut total = weight.to_vec();
+    base.add_forces(-1.0, &traction, &mut total);
+    let own_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
+    let (found, contact) = placed(&on_floor, own_laws, parts.given.gravity_stage, &total)?;
+
+    places.iter().zip(&found.traction).for_each(|(place, own)| traction[*place] = *own);
+    let mut state = StaticState::weightless(layout, weight.len());
+    state.traction = traction;
+    let mut states: Vec<ContactState> = (0..layout.elements())
+        .map(|e| ContactState { pressure: state.traction[e], ..ContactState::default() })
+        .collect();
+    for (e, mode) in state.modes.iter_mut().enumerate() {
+        *mode = law_of(laws, e).modes()[0];
+    }
+    let rest =
+        |(e, own): (usize, &ContactState)| PreviousContact::new(*own, state.modes[e], TIME_STEP);
+    let start: Vec<_> = states.iter().enumerate().map(rest).collect();
+    state.close_gaps(laws, &PreviousContacts::new(laws, &start)?, &states)?;
+    state.gap[floor.clone()].copy_from_slice(&found.gap);
+    state.modes[floor.clone()].copy_from_slice(&found.modes);
+    state.state_variables = vec![Vec::new(); layout.elements()];
+    state.state_variables[floor.clone()].clone_from_slice(&found.state_variables);
+    (state.displacement, state.stand_in) = (found.displacement, found.stand_in);
+    states[floor].copy_from_slice(&contact);
+
+    // Jumps count from the placed state.
+    let mut offset = vec![0.0; layout.len()];
+    base.means(&state.displacement, &mut offset);
+    dense_multiply_add(stage.soil, -1.0, &state.traction, &mut offset);
+    offset.iter_mut().zip(&state.gap).for_each(|(offset, gap)| *offset += gap);
+    loaded(&Standing { offset: &offset, ..*stage }, laws, (state, states), [weight, load])
+}
+
+/// Tractions of the soil at rest on the walls.
+fn at_rest(parts: &Parts) -> Result<Vec<f64>> {
+    let layout = parts.elements.layout();
+    let mut traction = vec![0.0; layout.len()];
+    let pressures = parts.ground.description().pressure_at_rest;
+    if !pressures.is_empty() {
+        same_length("pressures at rest of the ground", pressures.len(), layout.elements())?;
+        all_finite("pressures at rest of the ground", &pressures)?;
+    }
+    let floor = parts.elements.floor();
+    for (e, own) in pressures.iter().enumerate().filter(|(e, _)| !floor.contains(e)) {
+        traction[layout.place(0, e)] = parts.given.gravity * own;
+    }
+    Ok(traction)
+}
+
+/// Places of the numbers of some elements in a contact vector.
+fn places(layout: ContactLayout, elements: std::ops::Range<usize>) -> impl Iterator<Item = usize> {
+    let of = move |component| elements.clone().map(move |e| layout.place(component, e));
+    (0..layout.components()).flat_map(of)
+}

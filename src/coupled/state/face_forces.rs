@@ -1,0 +1,96 @@
+//! Forces between soil and each face of a structure in the ground.
+
+use std::ops::Range;
+
+use crate::coupled::state::State;
+use crate::geometry::Patch;
+
+/// Face of a structure in the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum Face {
+    /// Wall on the left.
+    LeftWall,
+    /// Base between the walls.
+    Base,
+    /// Wall on the right.
+    RightWall,
+}
+
+impl Face {
+    /// Elements of the face.
+    fn of(self, elements: &Patch) -> Range<usize> {
+        let floor = elements.floor();
+        match self {
+            Self::LeftWall => 0..floor.start,
+            Self::Base => floor,
+            Self::RightWall => floor.end..elements.len(),
+        }
+    }
+}
+
+/// Forces on the soil behind one face, per metre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct FaceForces {
+    /// Total pressure, positive in compression, N/m.
+    pub thrust: f64,
+    /// Force on the soil along the outline, N/m.
+    ///
+    /// Positive down the left wall, to the right along the base, up the right wall.
+    pub shear: f64,
+    /// Height of the thrust above the base, m; on the base its distance to the right of the middle.
+    ///
+    /// NaN without thrust.
+    pub place: f64,
+    /// Length of open elements over the length of the face.
+    pub open_fraction: f64,
+}
+
+impl State {
+    /// Forces on a face; all zero and its place NaN for a wall of a base without walls.
+    ///
+    /// ```
+    /// # use basemat::prelude::*;
+    /// use basemat::bem::embedded::{Trench, TrenchGround};
+    /// use basemat::coupled::Face;
+    /// use basemat::structure::WithWalls;
+    ///
+    /// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(2, 4)?;
+    /// let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
+    /// let simulation = Simulation::builder(0.01)
+    ///     .structure(WithWalls::new(RigidBlock::new(12.0, 20.0, 900.0)?, 5.0)?)
+    ///     .ground(TrenchGround::new(soil, elements)?.with_pressure_at_rest(0.5)?)
+    ///     .interface(Coulomb::new(0.5)?)
+    ///     .build()?;
+    /// let wall = simulation.state().face(Face::LeftWall);
+    /// // K₀ ρ g d²/2, a third of the depth above the base.
+    /// assert!((wall.thrust / (0.5 * 1900.0 * STANDARD_GRAVITY * 12.5) - 1.0).abs() < 1e-12);
+    /// assert!((wall.place - 5.0 / 3.0).abs() < 0.1);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn face(&self, face: Face) -> FaceForces {
+        let elements = &self.context.elements;
+        let floor = &elements[elements.floor()];
+        let bottom = floor[0].center()[2];
+        let middle = 0.5 * (floor[0].left() + floor[floor.len() - 1].right());
+        let [mut thrust, mut shear, mut moment, mut open, mut length] = [0.0; 5];
+        for e in face.of(elements) {
+            let (area, state) = (elements.areas()[e], &self.contact[e]);
+            let [x, _, z] = elements[e].center();
+            let arm = if face == Face::Base { x - middle } else { z - bottom };
+            thrust += area * state.pressure;
+            shear += area * state.shear;
+            moment += area * state.pressure * arm;
+            length += area;
+            if !self.modes[e].is_closed() {
+                open += area;
+            }
+        }
+        let open_fraction = if length > 0.0 { open / length } else { 0.0 };
+        FaceForces { thrust, shear, place: moment / thrust, open_fraction }
+    }
+}

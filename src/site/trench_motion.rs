@@ -1,0 +1,287 @@
+//! Vertical waves at the faces of a trench.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | z, ρ | depth, density |
+//! | I | momentum of the soil above a depth, ∫ρ v dz: the impulse of the stress there |
+
+use super::{ControlPoint, SoilColumn, VerticalWave};
+use crate::bem::ContactElement;
+use crate::bem::embedded::TrenchGround;
+use crate::error::{Observer, Result, require, require_part};
+use crate::motion::{FreeField, Record, VerticalIncidence};
+use crate::soil::{Bedrock, SoilLayer, SoilProfile};
+
+/// Free field of a trench: vertical waves below a surface with recorded motion.
+///
+/// The soil moves as the profile without trench does, and its stresses act on the faces. The motion at depth precedes the
+/// motion of the surface: the record should begin with rest for as long as waves take from the base to the surface
+/// ([`Record::padded`]).
+///
+/// ```
+/// use basemat::bem::embedded::{Trench, TrenchGround};
+/// use basemat::motion::{FreeField, el_centro_1940};
+/// use basemat::site::TrenchMotion;
+/// use basemat::{Soil, unobserved};
+/// let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
+/// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(6, 4)?;
+/// let ground = TrenchGround::new(soil, elements.clone())?;
+/// let record = el_centro_1940().padded(1.0, 1.0)?;
+/// let motion = TrenchMotion::new(&ground, record.clone(), &mut unobserved)?;
+/// // Waves of the half-plane: the mean of the surface's motion 5 m/(200 m/s) earlier and later.
+/// let [mut moved, mut impulse] = [vec![0.0; 28], vec![0.0; 28]];
+/// assert!(motion.at_faces(&elements.elements(), 4.0, &mut moved, &mut impulse));
+/// let shear_at_base = 14 + 4;
+/// let at = |time: f64| record.at(time).displacement;
+/// assert!((moved[shear_at_base] - 0.5 * (at(3.975) + at(4.025))).abs() < 2e-6);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct TrenchMotion {
+    surface: VerticalIncidence,
+    elements: Vec<ContactElement>,
+    levels: Vec<Level>,
+}
+
+/// Motion of the soil between two depths: horizontal and vertical.
+#[derive(Debug, Clone)]
+struct Level {
+    /// Depth of the middle, m.
+    middle: f64,
+    waves: [Option<Wave>; 2],
+}
+
+/// Mean motion of a level in one direction.
+#[derive(Debug, Clone)]
+struct Wave {
+    /// Displacement of the soil, m.
+    moved: Record,
+    /// A record whose velocity is the mean of I, Pa s.
+    impulse: Record,
+    /// A record whose velocity is the mean of I ν/(1 − ν), the impulse of the pressure to the sides.
+    aside: Record,
+}
+
+/// A layer down to a depth: density, and ν/(1 − ν).
+struct Layer {
+    bottom: f64,
+    density: f64,
+    aside: f64,
+}
+
+/// Largest part of a motion at depth, relative to its peak, that may precede its record.
+const CUT: f64 = 0.01;
+/// Places and weights of Gauss's rule on an interval of length one.
+const GAUSS: [[f64; 2]; 4] = [
+    [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
+    [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
+    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
+    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
+];
+
+impl TrenchMotion {
+    /// Motion around the trench of `ground`, from the `motion` of the surface without it.
+    ///
+    /// Shear waves carry the horizontal record, pressure waves the vertical one.
+    ///
+    /// # Errors
+    /// [`Error::Scene`](crate::Error::Scene) for a ground with backfill;
+    /// [`Error::Input`](crate::Error::Input) for a record whose beginning would be cut off at depth, or that the soil
+    /// amplifies more than a hundredfold on the way down; as for [`SoilColumn::from_surface`].
+    pub fn new(
+        ground: &TrenchGround,
+        motion: impl Into<VerticalIncidence>,
+        observer: &mut Observer<'_>,
+    ) -> Result<Self> {
+        let (surface, elements) = (motion.into(), ground.trench_elements().elements());
+        let needed = "a trench without it: waves beside it do not travel vertically";
+        require_part("backfill", !ground.has_backfill(), needed)?;
+        let is_left = |own: &&ContactElement| own.directions()[0][0] < -0.5;
+        let mut depths: Vec<[f64; 2]> = elements
+            .iter()
+            .filter(is_left)
+            .map(|own| {
+                let (middle, half) = (-own.center()[2], 0.5 * own.length());
+                [middle - half, middle + half]
+            })
+            .collect();
+        let bottom = ground.trench_elements().trench().depth();
+        depths.push([bottom, bottom]);
+        let records = [&surface.horizontal, &surface.vertical];
+        let kinds = [VerticalWave::Shear, VerticalWave::Pressure];
+        let level =
+            |ends: &[f64; 2]| Level { middle: 0.5 * (ends[0] + ends[1]), waves: [None, None] };
+        let mut levels: Vec<Level> = depths.iter().map(level).collect();
+        for (k, (record, wave)) in records.into_iter().zip(kinds).enumerate() {
+            let Some(record) = record else { continue };
+            let found = waves(ground.profile(), wave, record, &depths, observer)?;
+            levels.iter_mut().zip(found).for_each(|(level, own)| level.waves[k] = Some(own));
+        }
+        Ok(Self { surface, elements, levels })
+    }
+
+    /// Level of an element: the one nearest in depth; the last one for the base.
+    fn level(&self, element: &ContactElement) -> &Level {
+        let last = self.levels.len() - 1;
+        if element.directions()[0][2] < -0.5 {
+            return &self.levels[last];
+        }
+        let apart = |level: &&Level| (level.middle + element.center()[2]).abs();
+        let walls = self.levels[..last].iter();
+        walls.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(&self.levels[last])
+    }
+}
+
+impl FreeField for TrenchMotion {
+    fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
+        self.surface.displacement(x, time)
+    }
+
+    fn at_faces(
+        &self,
+        elements: &[ContactElement],
+        time: f64,
+        displacement: &mut [f64],
+        impulse: &mut [f64],
+    ) -> bool {
+        if elements != self.elements {
+            return false;
+        }
+        for (e, element) in elements.iter().enumerate() {
+            let is_base = element.directions()[0][2] < -0.5;
+            let [horizontal, vertical] = &self.level(element).waves;
+            let moved = |wave: &Option<Wave>| {
+                wave.as_ref().map_or(0.0, |own| own.moved.at(time).displacement)
+            };
+            let velocity = |record: &Record| record.at(time).velocity;
+            let [normal, tangential, _] =
+                element.components([moved(horizontal), 0.0, moved(vertical)]);
+            let shear = horizontal.as_ref().map_or(0.0, |own| velocity(&own.impulse));
+            let pressure = vertical
+                .as_ref()
+                .map_or(0.0, |own| velocity(if is_base { &own.impulse } else { &own.aside }));
+            // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
+            let shear = if is_base { -shear } else { shear };
+            let count = elements.len();
+            (displacement[e], displacement[count + e]) = (normal, tangential);
+            (impulse[e], impulse[count + e]) = (pressure, shear);
+        }
+        true
+    }
+
+    fn records(&self) -> Vec<&Record> {
+        self.surface.records()
+    }
+
+    fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
+        self.surface.velocity(x, time)
+    }
+}
+
+/// Waves of one kind in levels (upper and lower depth), from the surface down.
+fn waves(
+    profile: &SoilProfile,
+    kind: VerticalWave,
+    surface: &Record,
+    levels: &[[f64; 2]],
+    observer: &mut Observer<'_>,
+) -> Result<Vec<Wave>> {
+    let (step, layers) = (surface.time_step(), layers(profile));
+    let none = vec![0.0; surface.len()];
+    // dI/dt at the lower end of the last level.
+    let mut above = none.clone();
+    let mut found = Vec::with_capacity(levels.len());
+    for &[top, bottom] in levels {
+        let length = bottom - top;
+        if length == 0.0 {
+            let moved = at_depth(profile, kind, surface, bottom, observer)?;
+            let wave = [moved, above.clone(), none.clone()].map(|own| Record::new(step, own));
+            let [moved, impulse, aside] = wave;
+            found.push(Wave { moved: moved?, impulse: impulse?, aside: aside? });
+            continue;
+        }
+        let [mut moved, mut impulse, mut aside] = [none.clone(), none.clone(), none.clone()];
+        let mut start = top;
+        for layer in layers.iter().filter(|own| own.bottom > top) {
+            let end = layer.bottom.min(bottom);
+            let height = end - start;
+            if height <= 0.0 {
+                break;
+            }
+            let mut add_impulse = |share: f64, own: &[f64]| {
+                add(share, own, &mut impulse);
+                add(layer.aside * share, own, &mut aside);
+            };
+            add_impulse(height / length, &above);
+            for [place, weight] in GAUSS {
+                let depth = start + place * height;
+                let own = at_depth(profile, kind, surface, depth, observer)?;
+                let weight = weight * height;
+                add(weight / length, &own, &mut moved);
+                add_impulse(weight * layer.density * (end - depth) / length, &own);
+                add(weight * layer.density, &own, &mut above);
+            }
+            start = end;
+        }
+        let [moved, impulse, aside] = [moved, impulse, aside].map(|own| Record::new(step, own));
+        found.push(Wave { moved: moved?, impulse: impulse?, aside: aside? });
+    }
+    Ok(found)
+}
+
+/// sum ← sum + factor · values.
+fn add(factor: f64, values: &[f64], sum: &mut [f64]) {
+    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
+}
+
+/// Layers of a profile; the last one has no lower end.
+fn layers(profile: &SoilProfile) -> Vec<Layer> {
+    let mut bottom = 0.0;
+    let soils = profile.soils().enumerate();
+    soils
+        .map(|(index, (soil, _))| {
+            bottom += profile.layers().get(index).map_or(f64::INFINITY, |own| own.thickness);
+            Layer {
+                bottom,
+                density: soil.density(),
+                aside: soil.poisson() / (1.0 - soil.poisson()),
+            }
+        })
+        .collect()
+}
+
+/// Acceleration at a depth (m) from the motion of the surface.
+fn at_depth(
+    profile: &SoilProfile,
+    kind: VerticalWave,
+    surface: &Record,
+    depth: f64,
+    observer: &mut Observer<'_>,
+) -> Result<Vec<f64>> {
+    if depth == 0.0 {
+        return Ok(surface.accelerations().to_vec());
+    }
+    let mut rest = depth;
+    let mut above = Vec::new();
+    for layer in profile.layers() {
+        let thickness = layer.thickness.min(rest);
+        if thickness > 0.0 {
+            above.push(SoilLayer { thickness, ..layer.clone() });
+        }
+        rest -= thickness;
+    }
+    if let (true, Bedrock::HalfPlane { soil, damping }) = (rest > 0.0, profile.bedrock()) {
+        above.push(SoilLayer { soil: *soil, thickness: rest, damping: damping.clone() });
+    }
+    let column = SoilColumn::new(SoilProfile::new(above, Bedrock::Rigid)?, kind)?;
+    let (step, samples) = (surface.time_step(), surface.accelerations());
+    let found = column.from_surface(ControlPoint::Within, step, samples, observer)?;
+    let share = found.before / found.peak().max(f64::MIN_POSITIVE);
+    let needed = "at most 0.01: begin the record with rest (`Record::padded`)";
+    require("motion at depth before its record, over its peak", share, share <= CUT, needed)?;
+    if let Some(frequency) = found.amplified_from {
+        let needed = "none: the soil above the base amplifies this motion on the way down more than a hundredfold";
+        require("frequency of the record (Hz)", frequency, false, needed)?;
+    }
+    Ok(found.samples)
+}
