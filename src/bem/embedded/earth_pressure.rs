@@ -54,6 +54,7 @@ impl TrenchSoil {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bem::ContactElement;
     use crate::bem::embedded::Trench;
     use crate::soil::SoilProfile;
 
@@ -64,7 +65,7 @@ mod tests {
         let profile =
             SoilProfile::on_half_plane(soil(2000.0)).with_layer(soil(1000.0), 2.0).unwrap();
         let elements = Trench::new(-3.0..3.0, 5.0).unwrap().elements(4, 3).unwrap();
-        let lengths: Vec<f64> = elements.elements().iter().map(|own| own.length()).collect();
+        let lengths: Vec<f64> = elements.elements().iter().map(ContactElement::length).collect();
         let soil = TrenchSoil::new(profile, elements).unwrap();
         for (ratio, k) in [(None, 1.0 / 3.0), (Some(0.5), 0.5)] {
             let pressures = at_rest(&soil, ratio);

@@ -133,7 +133,7 @@ impl TrenchElements {
         walls: impl InterfaceLaw + Clone + 'static,
     ) -> Vec<Box<dyn InterfaceLaw>> {
         let is_base = |own: &ContactElement| own.directions()[0][2] < -0.5;
-        let law = |own: &ContactElement| -> Box<dyn InterfaceLaw> {
+        let law = move |own: &ContactElement| -> Box<dyn InterfaceLaw> {
             if is_base(own) { Box::new(base.clone()) } else { Box::new(walls.clone()) }
         };
         self.elements().iter().map(law).collect()

@@ -50,7 +50,9 @@ impl WithWalls {
         let (first, last) = (nodes[0].clone(), nodes[nodes.len() - 1].clone());
         let rotation =
             (1.0 / (last.x - first.x)) * (last.vertical.clone() - first.vertical.clone());
-        nodes.iter_mut().for_each(|node| node.z = -depth);
+        for node in &mut nodes {
+            node.z = -depth;
+        }
         let top = |corner: BaseNode| {
             let horizontal: DofCombination = corner.horizontal - depth * rotation.clone();
             BaseNode { horizontal, ..corner }
