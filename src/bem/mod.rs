@@ -60,6 +60,8 @@ use crate::soil::Soil;
 pub trait Ground: Any + Send {
     /// The elements, not overlapping: from left to right in the plane, in any order in plan.
     ///
+    /// With walls, along the outline: down the left wall, along the base, up the right wall.
+    ///
     /// All elements are in the plane, or all are [in plan](ContactElement::in_plan). In plan they move in three
     /// directions, and forces, moments and energies refer to the whole body, in N, N m and J.
     fn elements(&self) -> &[ContactElement];
@@ -151,7 +153,8 @@ pub trait Ground: Any + Send {
 
     /// Overwrites `displacement` (2Q, m) with the soil's motion without structure at `time`.
     ///
-    /// Normal components are positive **down**. The default evaluates `motion` at the element midpoints.
+    /// Normal components are positive **down**. The default evaluates `motion` at the element midpoints. A run on a ground
+    /// with walls takes [`FreeField::at_faces`] instead.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let count = self.elements().len();
         for (e, element) in self.elements().iter().enumerate() {
@@ -182,7 +185,8 @@ pub struct GroundDescription {
     pub outline_error: f64,
     /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
     ///
-    /// It acts on the walls of a structure in the ground before the run, and is zero below its base.
+    /// It acts on the walls of a structure in the ground before the run, and is zero below its base. If it is empty for
+    /// walls, there is none.
     pub pressure_at_rest: Vec<f64>,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,

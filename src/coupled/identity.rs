@@ -232,8 +232,16 @@ impl Simulation {
         let mut displacement = vec![0.0; scene.layout().len()];
         for (sample, moved) in moved.iter_mut().enumerate() {
             let step = (sample + 1) as f64 * (count as f64 / SAMPLES as f64);
-            ground.free_field(motion.as_ref(), step.round() * scene.time_step, &mut displacement);
-            *moved = mixed(&displacement);
+            let time = step.round() * scene.time_step;
+            if scene.base.elements().has_walls() {
+                let elements = scene.base.elements();
+                let mut impulse = vec![0.0; displacement.len()];
+                motion.at_faces(elements, time, &mut displacement, &mut impulse);
+                *moved = mixed(&impulse);
+            } else {
+                ground.free_field(motion.as_ref(), time, &mut displacement);
+            }
+            *moved += mixed(&displacement);
         }
         let rows = scene.loads.iter().enumerate();
         let rows: Vec<f64> = rows.map(|(k, load)| mixing_weight(k) * load.mixed_row()).collect();

@@ -166,6 +166,9 @@ impl Parts {
             given.laws = vec![Box::new(Bonded)];
             (structure, ground) = held(structure, &elements, time_step)?;
         }
+        let needed = "one with a static state for a base with walls, on which soil at rest presses";
+        let starts = given.held || !(elements.has_walls() && given.falls());
+        require_part("gravity stage", starts, needed)?;
         let (layout, count) = (elements.layout(), elements.len());
         // The laws may assume gravity only if there is pressure at the start.
         let gravity = if given.is_static() { given.gravity } else { 0.0 };

@@ -106,6 +106,11 @@ impl ContactElement {
         &self.directions[..2 + usize::from(self.in_plan)]
     }
 
+    /// Whether the soil is below the element, not beside it.
+    pub(crate) fn faces_down(&self) -> bool {
+        self.directions[0][2] < -0.5
+    }
+
     /// Components of a vector `[x, y, z]` along the normal and both sides.
     pub(crate) fn components(&self, vector: [f64; 3]) -> [f64; 3] {
         self.directions.map(|own| own[0] * vector[0] + own[1] * vector[1] + own[2] * vector[2])

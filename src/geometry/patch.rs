@@ -95,9 +95,8 @@ impl Patch {
 ///
 /// Returns an error unless they are neighbours in the list.
 fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
-    let is_down = |own: &ContactElement| own.directions()[0][2] < -0.5;
-    let first = elements.iter().position(is_down);
-    let last = elements.iter().rposition(is_down);
+    let first = elements.iter().position(ContactElement::faces_down);
+    let last = elements.iter().rposition(ContactElement::faces_down);
     let (Some(first), Some(last)) = (first, last) else {
         return Err(Error::Scene {
             quantity: "contact elements of the ground",
@@ -105,7 +104,7 @@ fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
         });
     };
     let floor = first..last + 1;
-    if elements[floor.clone()].iter().all(is_down) {
+    if elements[floor.clone()].iter().all(ContactElement::faces_down) {
         return Ok(floor);
     }
     Err(Error::Scene {

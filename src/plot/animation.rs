@@ -52,6 +52,8 @@ pub fn animation(
     positive("slowness", slowness)?;
     let frames: Vec<_> = time_series.motion_frames().collect();
     require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
+    let walls = time_series.elements().iter().any(|own| !own.faces_down());
+    require_part("animation", !walls, "a base without walls: `mode_map` draws walls")?;
     let needed = "600 or fewer: keep fewer of them";
     require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
     check_dimension(shape, time_series)?;

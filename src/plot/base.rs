@@ -1,7 +1,7 @@
 //! Contact along the base: modes over time, and the envelope of pressure.
 
 use super::axes::{Axis, chart, draw_curve, range_of};
-use super::base_axis::{BaseAxis, label_breaks};
+use super::base_axis::{BaseAxis, label_breaks, unrolled};
 use super::drawing::{COLORS, Stroke};
 use super::key::{Key, Sample};
 use super::plan::largest_pressures;
@@ -17,7 +17,7 @@ const COLUMNS: usize = 1000;
 /// Picture of the contact mode of every element over time.
 ///
 /// Where several frames share a column, the rarest mode is shown. Wide gaps between foundations are drawn
-/// short.
+/// short. Walls continue the base to both sides.
 ///
 /// An element in a mode of slip without pressure is shown as touching without pressure. With infinite
 /// friction this is the state between stick and open, and nothing slides.
@@ -29,7 +29,7 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let needed = "a base in the plane: `contact_plan` draws one in plan";
     require_part("map of contact modes", !time_series.in_plan(), needed)?;
     let frames: Vec<_> = time_series.contact_frames().collect();
-    let elements = time_series.elements();
+    let elements = unrolled(time_series.elements().iter().copied());
     let needed = "tell the recorder to keep the contact";
     require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
     let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
@@ -71,7 +71,8 @@ type Value = fn(&ElementEnvelope) -> f64;
 
 /// Picture of the largest, static and smallest pressure along the base, constant in each element.
 ///
-/// Wide gaps between foundations are drawn short. In plan, the largest pressure under each element.
+/// Wide gaps between foundations are drawn short. Walls continue the base to both sides. In plan, the largest pressure
+/// under each element.
 ///
 /// # Errors
 /// Errors of drawing, for extremely large values.
@@ -80,7 +81,8 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         return largest_pressures(title, run);
     }
     let envelope = &run.envelope;
-    let base = BaseAxis::new(envelope.iter().map(|e| e.element));
+    let elements = unrolled(envelope.iter().map(|own| own.element));
+    let base = BaseAxis::new(elements.iter().copied());
     let curves: [(&str, Value); 3] = [
         ("largest", |e| 1e-3 * e.pressure.highest.value),
         ("static", |e| 1e-3 * e.static_pressure),
@@ -88,13 +90,13 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
     ];
     let steps = |value: Value| {
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
-        for e in envelope {
+        for (e, element) in envelope.iter().zip(&elements) {
             // A gap between two strips is a gap in the curve.
-            let left = base.place(e.element.left());
-            if points.last().is_some_and(|last| left - last.0 > 1e-6 * e.element.length()) {
+            let left = base.place(element.left());
+            if points.last().is_some_and(|last| left - last.0 > 1e-6 * element.length()) {
                 points.push((f64::NAN, f64::NAN));
             }
-            points.extend([(left, value(e)), (left + e.element.length(), value(e))]);
+            points.extend([(left, value(e)), (left + element.length(), value(e))]);
         }
         points
     };

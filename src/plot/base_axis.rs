@@ -32,6 +32,22 @@ pub(super) struct Break {
     pub(super) width: f64,
 }
 
+/// Elements of a base on its line: walls continue it to both sides.
+pub(super) fn unrolled(elements: impl Iterator<Item = ContactElement>) -> Vec<ContactElement> {
+    let elements: Vec<ContactElement> = elements.collect();
+    let below = elements.iter().find(|own| own.faces_down());
+    let bottom = below.map_or(0.0, |own| own.center()[2]);
+    let line = |own: &ContactElement| {
+        if own.faces_down() {
+            return *own;
+        }
+        let (side, half) = (own.directions()[0][0].signum(), 0.5 * own.length());
+        let middle = own.left() + side * (own.center()[2] - bottom);
+        ContactElement::new(middle - half, middle + half)
+    };
+    elements.iter().map(line).collect()
+}
+
 /// Axis along the base, on which wide gaps between foundations are drawn short.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct BaseAxis {

@@ -14,9 +14,11 @@ use crate::soil::{Bedrock, SoilLayer, SoilProfile};
 
 /// Free field of a trench: vertical waves below a surface with recorded motion.
 ///
-/// The soil moves as the profile without trench does, and its stresses act on the faces. The motion at depth precedes the
-/// motion of the surface: the record should begin with rest for as long as waves take from the base to the surface
-/// ([`Record::padded`]).
+/// Motion and stresses at depth are computed in the profile without trench. Motion at depth precedes the motion of the
+/// surface. A run starts from rest, so the record should begin with rest for as long as waves take from the base to the
+/// surface ([`Record::padded`]).
+///
+/// The ground of the run must be the one for which the motion was made: the run compares its elements, not its soils.
 ///
 /// ```
 /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -51,9 +53,13 @@ struct Level {
     waves: [Option<Wave>; 2],
 }
 
-/// Mean motion of a level in one direction.
+/// Mean motion of a level in one direction, by records that begin before the motion of the surface.
 #[derive(Debug, Clone)]
 struct Wave {
+    /// Time by which the records begin earlier, s.
+    lead: f64,
+    /// Velocity of the surface at the beginning of its motion in such a record, m/s: not part of the motion.
+    drift: f64,
     /// Displacement of the soil, m.
     moved: Record,
     /// A record whose velocity is the mean of I, Pa s.
@@ -69,8 +75,8 @@ struct Layer {
     aside: f64,
 }
 
-/// Largest part of a motion at depth, relative to its peak, that may precede its record.
-const CUT: f64 = 0.01;
+/// Rest before and after a record, in travel times to the base, and in samples.
+const REST: [f64; 2] = [2.0, 32.0];
 /// Places and weights of Gauss's rule on an interval of length one.
 const GAUSS: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
@@ -86,8 +92,8 @@ impl TrenchMotion {
     ///
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for a ground with backfill;
-    /// [`Error::Input`](crate::Error::Input) for a record whose beginning would be cut off at depth, or that the soil
-    /// amplifies more than a hundredfold on the way down; as for [`SoilColumn::from_surface`].
+    /// [`Error::Input`](crate::Error::Input) for a record that the soil amplifies more than a hundredfold on the way
+    /// down; as for [`SoilColumn::from_surface`].
     pub fn new(
         ground: &TrenchGround,
         motion: impl Into<VerticalIncidence>,
@@ -123,7 +129,7 @@ impl TrenchMotion {
     /// Level of an element: the one nearest in depth; the last one for the base.
     fn level(&self, element: &ContactElement) -> &Level {
         let last = self.levels.len() - 1;
-        if element.directions()[0][2] < -0.5 {
+        if element.faces_down() {
             return &self.levels[last];
         }
         let apart = |level: &&Level| (level.middle + element.center()[2]).abs();
@@ -148,18 +154,26 @@ impl FreeField for TrenchMotion {
             return false;
         }
         for (e, element) in elements.iter().enumerate() {
-            let is_base = element.directions()[0][2] < -0.5;
+            let is_base = element.faces_down();
             let [horizontal, vertical] = &self.level(element).waves;
             let moved = |wave: &Option<Wave>| {
-                wave.as_ref().map_or(0.0, |own| own.moved.at(time).displacement)
+                let at = |own: &Wave| own.moved.at(time + own.lead).displacement - own.drift * time;
+                wave.as_ref().map_or(0.0, at)
             };
-            let velocity = |record: &Record| record.at(time).velocity;
             let [normal, tangential, _] =
                 element.components([moved(horizontal), 0.0, moved(vertical)]);
-            let shear = horizontal.as_ref().map_or(0.0, |own| velocity(&own.impulse));
-            let pressure = vertical
-                .as_ref()
-                .map_or(0.0, |own| velocity(if is_base { &own.impulse } else { &own.aside }));
+            let impulse_of = |wave: &Option<Wave>, aside: bool| {
+                let record = |own: &Wave| {
+                    if aside {
+                        own.aside.at(time + own.lead)
+                    } else {
+                        own.impulse.at(time + own.lead)
+                    }
+                };
+                wave.as_ref().map_or(0.0, |own| record(own).velocity)
+            };
+            let shear = impulse_of(horizontal, false);
+            let pressure = impulse_of(vertical, !is_base);
             // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
             let shear = if is_base { -shear } else { shear };
             let count = elements.len();
@@ -187,6 +201,12 @@ fn waves(
     observer: &mut Observer<'_>,
 ) -> Result<Vec<Wave>> {
     let (step, layers) = (surface.time_step(), layers(profile));
+    let deepest = levels.last().map_or(0.0, |[_, bottom]| *bottom);
+    let rest = REST[0] * travel_time(profile, deepest) + REST[1] * step;
+    let own = surface.padded(rest, rest)?;
+    let lead = (own.len() - surface.len()) as f64 / 2.0 * step;
+    let drift = own.at(lead).velocity;
+    let surface = &own;
     let none = vec![0.0; surface.len()];
     // dI/dt at the lower end of the last level.
     let mut above = none.clone();
@@ -197,7 +217,7 @@ fn waves(
             let moved = at_depth(profile, kind, surface, bottom, observer)?;
             let wave = [moved, above.clone(), none.clone()].map(|own| Record::new(step, own));
             let [moved, impulse, aside] = wave;
-            found.push(Wave { moved: moved?, impulse: impulse?, aside: aside? });
+            found.push(Wave { lead, drift, moved: moved?, impulse: impulse?, aside: aside? });
             continue;
         }
         let [mut moved, mut impulse, mut aside] = [none.clone(), none.clone(), none.clone()];
@@ -224,7 +244,7 @@ fn waves(
             start = end;
         }
         let [moved, impulse, aside] = [moved, impulse, aside].map(|own| Record::new(step, own));
-        found.push(Wave { moved: moved?, impulse: impulse?, aside: aside? });
+        found.push(Wave { lead, drift, moved: moved?, impulse: impulse?, aside: aside? });
     }
     Ok(found)
 }
@@ -248,6 +268,16 @@ fn layers(profile: &SoilProfile) -> Vec<Layer> {
             }
         })
         .collect()
+}
+
+/// Time of shear waves from the surface to a depth, s.
+fn travel_time(profile: &SoilProfile, depth: f64) -> f64 {
+    let (mut top, mut time) = (0.0, 0.0);
+    for ((soil, _), Layer { bottom, .. }) in profile.soils().zip(layers(profile)) {
+        time += (bottom.min(depth) - top).max(0.0) / soil.shear_wave_speed();
+        top = bottom;
+    }
+    time
 }
 
 /// Acceleration at a depth (m) from the motion of the surface.
@@ -276,9 +306,6 @@ fn at_depth(
     let column = SoilColumn::new(SoilProfile::new(above, Bedrock::Rigid)?, kind)?;
     let (step, samples) = (surface.time_step(), surface.accelerations());
     let found = column.from_surface(ControlPoint::Within, step, samples, observer)?;
-    let share = found.before / found.peak().max(f64::MIN_POSITIVE);
-    let needed = "at most 0.01: begin the record with rest (`Record::padded`)";
-    require("motion at depth before its record, over its peak", share, share <= CUT, needed)?;
     if let Some(frequency) = found.amplified_from {
         let needed = "none: the soil above the base amplifies this motion on the way down more than a hundredfold";
         require("frequency of the record (Hz)", frequency, false, needed)?;

@@ -149,7 +149,8 @@ impl BaseNode {
     /// heights.
     pub(crate) fn are_flat(nodes: &[Self]) -> bool {
         let Some(first) = nodes.first() else { return true };
-        let second = |node: &Self| if node.directions() == PLANE { node.z } else { node.y };
+        let in_plan = nodes.iter().any(|node| node.y != 0.0);
+        let second = |node: &Self| if in_plan { node.y } else { node.z };
         let from = |node: &Self| [node.x - first.x, second(node) - second(first)];
         let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
             let far = nodes.iter().map(|node| (distance(from(node)), node));

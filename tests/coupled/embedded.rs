@@ -2,7 +2,7 @@
 
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
 use basemat::bem::{ContactElement, Ground, GroundDescription};
-use basemat::coupled::Face;
+use basemat::coupled::{Face, GravityStage, Load};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
 use basemat::motion::{Record, STANDARD_GRAVITY, VerticalIncidence, el_centro_1940};
 use basemat::site::TrenchMotion;
@@ -337,6 +337,69 @@ fn soil_around_a_trench_never_gives_energy() {
         .unwrap();
     assert!(run.energy_error < 1e-9, "{}", run.energy_error);
     assert!(least > -1e-12 * most && open > 0.3, "{least} {most} {open}");
+}
+
+/// A tiny load at the start changes tractions by as little: jumps count from the placed state.
+#[test]
+fn a_tiny_load_at_the_start_hardly_changes_tractions() {
+    let elements = Trench::new(-0.5 * WIDTH..0.5 * WIDTH, DEPTH).unwrap().elements(4, 2).unwrap();
+    let laws = || elements.interfaces(Coulomb::new(0.5).unwrap(), Coulomb::new(0.3).unwrap());
+    let weight = 900.0 * WIDTH * HEIGHT * STANDARD_GRAVITY;
+    let at_rest = |load: f64| {
+        Simulation::builder(0.02)
+            .structure(block())
+            .ground(TrenchGround::new(soil(), elements.clone()).unwrap())
+            .interfaces(laws())
+            .load(Load::constant([(1, 1.0)], -load * weight))
+            .build()
+            .unwrap()
+            .state()
+            .contact
+            .clone()
+    };
+    let [without, with] = [0.0, 1e-6].map(at_rest);
+    let scale = weight / WIDTH;
+    for (one, other) in without.iter().zip(&with) {
+        let apart = (one.pressure - other.pressure).abs().max((one.shear - other.shear).abs());
+        assert!(apart < 1e-5 * scale, "{one:?} {other:?}");
+    }
+    assert!(without.iter().zip(&with).any(|(one, other)| one.pressure != other.pressure));
+}
+
+/// Uplift and slip are of the base; factors of safety are not known with walls.
+#[test]
+fn walls_have_results_of_their_own() {
+    let mut simulation = Simulation::builder(0.01)
+        .structure(block())
+        .ground(Bed::new(&faces(), 4e7, 4e5))
+        .interfaces(laws())
+        .motion(motion(el_centro_1940().scaled(2.0).unwrap()))
+        .build()
+        .unwrap();
+    simulation
+        .run(300, |state| {
+            let base = state.face(Face::Base);
+            assert!((state.uplifted_fraction - base.open_fraction).abs() < 1e-12);
+            assert!((state.base_shear - base.shear).abs() > 0.0 || state.time < 0.1);
+        })
+        .unwrap();
+    let state = simulation.state();
+    let [left, right] = [Face::LeftWall, Face::RightWall].map(|wall| state.face(wall));
+    let shear = right.thrust - left.thrust + state.face(Face::Base).shear;
+    assert!((state.base_shear - shear).abs() < 1e-9 * state.normal_force);
+    let unloaded = Simulation::builder(0.01)
+        .structure(block())
+        .ground(Bed::new(&faces(), 4e7, 4e5))
+        .interfaces(laws())
+        .gravity_stage(GravityStage::Unloaded)
+        .build();
+    assert!(matches!(unloaded, Err(Error::Scene { quantity: "gravity stage", .. })));
+    let on_surface = Simulation::builder(0.01)
+        .structure(RigidBlock::new(WIDTH, HEIGHT, 900.0).unwrap())
+        .ground(Bed::new(&faces(), 4e7, 4e5))
+        .interfaces(laws())
+        .build();
+    assert!(on_surface.unwrap_err().to_string().contains("WithWalls"));
 }
 
 /// A motion known at the surface only is refused.

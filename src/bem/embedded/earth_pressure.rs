@@ -5,7 +5,7 @@ use crate::soil::Soil;
 
 /// Pressure at rest on each element over gravity, kg/m², in the order of the outline; zero on the base.
 ///
-/// `ratio`: K₀ of all soils; `None` for ν/(1 − ν) of each.
+/// `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
 pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
     let layers = soil.beside_walls();
     let wall: Vec<f64> = soil

@@ -50,7 +50,7 @@ use crate::soil::{Relaxation, Soil, SoilProfile};
 /// ```
 pub struct TrenchGround {
     source: TrenchSource,
-    /// K₀ of all soils; `None` for ν/(1 − ν) of each.
+    /// K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
     at_rest: Option<f64>,
     /// Stages of the last [`Ground::prepare`].
     used: Option<Stages>,
@@ -141,7 +141,7 @@ impl TrenchGround {
         self.soil().elements()
     }
 
-    /// Whether the soil beside the walls is not the profile's.
+    /// Whether backfill replaces the soil beside the walls.
     pub(crate) fn has_backfill(&self) -> bool {
         self.soil().fill().is_some()
     }

@@ -132,9 +132,8 @@ impl TrenchElements {
         base: impl InterfaceLaw + Clone + 'static,
         walls: impl InterfaceLaw + Clone + 'static,
     ) -> Vec<Box<dyn InterfaceLaw>> {
-        let is_base = |own: &ContactElement| own.directions()[0][2] < -0.5;
         let law = move |own: &ContactElement| -> Box<dyn InterfaceLaw> {
-            if is_base(own) { Box::new(base.clone()) } else { Box::new(walls.clone()) }
+            if own.faces_down() { Box::new(base.clone()) } else { Box::new(walls.clone()) }
         };
         self.elements().iter().map(law).collect()
     }

@@ -12,7 +12,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
-use crate::error::{Result, all_finite, same_length};
+use crate::error::{Result, not_negative, same_length};
 use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContact, PreviousContacts, law_of};
 use crate::linalg::dense_multiply_add;
@@ -62,6 +62,9 @@ pub(super) fn state(
     states[floor].copy_from_slice(&contact);
 
     // Jumps count from the placed state.
+    for own in &mut states {
+        (own.slip, own.slip_across) = (0.0, 0.0);
+    }
     let mut offset = vec![0.0; layout.len()];
     base.means(&state.displacement, &mut offset);
     dense_multiply_add(stage.soil, -1.0, &state.traction, &mut offset);
@@ -76,7 +79,9 @@ fn at_rest(parts: &Parts) -> Result<Vec<f64>> {
     let pressures = parts.ground.description().pressure_at_rest;
     if !pressures.is_empty() {
         same_length("pressures at rest of the ground", pressures.len(), layout.elements())?;
-        all_finite("pressures at rest of the ground", &pressures)?;
+        for pressure in &pressures {
+            not_negative("pressure at rest of the ground", *pressure)?;
+        }
     }
     let floor = parts.elements.floor();
     for (e, own) in pressures.iter().enumerate().filter(|(e, _)| !floor.contains(e)) {

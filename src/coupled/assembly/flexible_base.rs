@@ -117,7 +117,7 @@ pub(crate) fn check(
 /// `None` if the compliance is unknown, or too large for a check.
 fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     let patch = base.elements();
-    if patch[0].parts().count() * patch.layout().len() > MOST {
+    if patch.has_walls() || patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
     }
     let finer = patch.finer().ok()?;

@@ -22,6 +22,7 @@ impl PlacedBase {
         let (mut first, mut element) = (0, 0);
         for line in lines {
             check_line(line)?;
+            from_the_left(line[0].x, line[line.len() - 1].x)?;
             let own = first..first + line.len();
             let last = own.end - 1;
             let end = nodes.get(own.end).map_or(elements.len(), |next| {
@@ -99,6 +100,14 @@ impl Run {
         let on = nodes[first..].iter().take_while(is_on);
         let run =
             Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
+        if run.places.is_empty() {
+            let [x, _, z] = element.center().map(short);
+            let reason = format!(
+                "no node of its base lies on the line of the ground's element at x = {x} m, z = {z} m: `WithWalls` puts a \
+                 base at the depth of a trench"
+            );
+            return Err(Error::part("structure", reason));
+        }
         let [left, right] = run.ends;
         let (start, end) = (run.places.first().copied(), run.places.last().copied());
         let (start, end) = (start.unwrap_or(f64::NAN), end.unwrap_or(f64::NAN));

@@ -197,8 +197,8 @@ impl Resolution {
             if in_plan { (cell(0).max(cell(1)), CELLS) } else { (widest(0), STRIPS) };
         let foundations = state.foundations.iter().map(|own| {
             let floor = elements.floor();
-            let [first, last] =
-                [own.elements.start.max(floor.start), own.elements.end.min(floor.end)];
+            let last = own.elements.end.min(floor.end);
+            let first = own.elements.start.max(floor.start).min(last);
             let ends =
                 |axis: usize| elements[first..last].iter().map(|own| own.ends()[axis]).collect();
             let unlimited = Axis { elements: usize::MAX, ..Axis::default() };

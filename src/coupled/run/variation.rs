@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::bem::Ground;
-use crate::geometry::{ContactLayout, SPACE};
+use crate::geometry::{ContactElement, ContactLayout, SPACE};
 use crate::motion::FreeField;
 
 /// Largest r if the structure vibrates with a period of its own.
@@ -53,14 +53,18 @@ impl Sampler<'_> {
 
     /// Whether the free field differs between the first element and the last.
     pub(crate) fn is_running(&self) -> bool {
-        let count = self.ground.elements().len();
-        let layout = ContactLayout::for_elements(self.ground.elements());
+        let elements = self.ground.elements();
+        let count = elements.len();
+        // Walls of a base do not count.
+        let first = elements.iter().position(ContactElement::faces_down).unwrap_or(0);
+        let last = elements.iter().rposition(ContactElement::faces_down).unwrap_or(count - 1);
+        let layout = ContactLayout::for_elements(elements);
         let mut field = vec![0.0; layout.len()];
         let [mut difference, mut sum] = [0.0; 2];
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
             for component in field.chunks_exact(count) {
-                let (first, last) = (component[0], component[count - 1]);
+                let (first, last) = (component[first], component[last]);
                 difference += (last - first).powi(2);
                 sum += 0.5 * (first * first + last * last);
             }

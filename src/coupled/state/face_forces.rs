@@ -42,7 +42,7 @@ pub struct FaceForces {
     ///
     /// Positive down the left wall, to the right along the base, up the right wall.
     pub shear: f64,
-    /// Height of the thrust above the base, m; on the base its distance to the right of the middle.
+    /// Point where the thrust acts, m: height above the base; for the base, distance to the right of its middle.
     ///
     /// NaN without thrust.
     pub place: f64,

@@ -146,11 +146,14 @@ impl Foundation {
             torque += area * (x * away - y * right);
             moment[0] += force * x + area * right * z;
             moment[1] += force * y + area * away * z;
+            largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
+            if !element.faces_down() {
+                continue;
+            }
             let [right, away, _] = element.vector([0.0, state.slip, state.slip_across]);
             sums.area += area;
             sums.slip += area * right;
             sums.slip_across += area * away;
-            largest_slip = resultant(state.slip, state.slip_across).abs().max(largest_slip);
             if !modes[e].is_closed() {
                 sums.open += area;
             }
@@ -160,13 +163,17 @@ impl Foundation {
         // Zero in the plane, without the sign of minus zero.
         (self.moment_across, self.torque) = (0.0 - moment[1], torque);
         self.base_moment = footing.turn * moment[0];
-        self.uplifted_fraction = sums.open / sums.area;
-        self.mean_slip = sums.slip / sums.area;
-        self.mean_slip_across = sums.slip_across / sums.area;
+        let area = sums.area.max(f64::MIN_POSITIVE);
+        self.uplifted_fraction = sums.open / area;
+        self.mean_slip = sums.slip / area;
+        self.mean_slip_across = sums.slip_across / area;
         let demand = resultant(shear, self.shear_across).abs();
-        let sliding =
-            if friction.is_empty() { f64::NAN } else { ratio(normal, resistance, demand) };
-        let overturning = [0, 1].map(|axis| against_overturning(footing, normal, moment, axis));
+        // Walls resist both by their pressure.
+        let walls = patch.has_walls();
+        let unknown = walls || friction.is_empty();
+        let sliding = if unknown { f64::NAN } else { ratio(normal, resistance, demand) };
+        let factor = |axis| against_overturning(footing, normal, moment, axis);
+        let overturning = if walls { [f64::NAN; 2] } else { [0, 1].map(factor) };
         self.derived = Derived { largest_slip, sliding, overturning, settlement: 0.0 };
         sums
     }

@@ -108,7 +108,7 @@ pub struct State {
     pub base_rotation: f64,
     /// Each foundation, from left to right, in plan in the order of the structure's faces.
     pub foundations: Vec<Foundation>,
-    /// Mean horizontal and vertical (up) displacement of the free field under the base, m.
+    /// Mean horizontal and vertical (up) displacement of the free field at the base and its walls, m.
     pub free_field: [f64; 2],
     /// In plan: mean displacement of the free field along y, m; zero in the plane.
     pub free_field_across: f64,

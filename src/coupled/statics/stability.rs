@@ -64,7 +64,7 @@ fn resultants(
             let law = law_of(laws, e);
             Strength::at_pressure(law, pressure, form, stage.frictionless)
         };
-        // In the plane the nodes of a base lie on one line.
+        // In the plane a base has two ends.
         let outline = if layout.axes().len() > 1 { hull(nodes.iter().copied()) } else { vec![] };
         let part = LoadedPart {
             layout,

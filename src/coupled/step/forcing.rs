@@ -26,7 +26,7 @@ pub(crate) struct Forcing {
     pub(crate) free_field: Vec<f64>,
     /// Free field minus the translation y of the part above, 2Q or 3Q.
     pub(crate) distortion: Vec<f64>,
-    /// Displacement of the soil against the free field without the tractions of this step, 2Q or 3Q.
+    /// Soil displacement minus free field, before the contact tractions of this step act, 2Q or 3Q.
     pub(crate) history: Vec<f64>,
     /// Mean tractions τ_ff of the free field in this step, 2Q; empty on the surface.
     pub(crate) free_traction: Vec<f64>,

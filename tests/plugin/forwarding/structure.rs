@@ -75,6 +75,11 @@ impl Structure for Double {
         true
     }
 
+    fn triangle_sides(&self) -> Option<[f64; 2]> {
+        self.log.asked("triangle_sides");
+        Some([CORRECT, 1.0])
+    }
+
     fn tallest_storey(&self) -> Option<f64> {
         self.log.asked("tallest_storey");
         Some(CORRECT)
@@ -153,6 +158,7 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert!(part.has_active_damping());
     assert!(part.has_active_stiffness());
     assert_eq!(part.tallest_storey(), Some(CORRECT));
+    assert_eq!(part.triangle_sides(), Some([CORRECT, 1.0]));
     assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
     part.load(0.25, &mut load).unwrap();
