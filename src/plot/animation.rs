@@ -25,22 +25,20 @@ const MOST_TIMES: usize = 150;
 
 /// The structure in motion with the contact modes of its base, as an animation.
 ///
-/// Displacements are relative to the ground and multiplied by `magnification`. The picture contains the
-/// surface of the soil, the contact mode of every element below it, a clock, and a bar with the scales of
-/// lengths and of displacements. One second of the run takes `slowness` seconds.
+/// Displacements are relative to the ground and multiplied by `magnification`. The picture contains the surface of the
+/// soil, the contact mode of every element below it, a clock, and a bar with the scales of lengths and of displacements.
+/// One second of the run takes `slowness` seconds.
 ///
-/// In plan the view is from the front, the right and above, with one scale for all lengths along the axes. Shells
-/// and sides of solids of a model in space hide most of what lies behind them. The elements are drawn below the
-/// structure, and again in a small plan at the side, with x to the right.
+/// In plan the view is from the front, the right and above, with one scale for all lengths. Shells and sides of solids
+/// hide most of what lies behind them. The elements are drawn below the structure, and again in a small plan at the side.
 ///
 /// Frames of contact are shown if there are as many as frames of motion.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of motion were kept
-/// ([`crate::results::Recorder::motion`]); [`Error::Input`](crate::Error::Input) unless magnification and
-/// slowness are positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if `shape`
-/// belongs to another structure, [`Error::Scene`](crate::Error::Scene) if it belongs to a structure of
-/// another dimension.
+/// ([`crate::results::Recorder::motion`]), or for a base with walls; [`Error::Input`](crate::Error::Input) unless
+/// magnification and slowness are positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if
+/// `shape` belongs to another structure, [`Error::Scene`](crate::Error::Scene) if to one of another dimension.
 pub fn animation(
     title: &str,
     shape: &DeformedShape,
