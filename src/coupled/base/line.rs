@@ -100,10 +100,10 @@ impl Run {
         let on = nodes[first..].iter().take_while(is_on);
         let run =
             Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
-        if run.places.is_empty() {
+        if run.places.len() < 2 {
             let [x, _, z] = element.center().map(short);
             let reason = format!(
-                "no node of its base lies on the line of the ground's element at x = {x} m, z = {z} m: `WithWalls` puts a \
+                "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` puts a \
                  base at the depth of a trench"
             );
             return Err(Error::part("structure", reason));
