@@ -109,7 +109,7 @@ fn in_plan(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     builder.interface(law).motion(motion)
 }
 
-/// The same on so many cells that W is kept by blocks.
+/// The same on a mat of 100 cells or more, for which W is stored in blocks.
 fn on_many_cells(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     let body = RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap();
     let ground = ElasticGround::under(soil(SI), &body, 12).unwrap();

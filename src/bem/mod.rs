@@ -185,8 +185,8 @@ pub struct GroundDescription {
     pub outline_error: f64,
     /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
     ///
-    /// It acts on the walls of a structure in the ground before the run, and is zero below its base. If it is empty for
-    /// walls, there is none.
+    /// It acts on the walls of a structure in the ground before the run, and is zero below its base. Walls
+    /// of a ground that leaves the list empty carry no pressure at rest.
     pub pressure_at_rest: Vec<f64>,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,

@@ -10,7 +10,7 @@ use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
 use crate::error::{Observer, Result, require, require_part};
 use crate::motion::{FreeField, Record, VerticalIncidence};
-use crate::soil::{Bedrock, SoilLayer, SoilProfile};
+use crate::soil::SoilProfile;
 
 /// Free field of a trench: vertical waves below a surface with recorded motion.
 ///
@@ -66,13 +66,6 @@ struct Wave {
     impulse: Record,
     /// A record whose velocity is the mean of I ν/(1 − ν), the impulse of the pressure to the sides.
     aside: Record,
-}
-
-/// A layer down to a depth: density, and ν/(1 − ν).
-struct Layer {
-    bottom: f64,
-    density: f64,
-    aside: f64,
 }
 
 /// Rest before and after a record, in travel times to the base, and in samples.
@@ -163,14 +156,9 @@ impl FreeField for TrenchMotion {
             let [normal, tangential, _] =
                 element.components([moved(horizontal), 0.0, moved(vertical)]);
             let impulse_of = |wave: &Option<Wave>, aside: bool| {
-                let record = |own: &Wave| {
-                    if aside {
-                        own.aside.at(time + own.lead)
-                    } else {
-                        own.impulse.at(time + own.lead)
-                    }
-                };
-                wave.as_ref().map_or(0.0, |own| record(own).velocity)
+                let Some(own) = wave else { return 0.0 };
+                let record = if aside { &own.aside } else { &own.impulse };
+                record.at(time + own.lead).velocity
             };
             let shear = impulse_of(horizontal, false);
             let pressure = impulse_of(vertical, !is_base);
@@ -200,9 +188,9 @@ fn waves(
     levels: &[[f64; 2]],
     observer: &mut Observer<'_>,
 ) -> Result<Vec<Wave>> {
-    let (step, layers) = (surface.time_step(), layers(profile));
+    let (step, layers): (_, Vec<_>) = (surface.time_step(), profile.soils_to().collect());
     let deepest = levels.last().map_or(0.0, |[_, bottom]| *bottom);
-    let rest = REST[0] * travel_time(profile, deepest) + REST[1] * step;
+    let rest = REST[0] * profile.above(deepest).travel_time() + REST[1] * step;
     let own = surface.padded(rest, rest)?;
     let lead = (own.len() - surface.len()) as f64 / 2.0 * step;
     let drift = own.at(lead).velocity;
@@ -222,15 +210,16 @@ fn waves(
         }
         let [mut moved, mut impulse, mut aside] = [none.clone(), none.clone(), none.clone()];
         let mut start = top;
-        for layer in layers.iter().filter(|own| own.bottom > top) {
-            let end = layer.bottom.min(bottom);
+        for (soil, end) in layers.iter().filter(|(_, end)| *end > top) {
+            let aside_ratio = soil.poisson() / (1.0 - soil.poisson());
+            let end = end.min(bottom);
             let height = end - start;
             if height <= 0.0 {
                 break;
             }
             let mut add_impulse = |share: f64, own: &[f64]| {
                 add(share, own, &mut impulse);
-                add(layer.aside * share, own, &mut aside);
+                add(aside_ratio * share, own, &mut aside);
             };
             add_impulse(height / length, &above);
             for [place, weight] in GAUSS {
@@ -238,8 +227,8 @@ fn waves(
                 let own = at_depth(profile, kind, surface, depth, observer)?;
                 let weight = weight * height;
                 add(weight / length, &own, &mut moved);
-                add_impulse(weight * layer.density * (end - depth) / length, &own);
-                add(weight * layer.density, &own, &mut above);
+                add_impulse(weight * soil.density() * (end - depth) / length, &own);
+                add(weight * soil.density(), &own, &mut above);
             }
             start = end;
         }
@@ -254,32 +243,6 @@ fn add(factor: f64, values: &[f64], sum: &mut [f64]) {
     sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
 }
 
-/// Layers of a profile; the last one has no lower end.
-fn layers(profile: &SoilProfile) -> Vec<Layer> {
-    let mut bottom = 0.0;
-    let soils = profile.soils().enumerate();
-    soils
-        .map(|(index, (soil, _))| {
-            bottom += profile.layers().get(index).map_or(f64::INFINITY, |own| own.thickness);
-            Layer {
-                bottom,
-                density: soil.density(),
-                aside: soil.poisson() / (1.0 - soil.poisson()),
-            }
-        })
-        .collect()
-}
-
-/// Time of shear waves from the surface to a depth, s.
-fn travel_time(profile: &SoilProfile, depth: f64) -> f64 {
-    let (mut top, mut time) = (0.0, 0.0);
-    for ((soil, _), Layer { bottom, .. }) in profile.soils().zip(layers(profile)) {
-        time += (bottom.min(depth) - top).max(0.0) / soil.shear_wave_speed();
-        top = bottom;
-    }
-    time
-}
-
 /// Acceleration at a depth (m) from the motion of the surface.
 fn at_depth(
     profile: &SoilProfile,
@@ -291,19 +254,7 @@ fn at_depth(
     if depth == 0.0 {
         return Ok(surface.accelerations().to_vec());
     }
-    let mut rest = depth;
-    let mut above = Vec::new();
-    for layer in profile.layers() {
-        let thickness = layer.thickness.min(rest);
-        if thickness > 0.0 {
-            above.push(SoilLayer { thickness, ..layer.clone() });
-        }
-        rest -= thickness;
-    }
-    if let (true, Bedrock::HalfPlane { soil, damping }) = (rest > 0.0, profile.bedrock()) {
-        above.push(SoilLayer { soil: *soil, thickness: rest, damping: damping.clone() });
-    }
-    let column = SoilColumn::new(SoilProfile::new(above, Bedrock::Rigid)?, kind)?;
+    let column = SoilColumn::new(profile.above(depth), kind)?;
     let (step, samples) = (surface.time_step(), surface.accelerations());
     let found = column.from_surface(ControlPoint::Within, step, samples, observer)?;
     if let Some(frequency) = found.amplified_from {

@@ -278,6 +278,34 @@ impl SoilProfile {
     }
 }
 
+#[cfg(feature = "embedded")]
+impl SoilProfile {
+    /// Soils from the surface down, each with the depth of its lower end, m; infinite for a half-plane.
+    pub(crate) fn soils_to(&self) -> impl Iterator<Item = (Soil, f64)> {
+        let mut bottom = 0.0;
+        self.soils().enumerate().map(move |(index, (soil, _))| {
+            bottom += self.layers.get(index).map_or(f64::INFINITY, |layer| layer.thickness);
+            (soil, bottom)
+        })
+    }
+
+    /// The part above a depth (m), on rigid bedrock.
+    pub(crate) fn above(&self, depth: f64) -> Self {
+        let (mut rest, mut layers) = (depth, Vec::new());
+        for layer in &self.layers {
+            let thickness = layer.thickness.min(rest);
+            if thickness > 0.0 {
+                layers.push(SoilLayer { thickness, ..layer.clone() });
+            }
+            rest -= thickness;
+        }
+        if let (true, Bedrock::HalfPlane { soil, damping }) = (rest > 0.0, &self.bedrock) {
+            layers.push(SoilLayer { soil: *soil, thickness: rest, damping: damping.clone() });
+        }
+        Self { layers, ..Self::on_rigid_bedrock() }
+    }
+}
+
 /// Name of a layer, from 0 at the surface, in errors.
 pub(crate) fn layer_name(index: usize) -> String {
     format!("layer {}", index + 1)

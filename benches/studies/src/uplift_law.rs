@@ -42,7 +42,7 @@ const LEAST_CONTACT: f64 = 0.4;
 /// Degree of freedom of a body: rotation about y.
 const ABOUT_Y: usize = 4;
 
-/// Plan with so many cells along the motion, and the body on it, of a mat by its name.
+/// Plan and body of the mat with this name; `cells`: number of cells along the motion.
 fn mat(name: &str, cells: usize) -> basemat::Result<(Plan, RigidBody)> {
     Ok(match name {
         "disc" => (Plan::disc([0.0; 2], HALF, cells)?, RigidBody::cylinder(HALF, HEIGHT, 2000.0)?),

@@ -7,7 +7,10 @@ use crate::soil::Soil;
 ///
 /// `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
 pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
-    let layers = soil.beside_walls();
+    let layers: Vec<(Soil, f64)> = match soil.fill() {
+        Some(fill) => vec![(fill, f64::INFINITY)],
+        None => soil.profile().soils_to().collect(),
+    };
     let wall: Vec<f64> = soil
         .elements()
         .wall()
@@ -31,24 +34,6 @@ pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
     let base = 2 * (soil.elements().base().len() - 1);
     let right = wall.iter().rev();
     wall.iter().copied().chain(std::iter::repeat_n(0.0, base)).chain(right.copied()).collect()
-}
-
-impl TrenchSoil {
-    /// Soils beside the walls, from the surface down, each with its lower end (m).
-    fn beside_walls(&self) -> Vec<(Soil, f64)> {
-        if let Some(fill) = self.fill() {
-            return vec![(fill, f64::INFINITY)];
-        }
-        let mut bottom = 0.0;
-        let profile = self.profile();
-        let soils = profile.soils().enumerate();
-        soils
-            .map(|(index, (soil, _))| {
-                bottom += profile.layers().get(index).map_or(f64::INFINITY, |own| own.thickness);
-                (soil, bottom)
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]

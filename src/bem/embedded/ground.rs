@@ -171,7 +171,6 @@ impl Ground for TrenchGround {
         steps: Option<usize>,
         observer: &mut Observer<'_>,
     ) -> Result<()> {
-        self.source.soil.check_causal()?;
         self.ground.prepare(time_step, steps, observer)?;
         self.used = Some(self.source.stages(time_step));
         Ok(())

@@ -285,15 +285,13 @@ fn grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> Grid {
     let size = elements.trench().half_width();
     let slowest =
         profile.soils().map(|(soil, _)| soil.shear_wave_speed()).fold(f64::INFINITY, f64::min);
-    let mut bottom = 0.0;
-    let layer = |(index, (soil, _)): (usize, (Soil, &dyn Relaxation))| {
-        bottom += profile.layers().get(index).map_or(f64::INFINITY, |layer| layer.thickness);
+    let layer = |(soil, bottom): (Soil, f64)| {
         // An interface beside a line of the wall is this line.
         let line = elements.wall().iter().find(|line| (*line - bottom).abs() < ROUNDING * size);
         let longest = LONGEST * size * soil.shear_wave_speed() / slowest;
         Layer { bottom: line.copied().unwrap_or(bottom), longest }
     };
-    let layers: Vec<Layer> = profile.soils().enumerate().map(layer).collect();
+    let layers: Vec<Layer> = profile.soils_to().map(layer).collect();
     let rigid = matches!(profile.bedrock(), Bedrock::Rigid);
     Grid::new(elements.base(), elements.wall(), &layers, rigid, width)
 }

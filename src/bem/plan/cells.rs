@@ -227,7 +227,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The plan without the estimated error by oblique edges, which is one of rigid mats.
+    /// The plan without the error by oblique edges: its estimate holds for rigid mats only.
     pub(super) fn under_flexible_mats(self) -> Self {
         Self { error: 0.0, ..self }
     }

@@ -100,17 +100,15 @@ impl Run {
         let on = nodes[first..].iter().take_while(is_on);
         let run =
             Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
-        if run.places.len() < 2 {
+        let [start, .., end] = run.places[..] else {
             let [x, _, z] = element.center().map(short);
             let reason = format!(
                 "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` puts a \
                  base at the depth of a trench"
             );
             return Err(Error::part("structure", reason));
-        }
+        };
         let [left, right] = run.ends;
-        let (start, end) = (run.places.first().copied(), run.places.last().copied());
-        let (start, end) = (start.unwrap_or(f64::NAN), end.unwrap_or(f64::NAN));
         if start - left <= slack && right - end <= slack {
             return Ok(run);
         }

@@ -45,14 +45,15 @@ impl Forcing {
     pub(crate) fn new(scene: &Scene) -> Self {
         let contact = || vec![0.0; scene.layout().len()];
         let structure = || vec![0.0; scene.model.coordinates];
+        let walls = if scene.base.elements().has_walls() { contact() } else { Vec::new() };
         Self {
             load: structure(),
             loaded: false,
             free_field: contact(),
             distortion: contact(),
             history: contact(),
-            free_traction: if scene.base.elements().has_walls() { contact() } else { Vec::new() },
-            impulse: if scene.base.elements().has_walls() { contact() } else { Vec::new() },
+            free_traction: walls.clone(),
+            impulse: walls,
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
             carried: structure(),
             dragged: structure(),
