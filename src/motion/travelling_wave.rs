@@ -80,6 +80,15 @@ impl TravellingWave {
         Ok(Self { direction: [cos, sin], ..self })
     }
 
+    /// Slowness (s/m) along x and origin (m) of a wave that runs along x.
+    #[cfg(feature = "embedded")]
+    pub(crate) fn along(&self) -> Result<[f64; 2]> {
+        let [cos, sin] = self.direction;
+        let needed = "0 or pi: waves of a ground in the plane run along x";
+        require("sine of a wave's azimuth", sin, sin.abs() <= f64::EPSILON, needed)?;
+        Ok([self.slowness * cos, self.origin * cos])
+    }
+
     /// Time (s) that the wave takes from `origin` to a place.
     fn delay(&self, [x, y]: [f64; 2]) -> f64 {
         let [cos, sin] = self.direction;

@@ -4,6 +4,8 @@
 //! ([`SoilColumn::equivalent_linear`]). [`InclinedWave`] computes a free field from SV, P and SH waves at an
 //! angle. A [`SiteMotion`] also states how much of a motion its samples do not contain.
 
+#[cfg(feature = "embedded")]
+mod below_surface;
 mod equivalent_linear;
 mod inclined;
 mod iteration;
@@ -16,6 +18,8 @@ mod soil_column;
 mod transform;
 #[cfg(feature = "embedded")]
 mod trench_motion;
+#[cfg(feature = "embedded")]
+mod trench_waves;
 mod vertical;
 
 pub use equivalent_linear::{EquivalentLinear, LayerResponse};

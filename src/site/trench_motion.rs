@@ -1,18 +1,13 @@
-//! Vertical waves at the faces of a trench.
-//!
-//! | symbol | meaning |
-//! |---|---|
-//! | z, ρ | depth, density |
-//! | I | momentum of the soil above a depth, ∫ρ v dz: the impulse of the stress there |
+//! Waves from below at the faces of a trench.
 
-use super::{ControlPoint, SoilColumn, VerticalWave};
+use super::pace::Pace;
+use super::trench_waves::{Level, VALUES, Waves};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
-use crate::error::{Observer, Result, require, require_part};
-use crate::motion::{FreeField, Record, VerticalIncidence};
-use crate::soil::SoilProfile;
+use crate::error::{Observer, Result, Watch};
+use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 
-/// Free field of a trench: vertical waves below a surface with recorded motion.
+/// Free field of a trench: waves from below a surface whose motion is known.
 ///
 /// Motion and stresses at depth are computed in the profile without trench. Motion at depth precedes the motion of the
 /// surface. A run starts from rest, so the record should begin with rest for as long as waves take from the base to the
@@ -38,96 +33,124 @@ use crate::soil::SoilProfile;
 /// assert!((moved[shear_at_base] - 0.5 * (at(3.975) + at(4.025))).abs() < 2e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
-#[derive(Debug, Clone)]
 pub struct TrenchMotion {
-    surface: VerticalIncidence,
+    surface: Box<dyn FreeField>,
     elements: Vec<ContactElement>,
-    levels: Vec<Level>,
+    /// Horizontal slowness (s/m), and the place (m) of the given motion.
+    slowness: f64,
+    origin: f64,
+    components: Vec<Component>,
 }
 
-/// Motion of the soil between two depths: horizontal and vertical.
-#[derive(Debug, Clone)]
-struct Level {
-    /// Depth of the middle, m.
-    middle: f64,
-    waves: [Option<Wave>; 2],
-}
+short_debug! { TrenchMotion; self; slowness: self.slowness, elements: self.elements.len() }
 
-/// Mean motion of a level in one direction, by records that begin before the motion of the surface.
-#[derive(Debug, Clone)]
-struct Wave {
-    /// Time by which the records begin earlier, s.
+/// The soil's motion by one component of the surface's motion.
+struct Component {
+    /// Time by which the records begin earlier than the motion of the surface, s.
     lead: f64,
-    /// Velocity of the surface at the beginning of its motion in such a record, m/s: not part of the motion.
+    /// Velocity (m/s) of such a record at the beginning of the surface's motion: not part of the motion.
     drift: f64,
-    /// Displacement of the soil, m.
-    moved: Record,
-    /// A record whose velocity is the mean of I, Pa s.
-    impulse: Record,
-    /// A record whose velocity is the mean of I ν/(1 − ν), the impulse of the pressure to the sides.
-    aside: Record,
+    /// Depth of the middle (m) of each wall element, from the surface down, and of the base.
+    levels: Vec<(f64, Level)>,
 }
 
-/// Rest before and after a record, in travel times to the base, and in samples.
-const REST: [f64; 2] = [2.0, 32.0];
-/// Places and weights of Gauss's rule on an interval of length one.
-const GAUSS: [[f64; 2]; 4] = [
-    [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
-    [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
-    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
-    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
-];
+/// Distance of the points of Gauss's rule of two points from the middle, over half the length.
+const APART: f64 = 0.577_350_269_189_625_8;
 
 impl TrenchMotion {
-    /// Motion around the trench of `ground`, from the `motion` of the surface without it.
+    /// Vertical waves around the trench of `ground`, from the `motion` of the surface without it.
     ///
     /// Shear waves carry the horizontal record, pressure waves the vertical one.
     ///
     /// # Errors
     /// [`Error::Scene`](crate::Error::Scene) for a ground with backfill;
     /// [`Error::Input`](crate::Error::Input) for a record that the soil amplifies more than a hundredfold on the way
-    /// down; as for [`SoilColumn::from_surface`].
+    /// down; [`SoilError::NotCausal`](crate::soil::SoilError::NotCausal) for hysteretic damping;
+    /// [`Error::Stopped`](crate::Error::Stopped) by the observer.
     pub fn new(
         ground: &TrenchGround,
         motion: impl Into<VerticalIncidence>,
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
-        let (surface, elements) = (motion.into(), ground.trench_elements().elements());
-        let needed = "a trench without it: waves beside it do not travel vertically";
-        require_part("backfill", !ground.has_backfill(), needed)?;
-        let is_left = |own: &&ContactElement| own.directions()[0][0] < -0.5;
-        let mut depths: Vec<[f64; 2]> = elements
-            .iter()
-            .filter(is_left)
-            .map(|own| {
-                let (middle, half) = (-own.center()[2], 0.5 * own.length());
-                [middle - half, middle + half]
-            })
-            .collect();
-        let bottom = ground.trench_elements().trench().depth();
-        depths.push([bottom, bottom]);
+        let surface = motion.into();
+        let waves = Waves::new(ground, 0.0)?;
         let records = [&surface.horizontal, &surface.vertical];
-        let kinds = [VerticalWave::Shear, VerticalWave::Pressure];
-        let level =
-            |ends: &[f64; 2]| Level { middle: 0.5 * (ends[0] + ends[1]), waves: [None, None] };
-        let mut levels: Vec<Level> = depths.iter().map(level).collect();
-        for (k, (record, wave)) in records.into_iter().zip(kinds).enumerate() {
+        let count = records.iter().flat_map(|own| own.iter()).count();
+        let mut watch = Watch::new("motion at depth", count * Pace::PARTS, observer);
+        let mut components = vec![];
+        for (kind, record) in records.into_iter().enumerate() {
             let Some(record) = record else { continue };
-            let found = waves(ground.profile(), wave, record, &depths, observer)?;
-            levels.iter_mut().zip(found).for_each(|(level, own)| level.waves[k] = Some(own));
+            let rest = waves.rest(record.time_step());
+            let own = record.padded(rest, rest)?;
+            let lead = (own.len() - record.len()) as f64 / 2.0 * record.time_step();
+            let drift = own.at(lead).velocity;
+            let mut pace = Pace::part(&mut watch, components.len());
+            let levels = waves.levels(kind, &own, &mut pace)?;
+            components.push(Component { lead, drift, levels });
         }
-        Ok(Self { surface, elements, levels })
+        let (elements, surface) = (waves.elements, Box::new(surface));
+        Ok(Self { surface, elements, slowness: 0.0, origin: 0.0, components })
     }
 
+    /// Waves with the motion of `wave` at the surface: inclined ones, or Rayleigh's wave of a half-plane.
+    ///
+    /// The wave must be one of the profile of `ground`: motion of the surface and apparent velocity determine the field
+    /// below, whatever they are. Motion before and after the wave's record fades within half of its length.
+    ///
+    /// ```
+    /// use basemat::bem::embedded::{Trench, TrenchGround};
+    /// use basemat::motion::{FreeField, PlaneWave, Record};
+    /// use basemat::site::TrenchMotion;
+    /// use basemat::{Soil, unobserved};
+    /// let soil = Soil::from_shear_wave_speed(200.0, 0.25, 1900.0)?;
+    /// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(2, 4)?;
+    /// let ground = TrenchGround::new(soil, elements.clone())?;
+    /// // Acceleration of a pulse of one hertz.
+    /// let pulse = |t: f64| (std::f64::consts::TAU * t).cos() * (-(t / 3.0).powi(2)).exp();
+    /// let samples = (0..4000).map(|k| 0.01 * k as f64 - 20.0);
+    /// let second = |t: f64| (pulse(t + 0.01) - 2.0 * pulse(t) + pulse(t - 0.01)) / 1e-4;
+    /// let record = Record::new(0.01, samples.map(second).collect())?;
+    /// let wave = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -6.0)?;
+    /// let motion = TrenchMotion::travelling(&ground, wave, &mut unobserved)?;
+    /// let [mut moved, mut impulse] = [vec![0.0; 20], vec![0.0; 20]];
+    /// // At −3 m, the middle of the base's left half.
+    /// let time = 20.0 + 3.0 / soil.rayleigh_wave_speed();
+    /// assert!(motion.at_faces(&elements.elements(), time, &mut moved, &mut impulse));
+    /// let surface = motion.displacement(-3.0, time)[0];
+    /// // Achenbach 1973, § 5.11: 0.770 at a depth of 0.0272 wavelengths.
+    /// assert!((moved[10 + 4] / surface - 0.770).abs() < 2e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Scene`](crate::Error::Scene) for a wave without records; as for [`new`](Self::new).
+    pub fn travelling(
+        ground: &TrenchGround,
+        wave: TravellingWave,
+        observer: &mut Observer<'_>,
+    ) -> Result<Self> {
+        let [slowness, origin] = wave.along()?;
+        let waves = Waves::new(ground, slowness)?;
+        let mut watch = Watch::new("motion at depth", 2 * Pace::PARTS, observer);
+        let (lead, surface) = waves.surface(&wave, origin)?;
+        let mut components = vec![];
+        for (kind, record) in surface.iter().enumerate() {
+            let levels = waves.levels(kind, record, &mut Pace::part(&mut watch, kind))?;
+            components.push(Component { lead, drift: 0.0, levels });
+        }
+        let elements = waves.elements;
+        Ok(Self { surface: Box::new(wave), elements, slowness, origin, components })
+    }
+}
+
+impl Component {
     /// Level of an element: the one nearest in depth; the last one for the base.
     fn level(&self, element: &ContactElement) -> &Level {
         let last = self.levels.len() - 1;
-        if element.faces_down() {
-            return &self.levels[last];
-        }
-        let apart = |level: &&Level| (level.middle + element.center()[2]).abs();
-        let walls = self.levels[..last].iter();
-        walls.min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(&self.levels[last])
+        let (walls, base) = self.levels.split_at(last);
+        let apart = |(middle, _): &&(f64, Level)| (middle + element.center()[2]).abs();
+        let nearest = walls.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        &nearest.filter(|_| !element.faces_down()).unwrap_or(&base[0]).1
     }
 }
 
@@ -146,29 +169,37 @@ impl FreeField for TrenchMotion {
         if elements != self.elements {
             return false;
         }
+        let count = elements.len();
         for (e, element) in elements.iter().enumerate() {
             let is_base = element.faces_down();
-            let [horizontal, vertical] = &self.level(element).waves;
-            let moved = |wave: &Option<Wave>| {
-                let at = |own: &Wave| own.moved.at(time + own.lead).displacement - own.drift * time;
-                wave.as_ref().map_or(0.0, at)
-            };
-            let [normal, tangential, _] =
-                element.components([moved(horizontal), 0.0, moved(vertical)]);
-            let impulse_of = |wave: &Option<Wave>, aside: bool| {
-                let Some(own) = wave else { return 0.0 };
-                let record = if aside { &own.aside } else { &own.impulse };
-                record.at(time + own.lead).velocity
-            };
-            let shear = impulse_of(horizontal, false);
-            let pressure = impulse_of(vertical, !is_base);
-            // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
-            let shear = if is_base { -shear } else { shear };
-            let count = elements.len();
+            // Along the base the wave needs time.
+            let half = if is_base && self.slowness != 0.0 { 0.5 * element.length() } else { 0.0 };
+            let mut sums = [0.0; VALUES];
+            for component in &self.components {
+                let level = component.level(element);
+                for side in [-APART, APART] {
+                    let x = element.center()[0] + side * half - self.origin;
+                    let since = time - self.slowness * x;
+                    for (k, (sum, record)) in sums.iter_mut().zip(level).enumerate() {
+                        let Some(record) = record else { continue };
+                        let own = record.at(since + component.lead);
+                        let moved = own.displacement - component.drift * since;
+                        *sum += 0.5 * if k < 2 { moved } else { own.velocity };
+                    }
+                }
+            }
+            let [right, up, shear, pressure] = sums;
+            let [normal, tangential, _] = element.components([right, 0.0, up]);
             (displacement[e], displacement[count + e]) = (normal, tangential);
-            (impulse[e], impulse[count + e]) = (pressure, shear);
+            // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
+            impulse[e] = pressure;
+            impulse[count + e] = if is_base { -shear } else { shear };
         }
         true
+    }
+
+    fn moves_across(&self) -> bool {
+        self.surface.moves_across()
     }
 
     fn records(&self) -> Vec<&Record> {
@@ -178,88 +209,4 @@ impl FreeField for TrenchMotion {
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         self.surface.velocity(x, time)
     }
-}
-
-/// Waves of one kind in levels (upper and lower depth), from the surface down.
-fn waves(
-    profile: &SoilProfile,
-    kind: VerticalWave,
-    surface: &Record,
-    levels: &[[f64; 2]],
-    observer: &mut Observer<'_>,
-) -> Result<Vec<Wave>> {
-    let (step, layers): (_, Vec<_>) = (surface.time_step(), profile.soils_to().collect());
-    let deepest = levels.last().map_or(0.0, |[_, bottom]| *bottom);
-    let rest = REST[0] * profile.above(deepest).travel_time() + REST[1] * step;
-    let own = surface.padded(rest, rest)?;
-    let lead = (own.len() - surface.len()) as f64 / 2.0 * step;
-    let drift = own.at(lead).velocity;
-    let surface = &own;
-    let none = vec![0.0; surface.len()];
-    // dI/dt at the lower end of the last level.
-    let mut above = none.clone();
-    let mut found = Vec::with_capacity(levels.len());
-    for &[top, bottom] in levels {
-        let length = bottom - top;
-        if length == 0.0 {
-            let moved = at_depth(profile, kind, surface, bottom, observer)?;
-            let wave = [moved, above.clone(), none.clone()].map(|own| Record::new(step, own));
-            let [moved, impulse, aside] = wave;
-            found.push(Wave { lead, drift, moved: moved?, impulse: impulse?, aside: aside? });
-            continue;
-        }
-        let [mut moved, mut impulse, mut aside] = [none.clone(), none.clone(), none.clone()];
-        let mut start = top;
-        for (soil, end) in layers.iter().filter(|(_, end)| *end > top) {
-            let aside_ratio = soil.poisson() / (1.0 - soil.poisson());
-            let end = end.min(bottom);
-            let height = end - start;
-            if height <= 0.0 {
-                break;
-            }
-            let mut add_impulse = |share: f64, own: &[f64]| {
-                add(share, own, &mut impulse);
-                add(aside_ratio * share, own, &mut aside);
-            };
-            add_impulse(height / length, &above);
-            for [place, weight] in GAUSS {
-                let depth = start + place * height;
-                let own = at_depth(profile, kind, surface, depth, observer)?;
-                let weight = weight * height;
-                add(weight / length, &own, &mut moved);
-                add_impulse(weight * soil.density() * (end - depth) / length, &own);
-                add(weight * soil.density(), &own, &mut above);
-            }
-            start = end;
-        }
-        let [moved, impulse, aside] = [moved, impulse, aside].map(|own| Record::new(step, own));
-        found.push(Wave { lead, drift, moved: moved?, impulse: impulse?, aside: aside? });
-    }
-    Ok(found)
-}
-
-/// sum ← sum + factor · values.
-fn add(factor: f64, values: &[f64], sum: &mut [f64]) {
-    sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += factor * value);
-}
-
-/// Acceleration at a depth (m) from the motion of the surface.
-fn at_depth(
-    profile: &SoilProfile,
-    kind: VerticalWave,
-    surface: &Record,
-    depth: f64,
-    observer: &mut Observer<'_>,
-) -> Result<Vec<f64>> {
-    if depth == 0.0 {
-        return Ok(surface.accelerations().to_vec());
-    }
-    let column = SoilColumn::new(profile.above(depth), kind)?;
-    let (step, samples) = (surface.time_step(), surface.accelerations());
-    let found = column.from_surface(ControlPoint::Within, step, samples, observer)?;
-    if let Some(frequency) = found.amplified_from {
-        let needed = "none: the soil above the base amplifies this motion on the way down more than a hundredfold";
-        require("frequency of the record (Hz)", frequency, false, needed)?;
-    }
-    Ok(found.samples)
 }

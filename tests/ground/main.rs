@@ -1,6 +1,7 @@
 //! Half-plane and layered ground: kernels, convolution histories, passivity, site response.
 
 mod embedded;
+mod embedded_waves;
 mod embedded_weights;
 mod equivalent_linear;
 mod history;

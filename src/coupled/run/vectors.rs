@@ -2,7 +2,7 @@
 
 use super::Quantity;
 use crate::coupled::State;
-use crate::coupled::state::foundation::{force_vector, turning_vector};
+use crate::coupled::state::foundation::in_axes;
 use crate::geometry::SPACE;
 
 impl State {
@@ -11,7 +11,8 @@ impl State {
     /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; SPACE] {
         let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
-        force_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+        let [right, away, down] = quantities.map(|own| self.value(own));
+        in_axes(self.is_plan(), [right, away, -down])
     }
 
     /// Moment on the soil as a vector by the right-hand rule, N·m/m.
@@ -45,7 +46,7 @@ impl State {
     /// ```
     pub fn moment_vector(&self) -> [f64; SPACE] {
         let quantities = [Quantity::MomentAcross, Quantity::BaseMoment, Quantity::Torque];
-        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+        in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
     }
 
     /// Rotation of the base as a vector by the right-hand rule, rad.
@@ -54,6 +55,6 @@ impl State {
     /// [`force_vector`](State::force_vector).
     pub fn rotation_vector(&self) -> [f64; SPACE] {
         let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
-        turning_vector(self.is_plan(), quantities.map(|own| self.value(own)))
+        in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
     }
 }

@@ -97,21 +97,21 @@ impl Foundation {
     ///
     /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; SPACE] {
-        force_vector(self.in_plan, [self.base_shear, self.shear_across, self.normal_force])
+        in_axes(self.in_plan, [self.base_shear, self.shear_across, -self.normal_force])
     }
 
     /// Moment on the soil about the middle of the foundation as a vector, N·m/m.
     ///
     /// By the right-hand rule, with axes as in [`force_vector`](Foundation::force_vector).
     pub fn moment_vector(&self) -> [f64; SPACE] {
-        turning_vector(self.in_plan, [self.moment_across, self.base_moment, self.torque])
+        in_axes(self.in_plan, [self.moment_across, self.base_moment, self.torque])
     }
 
     /// Rotation of the base as a vector by the right-hand rule, rad.
     ///
     /// Axes as in [`force_vector`](Foundation::force_vector).
     pub fn rotation_vector(&self) -> [f64; SPACE] {
-        turning_vector(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
+        in_axes(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
     }
 
     /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
@@ -179,16 +179,11 @@ impl Foundation {
     }
 }
 
-/// A force as a vector from its components to the right, along y and, as pressure, down.
-pub(crate) fn force_vector(in_plan: bool, [along, across, pressure]: [f64; SPACE]) -> [f64; SPACE] {
-    if in_plan { [along, across, -pressure] } else { [along, -pressure, 0.0] }
-}
-
-/// A moment or a rotation as a vector from its components about x, about y and about the vertical.
+/// A vector in the axes of the scene from its components along x, y and up.
 ///
-/// In the plane only the second counts, about the axis towards the reader.
-pub(crate) fn turning_vector(in_plan: bool, [x, y, vertical]: [f64; SPACE]) -> [f64; SPACE] {
-    if in_plan { [x, y, vertical] } else { [0.0, 0.0, y] }
+/// Axes of the plane point to the right, up and towards the reader: what is along y in plan is last there.
+pub(crate) fn in_axes(in_plan: bool, [x, y, up]: [f64; SPACE]) -> [f64; SPACE] {
+    if in_plan { [x, y, up] } else { [x, up, y] }
 }
 
 /// N b over the moment of the pressure about the middle of the base, b the half width.

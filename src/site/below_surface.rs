@@ -1,0 +1,177 @@
+//! Waves of one horizontal slowness below the free surface of layers.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | s, p | Laplace variable, horizontal slowness: fields vary as e^(s(t − px)) |
+//! | z | depth |
+//! | u_x, u_z | displacement to the right and down |
+//! | τ, σ, q | impulses of the stresses σ_xz, σ_zz, σ_xx: the stresses over s |
+//! | ρ, μ, λ | density, shear modulus, Lamé's modulus |
+//! | c, E | λ + 2μ, and 4μ(λ + μ)/c |
+//!
+//! Equilibrium and Hooke's law are, with ′ = d/dz (Aki & Richards, *Quantitative Seismology*, 2nd ed., § 7.2),
+//!
+//! * u_x′ = s(τ/μ + p u_z), u_z′ = s(σ + λp u_x)/c,
+//! * τ′ = s(ρ u_x + p q), σ′ = s(ρ u_z + p τ), where q = λσ/c − E p u_x.
+//!
+//! The surface is free: τ = σ = 0. The motion of the surface and p determine the field at all depths.
+
+use crate::linalg::Complex;
+use crate::soil::Soil;
+
+/// u_x, u_z, τ, σ.
+pub(super) type Field = [Complex; 4];
+
+/// Part of the series of an exponential that counts as rounding.
+const ROUNDING: f64 = 1e-17;
+
+/// Soil at one s, for waves of one horizontal slowness.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Medium {
+    density: f64,
+    slowness: f64,
+    /// 1/μ and 1/c.
+    softness: [Complex; 2],
+    /// λ/c.
+    to_the_sides: f64,
+    /// E.
+    stretching: Complex,
+}
+
+impl Medium {
+    pub(super) fn new(soil: Soil, modulus: Complex, slowness: f64) -> Self {
+        let ratio = soil.speed_ratio_squared();
+        let shear = modulus.inverse();
+        Self {
+            density: soil.density(),
+            slowness,
+            softness: [shear, shear.scale(ratio)],
+            to_the_sides: 1.0 - 2.0 * ratio,
+            stretching: modulus.scale(4.0 * (1.0 - ratio)),
+        }
+    }
+
+    /// q.
+    pub(super) fn sideways(&self, [x, _, _, pressing]: Field) -> Complex {
+        pressing.scale(self.to_the_sides) - self.stretching * x.scale(self.slowness)
+    }
+
+    /// Derivative of a field over depth, over s.
+    fn rate(&self, field: Field) -> Field {
+        let ([x, z, shear, normal], p) = (field, self.slowness);
+        let [by_shear, by_normal] = self.softness;
+        [
+            shear * by_shear + z.scale(p),
+            normal * by_normal + x.scale(p * self.to_the_sides),
+            x.scale(self.density) + self.sideways(field).scale(p),
+            z.scale(self.density) + shear.scale(p),
+        ]
+    }
+
+    /// The field `height` (m) below `field`.
+    pub(super) fn below(&self, s: Complex, height: f64, mut field: Field) -> Field {
+        let slowness = (self.density * self.softness[0].abs()).sqrt() + self.slowness.abs();
+        let travel = s.abs() * height * slowness;
+        let mut rest = travel;
+        while rest > 0.0 {
+            // Series of the exponential, in parts of at most one.
+            let part = rest.min(1.0);
+            let length = s.scale(height * (part / travel));
+            let (mut term, mut size, mut order) = (field, 1.0, 0.0);
+            while size > ROUNDING {
+                order += 1.0;
+                size *= part / order;
+                let factor = length.scale(1.0 / order);
+                term = self.rate(term).map(|own| own * factor);
+                field.iter_mut().zip(term).for_each(|(sum, own)| *sum += own);
+            }
+            rest -= part;
+        }
+        field
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::site::{InclinedControl, InclinedWave};
+    use crate::soil::SoilProfile;
+
+    /// P and S waves up and down along (p, ∓a) and (b, ±p), free of traction at the surface.
+    #[test]
+    fn fields_are_sums_of_plane_waves() {
+        let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
+        let modulus = Complex::new(2.0, 0.13);
+        let slow = |ratio: f64, p: f64| {
+            ((modulus.inverse().scale(1.5 * ratio)) - Complex::real(p * p)).sqrt()
+        };
+        for p in [0.0, 0.31, -0.55, 1.2] {
+            let (a, b) = (slow(soil.speed_ratio_squared(), p), slow(1.0, p));
+            let g = b * b - Complex::real(p * p);
+            let s = Complex::new(0.4, 1.9);
+            let [x, z] = [Complex::new(0.7, -0.2), Complex::new(-0.3, 0.5)];
+            let speed = modulus.scale(1.0 / 1.5);
+            let (even, odd) = (x * speed / b, -(z * speed) / a);
+            let (p_even, s_even) = (b * even.scale(2.0 * p), g * even);
+            let (p_odd, s_odd) = (g * odd, -(a * odd.scale(2.0 * p)));
+            let medium = Medium::new(soil, modulus, p);
+            let upper = medium.below(s, 1.1, [x, z, Complex::default(), Complex::default()]);
+            let found = medium.below(s, 0.6, upper);
+            // Σ over waves up (e = 1) and down (e = −1).
+            let (mut wanted, mut sideways) = ([Complex::default(); 4], Complex::default());
+            let c = modulus.scale(1.0 / soil.speed_ratio_squared());
+            let pressing = c.scale(p * p) + (c - modulus.scale(2.0)) * a * a;
+            for e in [1.0, -1.0] {
+                let along = |eta: Complex| (s * eta.scale(1.7 * e)).exp();
+                let pressure = (p_even + p_odd.scale(e)).scale(0.5) * along(a);
+                let shear = (s_even + s_odd.scale(e)).scale(0.5) * along(b);
+                wanted[0] += pressure.scale(p) + shear * b;
+                wanted[1] += shear.scale(e * p) - pressure * a.scale(e);
+                wanted[2] += modulus * (pressure * a.scale(2.0 * p * e) + shear * g.scale(e));
+                wanted[3] += modulus * (shear * b.scale(2.0 * p) - pressure * g);
+                sideways += -(pressure * pressing) - shear * modulus * b.scale(2.0 * p);
+            }
+            for (found, wanted) in found.iter().zip(wanted) {
+                assert!((*found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
+            }
+            assert!((medium.sideways(found) - sideways).abs() < 1e-12);
+        }
+    }
+    /// Below layers, the only wave upwards is the incident one, of unit displacement.
+    #[test]
+    fn inclined_waves_of_layers_come_from_below() {
+        let rock = Soil::new(40.0, 0.25, 2.0).unwrap();
+        let profile = SoilProfile::on_half_plane(rock)
+            .with_layer(Soil::new(2.0, 0.3, 1.5).unwrap(), 0.7)
+            .unwrap()
+            .with_layer(Soil::new(6.0, 0.4, 1.8).unwrap(), 1.3)
+            .unwrap();
+        let waves =
+            [InclinedWave::sv(profile.clone(), 0.4), InclinedWave::p(profile.clone(), -0.6)];
+        for (kind, wave) in waves.into_iter().enumerate() {
+            let wave = wave.unwrap();
+            let p = 1.0 / wave.apparent_velocity();
+            let [x, up] = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
+            let s = Complex::new(0.0, 0.8 * std::f64::consts::TAU);
+            let mut field = [x, -up, Complex::default(), Complex::default()];
+            for ((soil, _), layer) in profile.soils().zip(profile.layers()) {
+                let medium = Medium::new(soil, Complex::real(soil.shear_modulus()), p);
+                field = medium.below(s, layer.thickness, field);
+            }
+            let [x, z, shear, normal] = field;
+            let slow = |c: f64| (c.powi(-2) - p * p).sqrt();
+            let (a, b) = (slow(rock.pressure_wave_speed()), slow(rock.shear_wave_speed()));
+            let [shear, normal] = [shear, normal].map(|own| own.scale(1.0 / rock.shear_modulus()));
+            // P along (p, −a), S along (b, p), upwards.
+            let (g, c) = (b * b - p * p, 0.5 * rock.shear_wave_speed().powi(2));
+            let along = (x.scale(2.0 * p) - normal) + (shear.scale(p) - z.scale(g)).scale(1.0 / a);
+            let across = (x.scale(g) + normal.scale(p)).scale(1.0 / b) + (z.scale(2.0 * p) + shear);
+            let found = [
+                across.scale(c / rock.shear_wave_speed()),
+                along.scale(c / rock.pressure_wave_speed()),
+            ];
+            assert!((found[kind].abs() - 1.0).abs() < 1e-11, "{found:?}");
+            assert!(found[1 - kind].abs() < 1e-11, "{found:?}");
+        }
+    }
+}
