@@ -47,7 +47,7 @@ fn at_faces(motion: &TrenchMotion, time: f64) -> ([f64; 2], [f64; 2]) {
     for (e, own) in elements.iter().enumerate() {
         let [right, up] = vector(own, [impulse[e], impulse[count + e]]);
         sum = [sum[0] + own.length() * right, sum[1] + own.length() * up];
-        if own.faces_down() {
+        if own.directions()[0][2] < -0.5 {
             let [right, up] = vector(own, [moved[e], moved[count + e]]);
             base = [base[0] + own.length() * right, base[1] + own.length() * up];
             width += own.length();
