@@ -126,7 +126,11 @@ impl<'a> Waves<'a> {
             let mut pace = Watch::nobody();
             let [mut found] =
                 contour.filtered(&velocity, &mut Pace::whole(&mut pace), |places, found| {
-                    let own = |place: &ContourPoint| place.s.scale(1.0 - place.nearness);
+                    // The velocity is the sum of the acceleration by the trapezoidal rule.
+                    let own = |place: &ContourPoint| {
+                        let (back, one) = ((-place.s.scale(step)).exp(), Complex::real(1.0));
+                        ((one - back) / (one + back)).scale(2.0 / step * (1.0 - place.nearness))
+                    };
                     found.iter_mut().zip(places).for_each(|(found, place)| *found = own(place));
                     Ok(())
                 })?;
