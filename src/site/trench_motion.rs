@@ -6,8 +6,8 @@
 //! | I | momentum of the soil above a depth, ∫ρ v dz: the impulse of the stress there |
 
 use super::{ControlPoint, SoilColumn, VerticalWave};
-use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
+use crate::bem::{ContactElement, Ground};
 use crate::error::{Observer, Result, require, require_part};
 use crate::motion::{FreeField, Record, VerticalIncidence};
 use crate::soil::SoilProfile;
@@ -18,7 +18,8 @@ use crate::soil::SoilProfile;
 /// surface. A run starts from rest, so the record should begin with rest for as long as waves take from the base to the
 /// surface ([`Record::padded`]).
 ///
-/// The ground of the run must be the one for which the motion was made: the run compares its elements, not its soils.
+/// A run on another ground is refused: other elements, soils or backfill. Soils with a damping law of your own are
+/// compared only if the law has an [identity](crate::soil::Relaxation::identity).
 ///
 /// ```
 /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -42,6 +43,7 @@ use crate::soil::SoilProfile;
 pub struct TrenchMotion {
     surface: VerticalIncidence,
     elements: Vec<ContactElement>,
+    soils: Option<Vec<f64>>,
     levels: Vec<Level>,
 }
 
@@ -116,7 +118,8 @@ impl TrenchMotion {
             let found = waves(ground.profile(), wave, record, &depths, observer)?;
             levels.iter_mut().zip(found).for_each(|(level, own)| level.waves[k] = Some(own));
         }
-        Ok(Self { surface, elements, levels })
+        let soils = ground.description().identity;
+        Ok(Self { surface, elements, soils, levels })
     }
 
     /// Level of an element: the one nearest in depth; the last one for the base.
@@ -169,6 +172,10 @@ impl FreeField for TrenchMotion {
             (impulse[e], impulse[count + e]) = (pressure, shear);
         }
         true
+    }
+
+    fn soils(&self) -> Option<&[f64]> {
+        self.soils.as_deref()
     }
 
     fn records(&self) -> Vec<&Record> {
