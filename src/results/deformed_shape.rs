@@ -79,7 +79,7 @@ impl DeformedShape {
 
     /// Nodes and elements of a finite-element model.
     ///
-    /// Heights are measured from the nodes of the base; of a model [in a trench](FemModel::in_trench) from the surface. In space solids are drawn by their outer sides; files for
+    /// Heights are measured from the nodes of the base; of a model in a trench from the surface. In space solids are drawn by their outer sides; files for
     /// ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
         // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
