@@ -9,10 +9,10 @@ impl FemModel {
     /// Structure in a trench that touches the soil with the nodes of its `outline`.
     ///
     /// The nodes are listed down the left wall, along the base to the right and up the right wall, corners once. y of
-    /// the mesh counts from the surface: the base of a trench 5 m deep has y = −5. Walls and base bend like the elements
-    /// at their nodes; [`with_rigid_link`](FemModel::with_rigid_link) makes some or all of them rigid. The ground is a
-    /// [`TrenchGround`](crate::bem::embedded::TrenchGround) of this width and depth. The outline reaches the surface:
-    /// solids fill the trench above a roof that lies deeper.
+    /// the mesh counts from the surface: the base of a trench 5 m deep has y = −5. Walls and base bend like the
+    /// elements at their nodes; [`with_rigid_link`](FemModel::with_rigid_link) makes some or all of them rigid. The
+    /// ground is a [`TrenchGround`](crate::bem::embedded::TrenchGround) of this width and depth. The outline reaches
+    /// the surface: solids fill the trench above a roof that lies deeper.
     ///
     /// ```
     /// use basemat::fem::{Beam, Mesh};
@@ -33,8 +33,8 @@ impl FemModel {
     ///
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) for fewer than two nodes, [`Error::Index`](crate::Error::Index) for a node
-    /// that does not exist, [`Error::Scene`](crate::Error::Scene) for a mesh in space, for nodes in another order, or when
-    /// no element displaces one of them.
+    /// that does not exist, [`Error::Scene`](crate::Error::Scene) for a mesh in space, for nodes in another order, or
+    /// when no element displaces one of them.
     pub fn in_trench(mesh: Mesh, outline: &[usize]) -> Result<Self> {
         let feet = feet(&mesh, outline)?;
         Self::standing(mesh, vec![feet])
