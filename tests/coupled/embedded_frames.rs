@@ -140,9 +140,9 @@ fn walls_bend_as_cantilevers_under_the_pressure_at_rest() {
     let deflection: f64 = faces().elements()[..4].iter().map(bent).sum();
     assert!((left / deflection - 1.0).abs() < 1e-3, "{left} {deflection}");
     assert!((right / -deflection - 1.0).abs() < 1e-3, "{right} {deflection}");
-    // Continuous: K₀ ρ g h⁵/(30 EI), of which four elements have 2 % less or more.
+    // K₀ ρ g h⁵/(30 EI) under a pressure that grows with depth; constant on four elements it bends 8 % more.
     let smooth = 0.5 * DENSITY * STANDARD_GRAVITY * DEPTH.powi(5) / (30.0 * stiffness);
-    assert!((left / smooth - 1.0).abs() < 0.05, "{left} {smooth}");
+    assert!((left / smooth - 1.0).abs() < 0.1, "{left} {smooth}");
     let state = simulation.state();
     let weight = 2500.0 * thickness * (WIDTH + 2.0 * DEPTH) * STANDARD_GRAVITY;
     assert!((state.face(Face::Base).thrust / weight - 1.0).abs() < 1e-9);

@@ -96,7 +96,7 @@ pub(crate) fn check(
         }
     }
     let is_off = difference.is_some_and(|(_, own)| own > DIFFERENCE);
-    if let Some((worst, _)) = difference {
+    if let (true, Some((worst, _))) = (is_off, difference) {
         face = worst;
     }
     // Solids, which more elements hardly stiffen, are stiff enough between elements.
