@@ -188,6 +188,10 @@ pub struct GroundDescription {
     /// It acts on the walls of a structure in the ground before the run, and is zero below its base. Walls
     /// of a ground that leaves the list empty carry no pressure at rest.
     pub pressure_at_rest: Vec<f64>,
+    /// Numbers of the soils around walls, equal only for equal soils; `None` if they are not known.
+    ///
+    /// `build` compares them with [`FreeField::soils`].
+    pub identity: Option<Vec<f64>>,
     /// Convolution history; `None` without one.
     pub history: Option<HistoryChoice>,
 }

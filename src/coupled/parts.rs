@@ -209,8 +209,10 @@ fn start_motion(ground: &dyn Ground, motion: &dyn FreeField, elements: &Patch) -
     if elements.has_walls() {
         let mut impulse = displacement.clone();
         let known = motion.at_faces(elements, 0.0, &mut displacement, &mut impulse);
-        let needed = "one that is known at walls below the surface, as a `TrenchMotion` is";
-        require_part("free field", known, needed)?;
+        let own = ground.description().identity;
+        let fits = motion.soils().zip(own).is_none_or(|(soils, own)| *soils == own[..]);
+        let needed = "one that is known at the walls of this ground: a `TrenchMotion` made for it";
+        require_part("free field", known && fits, needed)?;
     } else {
         ground.free_field(motion, 0.0, &mut displacement);
     }

@@ -191,7 +191,11 @@ fn force(across: Option<[f64; 2]>) -> &'static str {
 
 /// Text that names the axis in plan, empty in the plane.
 pub(crate) fn along(axis: Option<char>) -> String {
-    axis.map_or(String::new(), |axis| format!(" along {axis}"))
+    match axis {
+        Some('z') => " of each wall".to_owned(),
+        Some(axis) => format!(" along {axis}"),
+        None => String::new(),
+    }
 }
 
 /// The edge over which the structure falls, in plan.
@@ -219,9 +223,9 @@ pub struct CoarseBaseError {
     pub elements: usize,
     /// Approximate number of elements needed.
     pub needed: usize,
-    /// Relative change of its vertical static shape with twice the elements; `None` if that was not computed.
+    /// Relative change of its static shape with twice the elements; `None` if that was not computed.
     pub difference: Option<f64>,
-    /// In plan: `x` for elements of a row, `y` for elements of a column.
+    /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
     pub axis: Option<char>,
 }
 

@@ -42,6 +42,11 @@ impl Patch {
         self.floor.clone()
     }
 
+    /// Elements of the left wall, the floor and the right wall.
+    pub(crate) fn faces(&self) -> [Range<usize>; 3] {
+        [0..self.floor.start, self.floor(), self.floor.end..self.elements.len()]
+    }
+
     /// Whether elements face to the side.
     pub(crate) fn has_walls(&self) -> bool {
         self.floor.len() < self.elements.len()

@@ -36,6 +36,13 @@ pub trait FreeField: Send {
         false
     }
 
+    /// Numbers of the soils for which [`at_faces`](FreeField::at_faces) holds, equal only for equal soils.
+    ///
+    /// A ground with other numbers (its description's `identity`) is refused. Default: `None`, any soils.
+    fn soils(&self) -> Option<&[f64]> {
+        None
+    }
+
     /// Whether the motion has a component along y. Default: no.
     ///
     /// A ground in the plane ignores that component, with a warning.

@@ -79,12 +79,12 @@ impl DeformedShape {
 
     /// Nodes and elements of a finite-element model.
     ///
-    /// Heights are measured from the nodes of the base. In space solids are drawn by their outer sides; files for
-    /// ParaView have all elements, in the order of the mesh.
+    /// Heights are measured from the nodes of the base, in a trench from the surface. In space solids are drawn by
+    /// their outer sides; files for ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
         // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
         let row = |node, direction| model.row(node, direction).unwrap_or_default();
-        let (up, surface) = (model.mesh().upwards(), model.base_height());
+        let (up, surface) = (model.mesh().upwards(), model.surface_height());
         let in_space = |node, [x, y, z]: [f64; 3]| {
             ShapePoint::in_space(
                 [x, y, z - surface],

@@ -13,7 +13,8 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 /// surface. A run starts from rest, so the record should begin with rest for as long as waves take from the base to the
 /// surface ([`Record::padded`]).
 ///
-/// The ground of the run must be the one for which the motion was made: the run compares its elements, not its soils.
+/// A run on another ground is refused: other elements, soils or backfill. Soils with a damping law of your own are
+/// compared only if the law has an [identity](crate::soil::Relaxation::identity).
 ///
 /// ```
 /// use basemat::bem::embedded::{Trench, TrenchGround};
@@ -36,6 +37,7 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 pub struct TrenchMotion {
     surface: Box<dyn FreeField>,
     elements: Vec<ContactElement>,
+    soils: Option<Vec<f64>>,
     /// Horizontal slowness (s/m), and the place (m) of the given motion.
     slowness: f64,
     origin: f64,
@@ -88,8 +90,8 @@ impl TrenchMotion {
             let levels = waves.levels(kind, &own, &mut pace)?;
             components.push(Component { lead, drift, levels });
         }
-        let (elements, surface) = (waves.elements, Box::new(surface));
-        Ok(Self { surface, elements, slowness: 0.0, origin: 0.0, components })
+        let Waves { elements, soils, slowness, .. } = waves;
+        Ok(Self { surface: Box::new(surface), elements, soils, slowness, origin: 0.0, components })
     }
 
     /// Waves with the motion of `wave` at the surface: inclined ones, or Rayleigh's wave of a half-plane.
@@ -138,8 +140,8 @@ impl TrenchMotion {
             let levels = waves.levels(kind, record, &mut Pace::part(&mut watch, kind))?;
             components.push(Component { lead, drift: 0.0, levels });
         }
-        let elements = waves.elements;
-        Ok(Self { surface: Box::new(wave), elements, slowness, origin, components })
+        let Waves { elements, soils, .. } = waves;
+        Ok(Self { surface: Box::new(wave), elements, soils, slowness, origin, components })
     }
 }
 
@@ -196,6 +198,10 @@ impl FreeField for TrenchMotion {
             impulse[count + e] = if is_base { -shear } else { shear };
         }
         true
+    }
+
+    fn soils(&self) -> Option<&[f64]> {
+        self.soils.as_deref()
     }
 
     fn moves_across(&self) -> bool {

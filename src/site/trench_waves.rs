@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use super::below_surface::{Field, Medium};
 use super::pace::Pace;
 use super::transform::{Contour, ContourPoint, Transform};
-use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
+use crate::bem::{ContactElement, Ground};
 use crate::error::{Result, Watch, memory, require, require_part};
 use crate::linalg::Complex;
 use crate::motion::{FreeField, Record, TravellingWave};
@@ -35,8 +35,10 @@ const GAUSS: [[f64; 2]; 4] = [
 /// Waves of one horizontal slowness in a profile, down to the base of a trench.
 pub(super) struct Waves<'a> {
     profile: &'a SoilProfile,
-    slowness: f64,
+    pub(super) slowness: f64,
     pub(super) elements: Vec<ContactElement>,
+    /// Numbers that are equal only for equal soils, if they are known.
+    pub(super) soils: Option<Vec<f64>>,
     /// Depth of the middle of each wall element (m), from the surface down, and of the base.
     middles: Vec<f64>,
     /// Points on the way down.
@@ -85,7 +87,8 @@ impl<'a> Waves<'a> {
         }
         points.push(Point { level: middles.len(), weight: 1.0, soil: 0, height: 0.0 });
         middles.push(bottom);
-        Ok(Self { profile, slowness, elements, middles, points })
+        let soils = ground.description().identity;
+        Ok(Self { profile, slowness, elements, soils, middles, points })
     }
 
     /// Time (s) that waves take from the base to the surface.

@@ -115,6 +115,7 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
 /// upwards.
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
+    let nodes = BaseNode::floor(nodes);
     let (left, right) = (&nodes[0], &nodes[nodes.len() - 1]);
     let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
     let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();

@@ -136,6 +136,14 @@ impl BaseNode {
         ]
     }
 
+    /// Nodes at the lowest height, of a list along an outline: the base between the walls.
+    pub(crate) fn floor(nodes: &[Self]) -> &[Self] {
+        let lowest = nodes.iter().map(|node| node.z).fold(f64::INFINITY, f64::min);
+        let is_low = |node: &Self| node.z == lowest;
+        let ends = [nodes.iter().position(is_low), nodes.iter().rposition(is_low)];
+        if let [Some(first), Some(last)] = ends { &nodes[first..=last] } else { nodes }
+    }
+
     /// Number of straight segments of a base in the plane.
     ///
     /// A node that cannot leave the line between its neighbours does not begin a new segment.

@@ -11,7 +11,7 @@ use basemat::{Error, Observer, Result, Simulation, Soil, unobserved};
 
 /// Independent springs and dashpots at all faces, Pa/m and Pa s/m.
 #[derive(Clone)]
-struct Bed {
+pub(super) struct Bed {
     elements: Vec<ContactElement>,
     stiffness: f64,
     dashpots: f64,
@@ -20,12 +20,12 @@ struct Bed {
     moved: Vec<f64>,
 }
 
-const DENSITY: f64 = 1900.0;
+pub(super) const DENSITY: f64 = 1900.0;
 /// Outer point of Gauss's rule with three points.
 const GAUSS: f64 = 0.774_596_669_241_483_4;
 
 impl Bed {
-    fn new(elements: &TrenchElements, stiffness: f64, dashpots: f64) -> Self {
+    pub(super) fn new(elements: &TrenchElements, stiffness: f64, dashpots: f64) -> Self {
         let elements = elements.elements();
         let pressure = |own: &ContactElement| -0.5 * DENSITY * own.center()[2];
         let pressures = elements.iter().map(pressure).collect();
@@ -77,28 +77,28 @@ impl Ground for Bed {
     }
 }
 
-const WIDTH: f64 = 12.0;
-const HEIGHT: f64 = 20.0;
-const DEPTH: f64 = 5.0;
+pub(super) const WIDTH: f64 = 12.0;
+pub(super) const HEIGHT: f64 = 20.0;
+pub(super) const DEPTH: f64 = 5.0;
 
-fn soil() -> Soil {
+pub(super) fn soil() -> Soil {
     Soil::from_shear_wave_speed(200.0, 0.3, DENSITY).unwrap()
 }
 
-fn block() -> WithWalls {
+pub(super) fn block() -> WithWalls {
     WithWalls::new(RigidBlock::new(WIDTH, HEIGHT, 900.0).unwrap(), DEPTH).unwrap()
 }
 
-fn faces() -> TrenchElements {
+pub(super) fn faces() -> TrenchElements {
     Trench::new(-0.5 * WIDTH..0.5 * WIDTH, DEPTH).unwrap().elements(6, 4).unwrap()
 }
 
-fn motion(motion: impl Into<VerticalIncidence>) -> TrenchMotion {
+pub(super) fn motion(motion: impl Into<VerticalIncidence>) -> TrenchMotion {
     let ground = TrenchGround::new(soil(), faces()).unwrap();
     TrenchMotion::new(&ground, motion, &mut unobserved).unwrap()
 }
 
-fn laws() -> Vec<Box<dyn InterfaceLaw>> {
+pub(super) fn laws() -> Vec<Box<dyn InterfaceLaw>> {
     faces().interfaces(Coulomb::new(0.5).unwrap(), Coulomb::new(0.3).unwrap())
 }
 

@@ -5,6 +5,7 @@ mod conditioning;
 mod conveniences;
 mod coordinates;
 mod embedded;
+mod embedded_frames;
 mod energy_balance;
 mod forms;
 mod interaction;

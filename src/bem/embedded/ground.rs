@@ -7,9 +7,9 @@ use super::soil::TrenchSoil;
 use super::source::TrenchSource;
 use super::trench::TrenchElements;
 use crate::bem::layered::Stages;
-use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround};
+use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround, WeightsSource};
 use crate::error::{Observer, Result, not_negative};
-use crate::geometry::ContactElement;
+use crate::geometry::{ContactElement, ContactLayout};
 use crate::history::{HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::{Relaxation, Soil, SoilProfile};
@@ -176,11 +176,20 @@ impl Ground for TrenchGround {
         Ok(())
     }
 
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        let source = TrenchSource { soil: self.soil().halved(), ..self.source.clone() };
+        let elements = source.soil.elements().elements();
+        let mut matrix = vec![0.0; ContactLayout::for_elements(&elements).square()];
+        source.static_compliance(&elements, &mut matrix)?;
+        Ok(Some(matrix))
+    }
+
     fn description(&self) -> GroundDescription {
         let description = self.ground.description();
         let stages = self.used.map(Stages::count);
         GroundDescription {
             soils: self.soil().soils().collect(),
+            identity: self.soil().identity(),
             pressure_at_rest: earth_pressure::at_rest(self.soil(), self.at_rest),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description

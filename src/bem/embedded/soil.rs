@@ -86,6 +86,13 @@ impl TrenchSoil {
         Ok(self)
     }
 
+    /// The same soil around faces divided into halves of all elements.
+    pub(super) fn halved(&self) -> Self {
+        let width = self.backfill.as_ref().map_or(0.0, |(width, _)| *width);
+        let elements = self.elements.halved();
+        Self { grid: grid(&self.profile, &elements, width), elements, ..self.clone() }
+    }
+
     /// Soil beside and below the trench.
     pub(super) fn profile(&self) -> &SoilProfile {
         &self.profile

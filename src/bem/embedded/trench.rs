@@ -124,6 +124,15 @@ impl TrenchElements {
         corners.windows(2).map(|ends| ContactElement::wall(ends[0], ends[1])).collect()
     }
 
+    /// The same faces divided into halves of all elements.
+    pub(super) fn halved(&self) -> Self {
+        let halved = |lines: &[f64]| -> Vec<f64> {
+            let halves = lines.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
+            halves.chain(lines.last().copied()).collect()
+        };
+        Self { trench: self.trench, base: halved(&self.base), wall: halved(&self.wall) }
+    }
+
     /// Interface laws of all elements, one for the base and one for both walls.
     ///
     /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder.

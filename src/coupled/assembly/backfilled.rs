@@ -24,7 +24,8 @@ pub(super) fn state(
     laws: &[Box<dyn InterfaceLaw>],
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
-    let (elements, base) = (&parts.elements, &stage.assembled.base);
+    let base = &stage.assembled.base;
+    let elements = base.elements();
     let (layout, floor) = (elements.layout(), elements.floor());
     let below = Patch::new(elements[floor.clone()].to_vec())?;
     let (own, _) = Assembled::new(stage.structure, &below)?;
@@ -35,7 +36,7 @@ pub(super) fn state(
     }
     let on_floor = Standing { assembled: &own, soil: &soil, ..*stage };
 
-    let mut traction = at_rest(parts)?;
+    let mut traction = at_rest(parts, elements)?;
     let mut total = weight.to_vec();
     base.add_forces(-1.0, &traction, &mut total);
     let own_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
@@ -72,19 +73,20 @@ pub(super) fn state(
     loaded(&Standing { offset: &offset, ..*stage }, laws, (state, states), [weight, load])
 }
 
-/// Tractions of the soil at rest on the walls.
-fn at_rest(parts: &Parts) -> Result<Vec<f64>> {
-    let layout = parts.elements.layout();
+/// Tractions of the soil at rest on the walls, on the ground's elements or on parts of them.
+fn at_rest(parts: &Parts, elements: &Patch) -> Result<Vec<f64>> {
+    let layout = elements.layout();
     let mut traction = vec![0.0; layout.len()];
     let pressures = parts.ground.description().pressure_at_rest;
     if !pressures.is_empty() {
-        same_length("pressures at rest of the ground", pressures.len(), layout.elements())?;
+        same_length("pressures at rest of the ground", pressures.len(), parts.elements.len())?;
         for pressure in &pressures {
             not_negative("pressure at rest of the ground", *pressure)?;
         }
     }
-    let floor = parts.elements.floor();
-    for (e, own) in pressures.iter().enumerate().filter(|(e, _)| !floor.contains(e)) {
+    let (floor, each) = (elements.floor(), elements.len() / parts.elements.len());
+    let pressures = pressures.iter().flat_map(|own| std::iter::repeat_n(own, each));
+    for (e, own) in pressures.enumerate().filter(|(e, _)| !floor.contains(e)) {
         traction[layout.place(0, e)] = parts.given.gravity * own;
     }
     Ok(traction)

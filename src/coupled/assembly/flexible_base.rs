@@ -13,6 +13,8 @@
 //! depending on the columns' places. Slab 12 m square with one column in the middle: 77, 16, 6 and 2 % at ρ = 0.2,
 //! 0.9, 2.4 and 11.
 
+use std::ops::Range;
+
 use super::at_rest;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
@@ -36,6 +38,8 @@ const ANOTHER: f64 = 0.3;
 const POWERS: [f64; 2] = [1.0, 3.0];
 /// Stiffness of springs that hold element means, relative to the soil.
 const HELD: f64 = 1e4;
+/// Distance of a node from the line of its face that counts as rounding, relative to an element.
+const LINE: f64 = 1e-9;
 /// Largest order of a matrix with twice the elements.
 const MOST: usize = 3600;
 /// Asymmetry of K that counts as rounding.
@@ -48,8 +52,8 @@ const CONVERGED: f64 = 0.01;
 struct UnseenShape {
     /// ρ.
     ratio: f64,
-    /// Foundation with the largest part in the shape.
-    foundation: usize,
+    /// Number of the face with the largest part in the shape.
+    face: usize,
 }
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
@@ -67,7 +71,7 @@ pub(crate) fn check(
     let own_soil = at_rest::compliance(parts)?;
     let shape =
         UnseenShape::softest(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
-    let Some(UnseenShape { ratio, mut foundation }) = shape else { return Ok(None) };
+    let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = finer(parts, base) {
         // If twice the elements leave no such shape, they are enough.
@@ -92,8 +96,8 @@ pub(crate) fn check(
         }
     }
     let is_off = difference.is_some_and(|(_, own)| own > DIFFERENCE);
-    if let Some((worst, _)) = difference {
-        foundation = worst;
+    if let (true, Some((worst, _))) = (is_off, difference) {
+        face = worst;
     }
     // Solids, which more elements hardly stiffen, are stiff enough between elements.
     if power <= POWERS[0] && !is_off {
@@ -101,7 +105,7 @@ pub(crate) fn check(
     }
     let difference = difference.map(|(_, own)| own);
     let factor = (STIFF / ratio).powf(1.0 / power.clamp(POWERS[0], POWERS[1])).max(1.25);
-    let (axis, elements) = count(base, foundation);
+    let (foundation, axis, elements) = count(base, face);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let needed = (elements as f64 * factor).ceil() as usize;
     // A soft base with an even pressure has the right shape on few elements: without the shape on twice as many, the
@@ -117,7 +121,7 @@ pub(crate) fn check(
 /// `None` if the compliance is unknown, or too large for a check.
 fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     let patch = base.elements();
-    if patch.has_walls() || patch[0].parts().count() * patch.layout().len() > MOST {
+    if patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
     }
     let finer = patch.finer().ok()?;
@@ -129,17 +133,45 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, soil))
 }
 
-/// The foundation with the largest difference of vertical shape between two static states, and the difference.
+/// Faces of the foundations, each with the number and the nodes of its foundation and its elements.
 ///
-/// Root mean squares over the nodes, relative to the shape of the second state, without the best rigid motions.
+/// A foundation without walls is one face.
+fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
+    base.foundations().enumerate().flat_map(|(foundation, (nodes, own))| {
+        let faces = base.elements().faces().into_iter();
+        let parts = faces.map(move |face| face.start.max(own.start)..face.end.min(own.end));
+        parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
+    })
+}
+
+/// The face with the largest difference of its shape between two static states, and the difference.
+///
+/// Root mean squares over the nodes of displacements into the soil, without the best rigid motions, relative to the
+/// largest shape of any face of the foundation in the second state.
 fn largest_difference(base: &PlacedBase, one: &StaticState, other: &StaticState) -> (usize, f64) {
-    let differences = base.foundations().map(|(nodes, _)| {
+    let shapes = faces(base).map(|(foundation, nodes, own)| {
+        let element = &base.elements()[own.start];
+        let into = |vector: [f64; 3]| element.components(vector)[0];
+        let depth = into(element.center());
+        let is_on = |node: &&BaseNode| {
+            (into([node.x, node.y, node.z]) - depth).abs() <= LINE * element.length()
+        };
+        let nodes: Vec<&BaseNode> = nodes.iter().filter(is_on).collect();
         let shape = |state: &StaticState| -> Vec<f64> {
-            nodes.iter().map(|node| node.vertical.value(&state.displacement)).collect()
+            let moved = |node: &&BaseNode| {
+                let [right, up, away] = node.rows().map(|row| row.value(&state.displacement));
+                into([right, away, up])
+            };
+            nodes.iter().map(moved).collect()
         };
         let [one, other] = [one, other].map(shape);
         let apart = one.iter().zip(&other).map(|(a, b)| a - b).collect();
-        let [apart, whole] = [apart, other].map(|values| bent(nodes, values));
+        (foundation, [apart, other].map(|values| bent(&nodes, values)))
+    });
+    let shapes: Vec<_> = shapes.collect();
+    let differences = shapes.iter().map(|(foundation, [apart, _])| {
+        let own = shapes.iter().filter(|(other, _)| other == foundation);
+        let whole = own.fold(0.0_f64, |most, (_, [_, whole])| most.max(*whole));
         if whole > 0.0 { apart / whole } else { 0.0 }
     });
     let worst = |most: (usize, f64), own: (usize, f64)| if own.1 > most.1 { own } else { most };
@@ -147,13 +179,14 @@ fn largest_difference(base: &PlacedBase, one: &StaticState, other: &StaticState)
 }
 
 /// Norm of values at the nodes minus their best linear fit; NaN becomes infinite.
-fn bent(nodes: &[BaseNode], values: Vec<f64>) -> f64 {
+fn bent(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
     let count = nodes.len() as f64;
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let columns = [
         vec![1.0; nodes.len()],
         nodes.iter().map(|node| node.x).collect(),
         nodes.iter().map(|node| node.y).collect(),
+        nodes.iter().map(|node| node.z).collect(),
         values,
     ];
     let mut norm = 0.0;
@@ -173,10 +206,13 @@ fn bent(nodes: &[BaseNode], values: Vec<f64>) -> f64 {
     if norm.is_nan() { f64::INFINITY } else { norm / count.sqrt() }
 }
 
-/// Number of elements of a foundation; in plan along its shorter side, with the name of that axis.
-fn count(base: &PlacedBase, foundation: usize) -> (Option<char>, usize) {
+/// Foundation and number of elements of a face; in plan along its shorter side, with the name of that axis.
+fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let patch = base.elements();
-    let own = base.foundations().nth(foundation).map_or(0..0, |(_, own)| own);
+    let (foundation, _, own) = faces(base).nth(face).unwrap_or((0, &[], 0..0));
+    if patch[own.clone()].iter().any(|own| !own.faces_down()) {
+        return (foundation, Some('z'), own.len());
+    }
     let along = |axis: usize| {
         let ends: Vec<_> = patch[own.clone()].iter().map(|own| own.ends()[axis]).collect();
         let [least, most] = far_ends(ends.iter().copied());
@@ -185,7 +221,7 @@ fn count(base: &PlacedBase, foundation: usize) -> (Option<char>, usize) {
     let sides: Vec<_> = patch.layout().axes().map(|axis| (along(axis), axis)).collect();
     let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
     let ((_, count), axis) = shorter.unwrap_or_default();
-    (axis_name(patch.is_plan(), axis), count)
+    (foundation, axis_name(patch.is_plan(), axis), count)
 }
 
 impl UnseenShape {
@@ -238,9 +274,9 @@ impl UnseenShape {
         if !ratio.is_finite() {
             return None;
         }
-        let mut energies = vec![0.0; base.foundations().count()];
+        let mut energies = vec![0.0; faces(base).count()];
         for (point, rows) in base.deviations() {
-            let own = base.foundations().position(|(_, own)| own.contains(&point.element));
+            let own = faces(base).position(|(.., own)| own.contains(&point.element));
             for (component, row) in rows.iter().enumerate() {
                 let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
                 let modulus = moduli[layout.place(component, point.element)];
@@ -248,7 +284,7 @@ impl UnseenShape {
             }
         }
         let most = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        Some(Self { ratio, foundation: most.map_or(0, |(foundation, _)| foundation) })
+        Some(Self { ratio, face: most.map_or(0, |(face, _)| face) })
     }
 }
 
@@ -258,10 +294,10 @@ impl UnseenShape {
 fn moduli(base: &PlacedBase, soil: &[f64]) -> Vec<f64> {
     let (layout, size) = (base.layout(), base.layout().len());
     let entry = |i: usize, j: usize| soil[i * size + j];
-    let foundations: Vec<_> = base.foundations().map(|(_, own)| own).collect();
+    let faces: Vec<_> = faces(base).map(|(.., own)| own).collect();
     let modulus = |i: usize| {
         let [component, e] = layout.origin(i);
-        let own = foundations.iter().find(|own| own.contains(&e)).cloned().unwrap_or(e..e + 1);
+        let own = faces.iter().find(|own| own.contains(&e)).cloned().unwrap_or(e..e + 1);
         let around = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
         let alternating = around.filter(|other| own.contains(other)).map(|other| {
             let j = layout.place(component, other);

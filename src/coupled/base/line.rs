@@ -24,6 +24,7 @@ impl PlacedBase {
             check_line(line)?;
             from_the_left(line[0].x, line[line.len() - 1].x)?;
             let own = first..first + line.len();
+            let floor = BaseNode::floor(line);
             let last = own.end - 1;
             let end = nodes.get(own.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last].x + next.x);
@@ -31,8 +32,8 @@ impl PlacedBase {
             });
             foundations.push(Outline {
                 elements: element..end,
-                settlement: mean_settlement(&nodes[own.clone()]),
-                rotations: vec![Weights::Sparse(chord_rotation(&nodes[own.clone()]))],
+                settlement: mean_settlement(floor),
+                rotations: vec![Weights::Sparse(chord_rotation(floor))],
                 nodes: own,
                 corners: Vec::new(),
             });
@@ -103,8 +104,8 @@ impl Run {
         let [start, .., end] = run.places[..] else {
             let [x, _, z] = element.center().map(short);
             let reason = format!(
-                "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` puts a \
-                 base at the depth of a trench"
+                "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` and \
+                 `FemModel::in_trench` put a base at the depth of a trench"
             );
             return Err(Error::part("structure", reason));
         };

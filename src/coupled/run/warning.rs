@@ -145,10 +145,10 @@ pub enum Warning {
         elements: usize,
         /// Approximate number needed.
         needed: usize,
-        /// Relative change of its vertical static shape with twice the elements, if known.
+        /// Relative change of its static shape with twice the elements, if known.
         #[cfg_attr(feature = "serde", serde(default))]
         difference: Option<f64>,
-        /// In plan: `x` for elements of a row, `y` for elements of a column.
+        /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },

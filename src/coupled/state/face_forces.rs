@@ -1,11 +1,8 @@
 //! Forces between soil and each face of a structure in the ground.
 
-use std::ops::Range;
-
 use crate::coupled::state::State;
-use crate::geometry::Patch;
 
-/// Face of a structure in the ground.
+/// Face of a structure in the ground, in the order of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -16,18 +13,6 @@ pub enum Face {
     Base,
     /// Wall on the right.
     RightWall,
-}
-
-impl Face {
-    /// Elements of the face.
-    fn of(self, elements: &Patch) -> Range<usize> {
-        let floor = elements.floor();
-        match self {
-            Self::LeftWall => 0..floor.start,
-            Self::Base => floor,
-            Self::RightWall => floor.end..elements.len(),
-        }
-    }
 }
 
 /// Forces on the soil behind one face, per metre.
@@ -78,7 +63,7 @@ impl State {
         let bottom = floor[0].center()[2];
         let middle = 0.5 * (floor[0].left() + floor[floor.len() - 1].right());
         let [mut thrust, mut shear, mut moment, mut open, mut length] = [0.0; 5];
-        for e in face.of(elements) {
+        for e in elements.faces()[face as usize].clone() {
             let (area, state) = (elements.areas()[e], &self.contact[e]);
             let [x, _, z] = elements[e].center();
             let arm = if face == Face::Base { x - middle } else { z - bottom };

@@ -11,6 +11,8 @@ pub(super) struct Foot {
     pub(super) node: usize,
     /// Distance of the point below the node, m: half of the thickness of a shell, whose underside is the base.
     pub(super) depth: f64,
+    /// Height of the point above the surface, m.
+    pub(super) height: f64,
 }
 
 /// Feet of the `lines` of a base in the plane, each given by its nodes from left to right.
@@ -32,7 +34,7 @@ pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>
             positive("distance between contact nodes", x - left)?;
         }
     }
-    let foot = |&node: &usize| Foot { node, depth: 0.0 };
+    let foot = |&node: &usize| Foot { node, depth: 0.0, height: 0.0 };
     Ok(lines.iter().map(|line| line.iter().map(foot).collect()).collect())
 }
 
@@ -55,7 +57,7 @@ pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot
                 mesh.nodes()[in_bounds("corner of the base", node, mesh.nodes().len())?];
             let near = (z - *height.get_or_insert(z)).abs() <= mesh.tolerance();
             require("z of a corner of the base", z, near, "the height of the others")?;
-            Ok(Foot { node, depth })
+            Ok(Foot { node, depth, height: 0.0 })
         };
         face.iter().map(corner).collect()
     };
@@ -77,7 +79,7 @@ pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
     faces.sort_by(|a, b| a.corners().cmp(b.corners()));
     let feet = |face: &ElementFace| {
         let depth = 0.5 * face.thickness();
-        face.corners().iter().map(|&node| Foot { node, depth }).collect()
+        face.corners().iter().map(|&node| Foot { node, depth, height: 0.0 }).collect()
     };
     Ok(faces.iter().map(feet).collect())
 }

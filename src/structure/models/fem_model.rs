@@ -61,7 +61,7 @@ impl FemModel {
     }
 
     /// Structure on feet that are given line by line or face by face.
-    fn standing(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
+    pub(super) fn standing(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
         let model = Self {
             numbering: Numbering::new(&mesh),
             mesh,
@@ -112,7 +112,7 @@ impl FemModel {
         Ok(if has_depth {
             BaseNode { x, y, z: 0.0, horizontal, across: row(Direction::Y)?, vertical }
         } else {
-            BaseNode { x, horizontal, vertical, ..BaseNode::default() }
+            BaseNode { x, z: foot.height, horizontal, vertical, ..BaseNode::default() }
         })
     }
 
@@ -224,11 +224,11 @@ impl FemModel {
         &self.mesh
     }
 
-    /// Height of the nodes of the base, m.
+    /// Height of the surface in the mesh, m.
     #[cfg(any(feature = "io", feature = "plot"))]
-    pub(crate) fn base_height(&self) -> f64 {
+    pub(crate) fn surface_height(&self) -> f64 {
         let foot = self.feet.iter().flatten().next();
-        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up()])
+        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up()] - foot.height)
     }
 
     /// The model with other links; base and axial forces of P–Δ follow.

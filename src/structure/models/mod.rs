@@ -5,6 +5,8 @@ mod dof_names;
 mod feet;
 mod fem_model;
 mod group;
+#[cfg(feature = "embedded")]
+mod in_trench;
 mod line_load;
 mod linked;
 mod matrix_model;

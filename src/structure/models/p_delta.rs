@@ -21,7 +21,7 @@ impl FemModel {
     /// follow from first-order statics under `gravity` (m/s², downwards) with the contact nodes held, and do not
     /// change in the shaking. In a beam the force grows downwards with the beam's own weight; a truss has the
     /// mean. Every degree of freedom that moves a contact node is held: a rigid basemat is clamped, a column that
-    /// ends on a contact node is hinged there, as on the ground. A force given by
+    /// ends on a contact node is hinged there, as on the ground. Walls in a trench are free. A force given by
     /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
     /// [`Element::compression`](crate::fem::Element::compression) returns the force. Solids have no geometric
     /// stiffness.
@@ -127,7 +127,10 @@ impl HeldStructure {
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
         let mut is_held = vec![false; n];
-        for dof in model.base().nodes().flat_map(BaseNode::dofs) {
+        // Walls carry no weight at rest.
+        let base = model.base();
+        let floors = base.parts().iter().flat_map(|own| BaseNode::floor(own));
+        for dof in floors.flat_map(BaseNode::dofs) {
             is_held[dof] = true;
         }
         let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();

@@ -248,6 +248,11 @@ impl FreeField for Double {
         true
     }
 
+    fn soils(&self) -> Option<&[f64]> {
+        self.0.asked("soils");
+        Some(&[CORRECT])
+    }
+
     fn moves_across(&self) -> bool {
         self.0.asked("moves_across");
         true

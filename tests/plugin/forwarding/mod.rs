@@ -109,6 +109,7 @@ fn boxed_motions() {
         let [mut moved, mut impulse] = [[0.0]; 2];
         assert!(part.at_faces(&[], 3.0, &mut moved, &mut impulse));
         assert_eq!([moved, impulse], [[3.0], [CORRECT]]);
+        assert_eq!(part.soils(), Some(&[CORRECT][..]));
         assert!(part.moves_across() && part.records().is_empty());
         assert_eq!(part.velocity(3.0, 1.0), [CORRECT, 3.0]);
     }
