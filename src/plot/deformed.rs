@@ -7,6 +7,7 @@ use super::drawing::{Area, Drawing, Stroke};
 use super::key::{Key, Sample};
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
+use super::trench;
 use super::view::View;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
@@ -129,7 +130,13 @@ pub fn deformed_shapes(
         let mut chart = chart(area, &axes.0, &axes.1, false)?;
         let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
         chart.draw_series([soil])?;
-        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
+        let mut surface = vec![(x.start, 0.0), (x.end, 0.0)];
+        if let Some(corners) = trench::outline(time_series.elements()) {
+            let corners = corners.map(|[x, y]| (x, y));
+            chart.draw_series([Polygon::new(corners, WHITE)])?;
+            surface.splice(1..1, corners);
+        }
+        draw_curve(&mut chart, &surface, Stroke::plain(SURFACE), 2)?;
         for (k, places) in seen.iter().enumerate() {
             draw_shape(&mut chart, shape, (*view, places), stroke(k))?;
         }

@@ -46,6 +46,7 @@ mod shown;
 mod site_response;
 mod svg;
 mod text_width;
+mod trench;
 mod view;
 
 pub use animation::animation;

@@ -113,9 +113,14 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
 
 /// Displacement of the base's middle to the right, rotation of its chord, and displacement of the middle
 /// upwards.
+///
+/// Nodes of walls do not count.
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
-    let (left, right) = (&nodes[0], &nodes[nodes.len() - 1]);
+    let bottom = nodes.iter().fold(f64::INFINITY, |least, node| least.min(node.z));
+    let mut floor = nodes.iter().filter(|node| node.z == bottom);
+    let left = floor.next().unwrap_or(&nodes[0]);
+    let right = floor.next_back().unwrap_or(left);
     let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
     let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
     let rotation = per_width * (right.vertical.clone() - left.vertical.clone());
