@@ -74,7 +74,8 @@ impl ContactElement {
     /// Lower and upper end along z, m; equal unless the element is of a wall.
     pub const fn heights(&self) -> [f64; 2] {
         let [first, last] = [self.corners[0][2], self.corners[1][2]];
-        [first.min(last), first.max(last)]
+        // A zero without sign.
+        [first.min(last) + 0.0, first.max(last) + 0.0]
     }
 
     /// Ends along x and along y, m.

@@ -3,23 +3,20 @@
 use std::fmt::Write;
 
 use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
-use super::shown::{Shown, shown};
+use super::marks::{self, ASIDE, hex};
+use super::shown::shown;
 use super::svg::{Svg, changes, polygon};
 use super::text_width::{fitted, short, width};
 use super::trench;
 use super::view::View;
-use crate::bem::ContactElement;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
-use plotters::style::RGBColor;
 
 const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 640.0;
 /// Box of the structure, pixels: left, top, right, bottom.
 const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
-/// x of the left end of key, scale and clock, pixels.
-const ASIDE: f64 = 725.0;
 /// Largest number of frames: browsers cannot play larger files smoothly.
 const MOST_FRAMES: usize = 600;
 /// Largest number of changes of the clock.
@@ -81,7 +78,12 @@ pub fn animation(
             }
             let screen = Screen::around(&moved, &others);
             out += &screen.ground(trench);
-            out += &base(time_series, &screen, frames.len(), &duration);
+            out += &marks::base(
+                time_series,
+                (screen.scale, |own| screen.place(own)),
+                BOX[3],
+                (frames.len(), &duration),
+            );
             screen
         }
     };
@@ -229,67 +231,6 @@ fn head(title: &str) -> String {
     )
 }
 
-fn hex(RGBColor(red, green, blue): RGBColor) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
-/// The key to the colours of contact modes.
-fn key(modes: Vec<Shown>) -> String {
-    let mut out = String::new();
-    for (k, what) in modes.into_iter().enumerate() {
-        let y = 80.0 + 26.0 * k as f64;
-        let _ = writeln!(
-            out,
-            "<rect x=\"{ASIDE}\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
-             <text x=\"{}\" y=\"{y:.0}\">{}</text>",
-            y - 12.0,
-            hex(what.color()),
-            ASIDE + 30.0,
-            what.name()
-        );
-    }
-    out
-}
-
-/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
-///
-/// Behind its face, or for a flat base at the lower edge.
-fn base(time_series: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
-    let contact: Vec<_> = time_series.contact_frames().collect();
-    if contact.len() != frames {
-        return String::new();
-    }
-    let (shown, modes) = shown(&contact, false);
-    let mut out = key(modes);
-    let walls = ContactElement::any_wall(time_series.elements());
-    for (e, element) in time_series.elements().iter().enumerate() {
-        let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
-        let change = changes("fill", &colors, duration);
-        if walls {
-            let mark = trench::mark(element, 14.0 / screen.scale).map(|own| screen.place(own));
-            let _ = writeln!(
-                out,
-                "<path d=\"{}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
-                polygon(&mark),
-                colors[0]
-            );
-            continue;
-        }
-        let [left, _] = screen.place([element.left(), 0.0]);
-        let [right, _] = screen.place([element.right(), 0.0]);
-        let _ = writeln!(
-            out,
-            "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">{}</rect>",
-            left + 0.5,
-            BOX[3] + 12.0,
-            (right - left - 1.0).max(0.5),
-            colors[0],
-            change
-        );
-    }
-    out
-}
-
 /// The surface around a base in plan.
 struct Floor {
     /// Ends of the base along x and y, m.
@@ -335,7 +276,7 @@ impl Floor {
             return out;
         }
         let (shown, modes) = shown(&contact, true);
-        out += &key(modes);
+        out += &marks::key(modes);
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",

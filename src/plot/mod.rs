@@ -37,6 +37,7 @@ mod deformed;
 mod drawing;
 mod key;
 mod lines;
+mod marks;
 mod plan;
 #[cfg(feature = "png")]
 mod png;

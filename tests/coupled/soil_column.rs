@@ -14,8 +14,8 @@ use basemat::{Result, Simulation, Soil, unobserved};
 const HALF: f64 = 5.0;
 const DEPTH: f64 = 5.0;
 const SIDES: [usize; 2] = [6, 8];
-const STEP: f64 = 0.004;
-const STEPS: usize = 110;
+const STEP: f64 = 0.003;
+const STEPS: usize = 150;
 
 /// A finite-element model that stands in a trench.
 struct Block {

@@ -15,7 +15,7 @@ use crate::AnyError;
 const CONSTANT: f64 = 0.7;
 /// Depths over the half width, with elements of the base and of a wall.
 const DEPTHS: [(f64, [usize; 2]); 4] =
-    [(0.25, [12, 4]), (0.5, [12, 6]), (1.0, [12, 8]), (2.0, [12, 12])];
+    [(0.25, [18, 4]), (0.5, [12, 6]), (1.0, [12, 8]), (2.0, [12, 12])];
 
 /// |u| and b|θ| at ωd/c_S.
 fn motions(depth: f64, [base, wall]: [usize; 2], places: &[f64]) -> basemat::Result<Vec<[f64; 2]>> {

@@ -19,7 +19,7 @@ use crate::AnyError;
 const WIDTH: f64 = 12.0;
 const DEPTH: f64 = 5.0;
 const DENSITY: f64 = 1900.0;
-const STEP: f64 = 0.01;
+const STEP: f64 = 0.02;
 const DURATION: f64 = 8.0;
 const PEAKS: [f64; 4] = [0.1, 0.2, 0.3, 0.4];
 const AT_REST: f64 = 0.5;
@@ -43,7 +43,7 @@ fn increment(
     (welded, record): (bool, &Record),
     (kernels, steps): (&SharedKernels, usize),
 ) -> Result<[f64; 2], AnyError> {
-    let elements = Trench::new(-0.5 * WIDTH..0.5 * WIDTH, DEPTH)?.elements(6, 6)?;
+    let elements = Trench::new(-0.5 * WIDTH..0.5 * WIDTH, DEPTH)?.elements(4, 4)?;
     let laws = elements.interfaces(Coulomb::new(0.5)?, Coulomb::new(0.3)?);
     let ground = TrenchGround::new(soil, elements)?
         .with_pressure_at_rest(AT_REST)?
@@ -82,7 +82,7 @@ pub(super) fn tables(short: bool) -> Result<String, AnyError> {
     }
     text += " height/H at 0.1 g; 0.4 g |\n|---|---|---|---|---|---|\n";
     let record = el_centro_1940().trimmed(0.0, DURATION)?.padded(0.2, 0.0)?;
-    let steps = if short { 100 } else { 820 };
+    let steps = if short { 50 } else { 410 };
     let speeds: &[f64] = if short { &[200.0] } else { &[100.0, 200.0, 400.0] };
     for &speed in speeds {
         let soil = Soil::from_shear_wave_speed(speed, 0.33, DENSITY)?;
