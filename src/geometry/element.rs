@@ -71,6 +71,13 @@ impl ContactElement {
         [self.corners[0][1], self.corners[1][1]]
     }
 
+    /// Lower and upper end along z, m; equal unless the element is of a wall.
+    pub const fn heights(&self) -> [f64; 2] {
+        let [first, last] = [self.corners[0][2], self.corners[1][2]];
+        // A zero without sign.
+        [first.min(last) + 0.0, first.max(last) + 0.0]
+    }
+
     /// Ends along x and along y, m.
     pub(crate) const fn ends(&self) -> [[f64; 2]; 2] {
         [[self.left(), self.right()], self.depth()]
@@ -109,6 +116,11 @@ impl ContactElement {
     /// Whether the soil is below the element, not beside it.
     pub(crate) fn faces_down(&self) -> bool {
         self.directions[0][2] < -0.5
+    }
+
+    /// Whether some of the elements are of walls.
+    pub(crate) fn any_wall<'a>(elements: impl IntoIterator<Item = &'a Self>) -> bool {
+        elements.into_iter().any(|own| !own.faces_down())
     }
 
     /// Components of a vector `[x, y, z]` along the normal and both sides.

@@ -3,30 +3,31 @@
 use std::fmt::Write;
 
 use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
-use super::shown::{Shown, shown};
+use super::marks::{self, ASIDE, hex};
+use super::shown::shown;
 use super::svg::{Svg, changes, polygon};
 use super::text_width::{fitted, short, width};
+use super::trench;
 use super::view::View;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
-use plotters::style::RGBColor;
 
 const WIDTH: f64 = 940.0;
 const HEIGHT: f64 = 640.0;
 /// Box of the structure, pixels: left, top, right, bottom.
 const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
-/// x of the left end of key, scale and clock, pixels.
-const ASIDE: f64 = 725.0;
 /// Largest number of frames: browsers cannot play larger files smoothly.
 const MOST_FRAMES: usize = 600;
 /// Largest number of changes of the clock.
 const MOST_TIMES: usize = 150;
+/// Width of the soil drawn beside a trench, over the width of the trench.
+const ROOM: f64 = 0.15;
 
 /// The structure in motion with the contact modes of its base, as an animation.
 ///
 /// Displacements are relative to the ground and multiplied by `magnification`. The picture contains the surface of the
-/// soil, the contact mode of every element below it, a clock, and a bar with the scales of lengths and of displacements.
+/// soil, the contact mode of every element below it or behind walls, a clock, and a bar with the scales of lengths and of displacements.
 /// One second of the run takes `slowness` seconds.
 ///
 /// In plan the view is from the front, the right and above, with one scale for all lengths. Shells and sides of solids
@@ -36,7 +37,7 @@ const MOST_TIMES: usize = 150;
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) if fewer than two frames of motion were kept
-/// ([`crate::results::Recorder::motion`]), or for a base with walls; [`Error::Input`](crate::Error::Input) unless
+/// ([`crate::results::Recorder::motion`]); [`Error::Input`](crate::Error::Input) unless
 /// magnification and slowness are positive, or for more than 600 frames; [`Error::Index`](crate::Error::Index) if
 /// `shape` belongs to another structure, [`Error::Scene`](crate::Error::Scene) if to one of another dimension.
 pub fn animation(
@@ -50,8 +51,6 @@ pub fn animation(
     positive("slowness", slowness)?;
     let frames: Vec<_> = time_series.motion_frames().collect();
     require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
-    let walls = time_series.elements().iter().any(|own| !own.faces_down());
-    require_part("animation", !walls, "a base without walls: `mode_map` draws walls")?;
     let needed = "600 or fewer: keep fewer of them";
     require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
@@ -70,9 +69,21 @@ pub fn animation(
             screen
         }
         View::AlongX | View::AlongY => {
-            let screen = Screen::around(&moved, &[[moved[0][0][0], 0.0]]);
-            out += &screen.ground();
-            out += &base(time_series, &screen, frames.len(), &duration);
+            let trench = trench::outline(time_series.elements());
+            let mut others = vec![[moved[0][0][0], 0.0]];
+            if let Some([first, .., last]) = trench {
+                // Room for marks.
+                let side = ROOM * (last[0] - first[0]);
+                others.extend([[first[0] - side, 0.0], [last[0] + side, 0.0]]);
+            }
+            let screen = Screen::around(&moved, &others);
+            out += &screen.ground(trench);
+            out += &marks::base(
+                time_series,
+                (screen.scale, |own| screen.place(own)),
+                BOX[3],
+                (frames.len(), &duration),
+            );
             screen
         }
     };
@@ -151,13 +162,17 @@ impl Screen {
         path
     }
 
-    /// The soil and its surface.
-    fn ground(&self) -> String {
+    /// The soil and its surface, with the outline of a trench.
+    fn ground(&self, trench: Option<[[f64; 2]; 4]>) -> String {
         let [left, _, right, bottom] = BOX;
         let [_, surface] = self.place([0.0; 2]);
+        let mut cut = String::new();
+        for [x, y] in trench.iter().flatten().map(|own| self.place(*own)) {
+            let _ = write!(cut, "L{x:.1} {y:.1}");
+        }
         format!(
             "<rect x=\"{left}\" y=\"{surface:.1}\" width=\"{}\" height=\"{:.1}\" fill=\"{}\"/>\n\
-             <path stroke=\"{}\" stroke-width=\"1.5\" d=\"M{left} {surface:.1}H{right}\"/>\n",
+             <path stroke=\"{}\" stroke-width=\"1.5\" fill=\"#fff\" d=\"M{left} {surface:.1}{cut}H{right}\"/>\n",
             right - left,
             bottom + 30.0 - surface,
             hex(SOIL),
@@ -216,53 +231,6 @@ fn head(title: &str) -> String {
     )
 }
 
-fn hex(RGBColor(red, green, blue): RGBColor) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
-}
-
-/// The key to the colours of contact modes.
-fn key(modes: Vec<Shown>) -> String {
-    let mut out = String::new();
-    for (k, what) in modes.into_iter().enumerate() {
-        let y = 80.0 + 26.0 * k as f64;
-        let _ = writeln!(
-            out,
-            "<rect x=\"{ASIDE}\" y=\"{:.0}\" width=\"22\" height=\"14\" fill=\"{}\"/>\
-             <text x=\"{}\" y=\"{y:.0}\">{}</text>",
-            y - 12.0,
-            hex(what.color()),
-            ASIDE + 30.0,
-            what.name()
-        );
-    }
-    out
-}
-
-/// A rectangle for every contact element, coloured by its mode, and the key to the colours.
-fn base(time_series: &TimeSeries, screen: &Screen, frames: usize, duration: &str) -> String {
-    let contact: Vec<_> = time_series.contact_frames().collect();
-    if contact.len() != frames {
-        return String::new();
-    }
-    let (shown, modes) = shown(&contact, false);
-    let mut out = key(modes);
-    for (e, element) in time_series.elements().iter().enumerate() {
-        let [left, _] = screen.place([element.left(), 0.0]);
-        let [right, _] = screen.place([element.right(), 0.0]);
-        let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
-        let _ = writeln!(
-            out,
-            "<rect x=\"{:.1}\" y=\"{}\" width=\"{:.1}\" height=\"14\" fill=\"{}\">{}</rect>",
-            left + 0.5,
-            BOX[3] + 12.0,
-            (right - left - 1.0).max(0.5),
-            colors[0],
-            changes("fill", &colors, duration)
-        );
-    }
-    out
-}
-
 /// The surface around a base in plan.
 struct Floor {
     /// Ends of the base along x and y, m.
@@ -308,7 +276,7 @@ impl Floor {
             return out;
         }
         let (shown, modes) = shown(&contact, true);
-        out += &key(modes);
+        out += &marks::key(modes);
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",

@@ -7,6 +7,7 @@ use super::drawing::{Area, Drawing, Stroke};
 use super::key::{Key, Sample};
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
+use super::trench;
 use super::view::View;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
@@ -127,9 +128,7 @@ pub fn deformed_shapes(
         let height = ["x, m", "y, m", "z, m"][up];
         let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
         let mut chart = chart(area, &axes.0, &axes.1, false)?;
-        let soil = Rectangle::new([(x.start, y.start), (x.end, 0.0)], SOIL.filled());
-        chart.draw_series([soil])?;
-        draw_curve(&mut chart, &[(x.start, 0.0), (x.end, 0.0)], Stroke::plain(SURFACE), 2)?;
+        draw_soil(&mut chart, (x, y.start), trench::outline(time_series.elements()))?;
         for (k, places) in seen.iter().enumerate() {
             draw_shape(&mut chart, shape, (*view, places), stroke(k))?;
         }
@@ -139,6 +138,21 @@ pub fn deformed_shapes(
         let areas = area.split_evenly((1, elevations.len()));
         areas.iter().zip(&elevations).try_for_each(|(area, own)| draw(area, own))
     })
+}
+
+/// Draws the soil and its surface, with the outline of a trench.
+fn draw_soil(
+    chart: &mut Chart<'_, '_>,
+    (x, bottom): (&Range<f64>, f64),
+    trench: Option<[[f64; 2]; 4]>,
+) -> Drawing<()> {
+    chart.draw_series([Rectangle::new([(x.start, bottom), (x.end, 0.0)], SOIL.filled())])?;
+    let mut surface = vec![(x.start, 0.0), (x.end, 0.0)];
+    if let Some(corners) = trench.map(|corners| corners.map(|[x, y]| (x, y))) {
+        chart.draw_series([Polygon::new(corners, WHITE)])?;
+        surface.splice(1..1, corners);
+    }
+    draw_curve(chart, &surface, Stroke::plain(SURFACE), 2)
 }
 
 /// The shape at rest and at the frames nearest to the times: names, and places of all points.

@@ -37,6 +37,7 @@ mod deformed;
 mod drawing;
 mod key;
 mod lines;
+mod marks;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
@@ -46,6 +47,7 @@ mod shown;
 mod site_response;
 mod svg;
 mod text_width;
+mod trench;
 mod view;
 
 pub use animation::animation;

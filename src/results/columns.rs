@@ -2,7 +2,7 @@
 
 use super::{Quantity, TimeSeries};
 use crate::coupled::{EnergyTerm, Probe};
-use crate::geometry::ContactLayout;
+use crate::geometry::{ContactElement, ContactLayout};
 use crate::interface::ContactState;
 use crate::text::column::{column, distinct};
 
@@ -22,14 +22,20 @@ pub(super) const MOTION: [&str; 5] = [
 ];
 
 impl TimeSeries {
-    /// Ends of the elements.
+    /// Ends of the elements, with their heights if there are walls.
     pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
+        const HEIGHT: usize = 2;
         let ends = |axis: usize, end: usize| {
-            let name = [["left_m", "right_m"], ["front_m", "back_m"]][axis][end];
-            (name, self.elements().iter().map(|own| own.ends()[axis][end]).collect())
+            let name =
+                [["left_m", "right_m"], ["front_m", "back_m"], ["bottom_m", "top_m"]][axis][end];
+            let of = |own: &ContactElement| {
+                if axis == HEIGHT { own.heights()[end] } else { own.ends()[axis][end] }
+            };
+            (name, self.elements().iter().map(of).collect())
         };
         let axes = ContactLayout::for_elements(self.elements()).axes();
-        axes.flat_map(|axis| [ends(axis, 0), ends(axis, 1)]).collect()
+        let heights = ContactElement::any_wall(self.elements()).then_some(HEIGHT);
+        axes.chain(heights).flat_map(|axis| [ends(axis, 0), ends(axis, 1)]).collect()
     }
 
     /// Columns of contact frames with a number per element, and their values.

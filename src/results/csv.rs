@@ -59,7 +59,8 @@ impl TimeSeries {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
-    /// In plan the line continues with front and back ends, and ends with slip and shear along y.
+    /// In plan the line continues with front and back ends, and ends with slip and shear along y. With walls it
+    /// continues with the heights of both ends, `bottom_m` and `top_m`.
     pub fn contact_csv(&self) -> Csv {
         let (ends, numbers) = (self.element_ends(), self.contact_numbers());
         let names = ends.iter().map(|(name, _)| *name).chain(["mode"]);
@@ -79,38 +80,44 @@ impl TimeSeries {
 }
 
 /// Column of an envelope.
-type EnvelopeColumn = (&'static str, &'static str, bool, fn(&ElementEnvelope) -> f64);
+type EnvelopeColumn = (&'static str, &'static str, fn(&Run) -> bool, fn(&ElementEnvelope) -> f64);
+
+const ALWAYS: fn(&Run) -> bool = |_| true;
+const IN_PLAN: fn(&Run) -> bool = |run| run.in_plan;
+const WITH_WALLS: fn(&Run) -> bool = Run::has_walls;
 
 impl Run {
-    /// Columns of an [envelope](Run::envelope): word, SI unit, whether in plan only, value.
-    pub const ENVELOPE: [EnvelopeColumn; 20] = [
-        ("left", "m", false, |own| own.element.left()),
-        ("right", "m", false, |own| own.element.right()),
-        ("front", "m", true, |own| own.element.depth()[0]),
-        ("back", "m", true, |own| own.element.depth()[1]),
-        ("static_pressure", "Pa", false, |own| own.static_pressure),
-        ("lowest_pressure", "Pa", false, |own| own.pressure.lowest.value),
-        ("lowest_pressure_time", "s", false, |own| own.pressure.lowest.time),
-        ("highest_pressure", "Pa", false, |own| own.pressure.highest.value),
-        ("highest_pressure_time", "s", false, |own| own.pressure.highest.time),
-        ("shear", "Pa", false, |own| own.shear.value),
-        ("shear_time", "s", false, |own| own.shear.time),
-        ("gap", "m", false, |own| own.gap.value),
-        ("gap_time", "s", false, |own| own.gap.time),
-        ("slip", "m", false, |own| own.slip.value),
-        ("slip_time", "s", false, |own| own.slip.time),
-        ("open", "s", false, |own| own.open),
-        ("shear_across", "Pa", true, |own| own.shear_across.value),
-        ("shear_across_time", "s", true, |own| own.shear_across.time),
-        ("slip_across", "m", true, |own| own.slip_across.value),
-        ("slip_across_time", "s", true, |own| own.slip_across.time),
+    /// Columns of an [envelope](Run::envelope): word, SI unit, whether a run has it, value.
+    pub const ENVELOPE: [EnvelopeColumn; 22] = [
+        ("left", "m", ALWAYS, |own| own.element.left()),
+        ("right", "m", ALWAYS, |own| own.element.right()),
+        ("front", "m", IN_PLAN, |own| own.element.depth()[0]),
+        ("back", "m", IN_PLAN, |own| own.element.depth()[1]),
+        ("bottom", "m", WITH_WALLS, |own| own.element.heights()[0]),
+        ("top", "m", WITH_WALLS, |own| own.element.heights()[1]),
+        ("static_pressure", "Pa", ALWAYS, |own| own.static_pressure),
+        ("lowest_pressure", "Pa", ALWAYS, |own| own.pressure.lowest.value),
+        ("lowest_pressure_time", "s", ALWAYS, |own| own.pressure.lowest.time),
+        ("highest_pressure", "Pa", ALWAYS, |own| own.pressure.highest.value),
+        ("highest_pressure_time", "s", ALWAYS, |own| own.pressure.highest.time),
+        ("shear", "Pa", ALWAYS, |own| own.shear.value),
+        ("shear_time", "s", ALWAYS, |own| own.shear.time),
+        ("gap", "m", ALWAYS, |own| own.gap.value),
+        ("gap_time", "s", ALWAYS, |own| own.gap.time),
+        ("slip", "m", ALWAYS, |own| own.slip.value),
+        ("slip_time", "s", ALWAYS, |own| own.slip.time),
+        ("open", "s", ALWAYS, |own| own.open),
+        ("shear_across", "Pa", IN_PLAN, |own| own.shear_across.value),
+        ("shear_across_time", "s", IN_PLAN, |own| own.shear_across.time),
+        ("slip_across", "m", IN_PLAN, |own| own.slip_across.value),
+        ("slip_across_time", "s", IN_PLAN, |own| own.slip_across.time),
     ];
 
     /// [Envelopes](Run::envelope) as CSV, with the times of the extremes.
     ///
     /// A heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
-        let columns: Vec<_> = Self::ENVELOPE.iter().filter(|own| self.in_plan || !own.2).collect();
+        let columns: Vec<_> = Self::ENVELOPE.iter().filter(|own| own.2(self)).collect();
         let names = columns.iter().map(|(word, unit, ..)| column(word, unit));
         let heading: Vec<_> = std::iter::once("element".to_owned()).chain(names).collect();
         let rows = self.envelope.iter().enumerate().map(|(e, own)| {

@@ -150,10 +150,11 @@ impl DeformedShape {
         }
         if let [first, .., last] = &lines.concat()[..] {
             let middle = 0.5 * (first.x + last.x);
+            let bottom = lines.concat().iter().fold(0.0_f64, |least, node| least.min(node.z));
             let corner = |x: f64, height: f64| -> Result<ShapePoint> {
                 let [horizontal, _, vertical] =
                     DofCombination::of_base(block, [x - middle, 0.0, height])?;
-                let position = [x, height];
+                let position = [x, bottom + height];
                 Ok(ShapePoint { position, horizontal, vertical, ..ShapePoint::default() })
             };
             for (x, height) in [(first.x, 0.0), (last.x, 0.0), (last.x, height), (first.x, height)]
@@ -219,6 +220,16 @@ impl DeformedShape {
             }
         }
         Self::new(points, cells)
+    }
+
+    /// Lowers all points by a `depth` (m), for a structure in [`WithWalls`](crate::structure::WithWalls).
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a depth that is not finite.
+    pub fn lowered(mut self, depth: f64) -> Result<Self> {
+        finite("depth of a deformed shape", depth)?;
+        self.points.iter_mut().for_each(|point| point.position[1] -= depth);
+        Ok(self)
     }
 
     /// The points.

@@ -91,6 +91,7 @@ impl TimeSeries {
     /// | `time_s`; scalars and probes, called as [in CSV](TimeSeries::csv) | kept steps | |
     /// | `kinetic_energy_j_per_m` … `input_energy_j_per_m`, `soil_error_bound_j_per_m` | kept steps | terms of the [energy balance](crate::coupled::EnergyBalance); in plan `_j` |
     /// | `element_left_m`, `element_right_m`; in plan `element_front_m`, `element_back_m` | elements | ends of the contact elements |
+    /// | with walls `element_bottom_m`, `element_top_m` | elements | their heights |
     /// | `contact_time_s` | frames | with [`Recorder::contact`](super::Recorder::contact) |
     /// | `contact_gap_m`, `contact_slip_m`, `contact_pressure_pa`, `contact_shear_pa` | frames × elements | |
     /// | in plan `contact_slip_across_m`, `contact_shear_across_pa` | frames × elements | along y |

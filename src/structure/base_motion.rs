@@ -113,6 +113,8 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
 
 /// Displacement of the base's middle to the right, rotation of its chord, and displacement of the middle
 /// upwards.
+///
+/// Nodes of walls do not count.
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
     let nodes = BaseNode::floor(nodes);

@@ -18,6 +18,7 @@ mod serviceability;
 mod spectra;
 mod time_series;
 mod units;
+mod walls;
 
 use basemat::Simulation;
 use basemat::coupled::{Probe, State};

@@ -15,6 +15,7 @@ mod contact_problems;
 mod containment;
 mod document;
 mod elements;
+mod embedded;
 mod figure;
 mod fragility;
 mod full_plane;
@@ -63,6 +64,7 @@ enum Study {
     Mats(mats::Options),
     UpliftLaw(uplift_law::Options),
     Elements(elements::Options),
+    Embedded(embedded::Options),
 }
 
 fn main() -> ExitCode {
@@ -93,6 +95,7 @@ fn main() -> ExitCode {
         Study::Mats(options) => mats::run(&options),
         Study::UpliftLaw(options) => uplift_law::run(&options),
         Study::Elements(options) => elements::run(&options),
+        Study::Embedded(options) => embedded::run(&options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -237,7 +237,7 @@ impl PyRun {
     /// "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
     #[getter]
     fn envelope(&self) -> Named<&'static str, Array> {
-        let columns = Run::ENVELOPE.into_iter().filter(|column| self.run.in_plan || !column.2);
+        let columns = Run::ENVELOPE.into_iter().filter(|column| column.2(&self.run));
         let values = |value| self.run.envelope.iter().map(value).collect();
         columns.map(|(name, .., value)| (name, values(value))).collect()
     }

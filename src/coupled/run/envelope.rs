@@ -49,9 +49,11 @@ pub(crate) fn tension(
     let least = |own: &ElementEnvelope| own.pressure.lowest.value;
     let (_, own) = held.min_by(|(_, a), (_, b)| least(a).total_cmp(&least(b)))?;
     let (tension, time) = (-least(own), own.pressure.lowest.time);
-    let [x, y, _] = own.element.center();
+    let [x, y, z] = own.element.center();
     let y = in_plan.then_some(y);
-    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, time })
+    let walls = ContactElement::any_wall(envelope.iter().map(|own| &own.element));
+    let z = walls.then_some(z);
+    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, z, time })
 }
 
 /// Envelopes of all elements at the start of a run.

@@ -308,6 +308,11 @@ impl Run {
         0..1 + usize::from(self.in_plan)
     }
 
+    /// Whether elements of the base are of walls.
+    pub(crate) fn has_walls(&self) -> bool {
+        ContactElement::any_wall(self.envelope.iter().map(|own| &own.element))
+    }
+
     /// Largest horizontal force on the base over the weight; `None` without weight.
     pub fn shear_coefficient(&self) -> Option<f64> {
         let Summary { static_normal_force, horizontal_force, .. } = &self.whole;

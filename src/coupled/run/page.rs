@@ -50,7 +50,8 @@ impl fmt::Display for Run {
         let shown = self.pressures();
         let (all, some) = (self.envelope.len(), shown.rows.len());
         let part = if some < all { format!(", {some} of {all} elements") } else { String::new() };
-        writeln!(f, "\nPressure under the base{part}\n{}", shown.text())?;
+        let faces = if self.has_walls() { "on base and walls" } else { "under the base" };
+        writeln!(f, "\nPressure {faces}{part}\n{}", shown.text())?;
         self.energies(f)?;
         self.effort(f)?;
         for warning in &self.warnings {
@@ -209,14 +210,15 @@ impl Run {
     }
 
     fn pressures(&self) -> Table {
-        let places = self.axes().map(|axis| ["x, m", "y, m"][axis]);
+        let axes: Vec<usize> = self.axes().chain(self.has_walls().then_some(2)).collect();
+        let places = axes.iter().map(|&axis| ["x, m", "y, m", "z, m"][axis]);
         let numbers = ["static kPa", "least kPa", "largest kPa", "at s", "open s"];
         let heading: Vec<_> = places.chain(numbers).map(str::to_owned).collect();
         let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
         let row = |envelope: &ElementEnvelope| {
             let center = envelope.element.center();
-            let mut cells: Vec<_> = self.axes().map(|axis| thousandths(center[axis])).collect();
+            let mut cells: Vec<_> = axes.iter().map(|&axis| thousandths(center[axis])).collect();
             cells.extend([
                 number(1e-3 * envelope.static_pressure),
                 number(1e-3 * envelope.pressure.lowest.value),

@@ -1,7 +1,9 @@
 //! Warnings of a run.
 
 use crate::coupled::run::Quantity;
-use crate::coupled::run::warning_text::{across, likely_slip, unit_of_motion, with_twice_as_many};
+use crate::coupled::run::warning_text::{
+    across, height, likely_slip, unit_of_motion, with_twice_as_many,
+};
 use crate::error::along;
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
@@ -47,7 +49,7 @@ pub enum Warning {
     /// Tension under a base that cannot open, above 1 % of the largest static pressure.
     ///
     /// In reality the base would open; this model cannot.
-    #[error("base pulled up by {tension:.2e} Pa, x = {x:.2} m{} at {time:.2} s: its law cannot open", across(*y))]
+    #[error("base pulled up by {tension:.2e} Pa, x = {x:.2} m{}{} at {time:.2} s: its law cannot open", across(*y), height(*z))]
     Tension {
         /// Largest tension of any element, Pa.
         tension: f64,
@@ -56,6 +58,9 @@ pub enum Warning {
         /// In plan: middle of that element along y, m.
         #[cfg_attr(feature = "serde", serde(default))]
         y: Option<f64>,
+        /// With walls: height of the middle of that element, m.
+        #[cfg_attr(feature = "serde", serde(default))]
+        z: Option<f64>,
         /// Time of that tension, s.
         time: f64,
     },

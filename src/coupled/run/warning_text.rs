@@ -7,6 +7,11 @@ pub(crate) fn across(y: Option<f64>) -> String {
     y.map_or(String::new(), |y| format!(", y = {y:.2} m"))
 }
 
+/// Height of a place, where there are walls.
+pub(crate) fn height(z: Option<f64>) -> String {
+    z.map_or(String::new(), |z| format!(", z = {z:.2} m"))
+}
+
 /// Change of the static shape with twice the elements, where it is known.
 pub(crate) fn with_twice_as_many(difference: Option<f64>) -> String {
     let text = |own: f64| format!(" (twice as many: {:.1} % of its static shape)", 100.0 * own);
