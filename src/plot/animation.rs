@@ -206,7 +206,7 @@ fn metres(length: f64) -> String {
 fn head(title: &str) -> String {
     // Font sizes here are SVG sizes; sizes in plotters are 1.24 times as large.
     let title = fitted(title, 25, WIDTH - 40.0);
-    let title = escaped(title);
+    let title = escaped(&title);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
          width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\">\n\
