@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
 use super::marks::{self, ASIDE, hex};
-use super::shown::shown;
-use super::svg::{Svg, changes, polygon};
+use super::shown::{Shown, shown};
+use super::svg::{Svg, changes, escaped, polygon};
 use super::text_width::{fitted, short, width};
 use super::trench;
 use super::view::View;
@@ -221,7 +221,7 @@ fn metres(length: f64) -> String {
 fn head(title: &str) -> String {
     // Font sizes here are SVG sizes; sizes in plotters are 1.24 times as large.
     let title = fitted(title, 25, WIDTH - 40.0);
-    let title = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let title = escaped(&title);
     format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
          width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\">\n\

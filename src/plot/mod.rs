@@ -17,6 +17,7 @@
 //! | error against run time | [`refinement`](refinement()) |
 //! | the structure at some instants, in plan in two elevations | [`deformed_shapes`] |
 //! | the structure in motion, with its base and, in plan, its contact from above | [`animation`] (an SVG that browsers play) |
+//! | a printed run with pictures, as one HTML file | [`page`](page()) |
 //!
 //! ```no_run
 //! # fn recorded() -> basemat::results::TimeSeries { unimplemented!() }
@@ -38,6 +39,7 @@ mod drawing;
 mod key;
 mod lines;
 mod marks;
+mod page;
 mod plan;
 #[cfg(feature = "png")]
 mod png;
@@ -54,6 +56,7 @@ pub use animation::animation;
 pub use base::{mode_map, pressure_envelope};
 pub use deformed::deformed_shapes;
 pub use lines::{Curve, curves, energy, probe_time_series, spectra, time_series};
+pub use page::page;
 pub use plan::contact_plan;
 pub use refinement::refinement;
 pub use shells::shell_plan;

@@ -109,6 +109,11 @@ impl Sheet {
     }
 }
 
+/// Text of an element of XML or HTML.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
 /// Path of a closed polygon.
 pub(super) fn polygon(corners: &[[f64; 2]]) -> String {
     let points: Vec<String> = corners.iter().map(|[x, y]| format!("{x:.1} {y:.1}")).collect();

@@ -2,9 +2,9 @@
 
 use super::DofCombination;
 use crate::error::{Result, at_least, finite, in_bounds, require};
-use crate::geometry::{PLANE, SPACE};
+use crate::geometry::{PLANE, SPACE, span};
 
-/// Relative difference of displacements, and of a distance from a line, that counts as rounding.
+/// Relative difference of displacements, of heights, and of a distance from a line, that counts as rounding.
 const FLAT: f64 = 1e-9;
 
 /// A point of a structure's base, and its motion by the degrees of freedom.
@@ -137,11 +137,16 @@ impl BaseNode {
     }
 
     /// Nodes at the lowest height, of a list along an outline: the base between the walls.
+    ///
+    /// All nodes, if only one is the lowest: a base without walls.
     pub(crate) fn floor(nodes: &[Self]) -> &[Self] {
-        let lowest = nodes.iter().map(|node| node.z).fold(f64::INFINITY, f64::min);
-        let is_low = |node: &Self| node.z == lowest;
-        let ends = [nodes.iter().position(is_low), nodes.iter().rposition(is_low)];
-        if let [Some(first), Some(last)] = ends { &nodes[first..=last] } else { nodes }
+        let [lowest, highest] = span(nodes.iter().map(|node| node.z));
+        let limit = lowest + FLAT * (highest - lowest);
+        let is_low = |node: &Self| node.z <= limit;
+        match [nodes.iter().position(is_low), nodes.iter().rposition(is_low)] {
+            [Some(first), Some(last)] if first < last => &nodes[first..=last],
+            _ => nodes,
+        }
     }
 
     /// Number of straight segments of a base in the plane.

@@ -4,7 +4,7 @@ use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, SpringGround};
 use basemat::coupled::Load;
 use basemat::coupled::StabilityError;
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Yielding};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{
     Base, BaseNode, MatrixModel, RigidBlock, RigidBody, Structure, StructureGroup, Triplets,
@@ -205,6 +205,36 @@ fn a_torque_beyond_friction_is_named() {
         "{ratio} {resistance}"
     );
     assert!((torque / (1.1 * most) - 1.0).abs() < 1e-9, "{torque}");
+}
+
+/// Forces of the size of rounding are no reason to refuse a base without friction.
+#[test]
+fn rounding_neither_twists_nor_pushes_off() {
+    let weight = 9.80665 * 2000.0 * 108.0;
+    let build = |[across, down, torque]: [f64; 3]| {
+        let body = RigidBody::cuboid([6.0, 6.0, 3.0], 2000.0).unwrap();
+        Simulation::builder(4e-3)
+            .ground(SpringGround::under(&body, 4, 4e7, 3e7).unwrap())
+            .structure(body)
+            .interface(Yielding::new(1.2 * weight / 36.0, 0.0).unwrap())
+            .load(Load::new(0, move |_| across))
+            .load(Load::new(2, move |_| -down * weight))
+            .load(Load::new(5, move |_| torque))
+            .build()
+    };
+    let cause = |load: [f64; 3]| match build(load) {
+        Err(Error::Stability(cause)) => *cause,
+        other => panic!("{:?}", other.err()),
+    };
+    for (across, torque) in [(0.0, 1e-20), (1e-20, 0.0), (1e-20, 1e-20)] {
+        assert!(build([across, 0.1, torque]).is_ok());
+        let cause = cause([across, 0.3, torque]);
+        assert!(matches!(cause, StabilityError::BearingFailure { .. }), "{cause}");
+    }
+    let twisted = cause([0.0, 0.1, 100.0]);
+    assert!(matches!(twisted, StabilityError::Twisting { .. }), "{twisted}");
+    let pushed = cause([100.0, 0.1, 0.0]);
+    assert!(matches!(pushed, StabilityError::Sliding { .. }), "{pushed}");
 }
 
 /// A rigid body of 200 t on a convex face with these corners from its `center`, m.

@@ -9,6 +9,9 @@ use crate::coupled::statics::strength::Strength;
 use crate::error::StabilityError;
 use crate::geometry::{ContactLayout, Edge, axis_name, middle, span};
 
+/// Shares of the normal force, and of its moments, that count as rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A connected part of the structure, with the resultants of its load.
 pub(super) struct LoadedPart {
     pub(super) layout: ContactLayout,
@@ -75,7 +78,7 @@ impl LoadedPart {
         let beyond = |axis: usize| {
             let resultant = middles[axis] + eccentricities[axis];
             let reach = span(self.elements.iter().map(|(center, _)| center[axis]));
-            let slack = 1e-9 * self.half_width(axis);
+            let slack = ROUNDING * self.half_width(axis);
             let is_beyond = resultant < reach[0] - slack || resultant > reach[1] + slack;
             is_beyond.then_some((axis, resultant, reach))
         };
@@ -93,18 +96,20 @@ impl LoadedPart {
         let ratio = horizontal.abs() / resistance;
         let (ends, across) = self.ends();
         let error = StabilityError::Sliding { ends, across, horizontal, normal, resistance, ratio };
-        (ratio > 1.0).then(|| self.once_sheared(error))
+        let is_beyond = horizontal.abs() > self.friction().max(ROUNDING) * normal;
+        is_beyond.then(|| self.once_sheared(error))
     }
 
     /// In plan: the torque is larger than the torque of friction.
     fn twists(&self) -> Option<StabilityError> {
         let (ends, Some(across)) = self.ends() else { return None };
         let (normal, [_, _, torque]) = (self.normal, self.moments);
-        let moment = area_moment(&self.elements, self.middles());
-        let resistance = self.friction() * self.pressure * moment;
+        let spread = self.pressure * area_moment(&self.elements, self.middles());
+        let resistance = self.friction() * spread;
         let ratio = torque.abs() / resistance;
         let error = StabilityError::Twisting { ends, across, torque, normal, resistance, ratio };
-        (ratio > 1.0).then(|| self.once_sheared(error))
+        let is_beyond = torque.abs() > self.friction().max(ROUNDING) * spread;
+        is_beyond.then(|| self.once_sheared(error))
     }
 
     /// The normal force is larger than the bearing pressures.

@@ -19,6 +19,7 @@ mod plate;
 mod punch;
 mod report;
 mod rocking_block;
+mod scatter;
 mod sliding_estimate;
 mod strip_impedance;
 mod transient;
@@ -59,7 +60,7 @@ impl Options {
     }
 }
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 18] = [
     lamb::CASE,
     strip_impedance::CASE,
     embedded::CASE,
@@ -72,6 +73,7 @@ const CASES: [Case; 17] = [
     rocking_block::CASE,
     overturning::CASE,
     two_springs::CASE,
+    scatter::CASE,
     yim_chopra::CASE,
     convergence::CASE,
     plate::CASE,

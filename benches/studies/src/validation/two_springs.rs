@@ -1,11 +1,13 @@
 //! A rigid block on two springs that bear no tension, with and without dashpots: the model of Psycharis and Jennings.
+//!
+//! The model has no sideways motion, in flight neither.
 
 use basemat::Simulation;
 use basemat::bem::SpringGround;
 use basemat::coupled::Load;
 use basemat::interface::Coulomb;
 use basemat::motion::STANDARD_GRAVITY;
-use basemat::structure::RigidBlock;
+use basemat::structure::{BaseNode, MatrixModel, RigidBlock, Triplets};
 
 use super::outcome::{Case, Check, Outcome};
 use crate::AnyError;
@@ -16,7 +18,7 @@ pub(crate) const CASE: Case = Case {
     name: "two_springs",
     title: "Block on two springs without tension",
     reference: "own solution by matrix exponentials from event to event (model of Psycharis and Jennings 1983; parameters ours)",
-    settings: "two elements, Δt = 1 ms; uplift at 5 mrad, 1.5 times the moment of the weight for 0.4 s, then free",
+    settings: "two elements, base guided sideways; uplift at 5 mrad, 1.5 times the moment of the weight for 0.4 s, then free",
     run,
 };
 
@@ -170,16 +172,25 @@ fn reference(dashpot: f64, duration: f64) -> [Vec<f64>; 2] {
     series
 }
 
+/// The block without the mass that couples its sideways motion to its rotation. Base: two elements, each 2b wide.
+fn guided() -> Result<MatrixModel, AnyError> {
+    let dofs = [RigidBlock::HORIZONTAL, RigidBlock::VERTICAL, RigidBlock::ROTATION];
+    let (mut mass, mut stiffness) = (Triplets::new(3), Triplets::new(3));
+    for (dof, value) in dofs.into_iter().zip([MASS, MASS, INERTIA]) {
+        mass.add(dof, dof, value);
+    }
+    stiffness.add(RigidBlock::ROTATION, RigidBlock::ROTATION, -WEIGHT * H);
+    Ok(MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-2.0 * B, 2.0 * B, dofs))?)
+}
+
 /// The same on two elements, whose pressures act at ±b.
 fn found(dashpot: f64, time_step: f64, duration: f64) -> Result<[Vec<f64>; 2], AnyError> {
-    // Each is 2b wide.
     let width = 2.0 * B;
     let bed = SpringGround::new(-width..width, 2, STIFFNESS / width, 1e13)?
         .with_dashpots(dashpot / width, 0.0)?;
-    let block = RigidBlock::from_mass(2.0 * width, MASS, INERTIA - MASS * H * H, H)?;
     let push = |time: f64| if time > 0.0 && time < PUSHED { PUSH * WEIGHT * B } else { 0.0 };
     let mut simulation = Simulation::builder(time_step)
-        .structure(block.with_p_delta(STANDARD_GRAVITY)?)
+        .structure(guided()?)
         .ground(bed)
         .interface(Coulomb::uplift_only())
         .load(Load::new(RigidBlock::ROTATION, push))
@@ -209,7 +220,6 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
     let duration = 4.0;
     let mut checks = Vec::new();
     let mut panels = Vec::new();
-    // With little damping shorter steps are no better.
     for (damping, name) in [(0.0, "springs"), (0.02, "damping 2 %"), (0.4, "damping 40 %")] {
         let dashpot = damping * (2.0 * STIFFNESS * MASS).sqrt();
         let wanted = reference(dashpot, duration);
@@ -217,7 +227,7 @@ fn run(_short: bool) -> Result<Outcome, AnyError> {
         let [coarse, middle, fine] = runs;
         let [coarse, middle, fine] = [coarse?, middle?, fine?];
         for (k, quantity) in ["tilt", "rise of the middle"].into_iter().enumerate() {
-            let limits = if damping < 0.1 { [1e-2; 3] } else { [1e-3, 5e-5, 5e-6] };
+            let limits = if damping < 0.1 { [1e-2, 1e-3, 1e-4] } else { [1e-3, 5e-5, 5e-6] };
             let series = [(&coarse, "1"), (&middle, "0.25"), (&fine, "0.0625")];
             for ((series, step), limit) in series.into_iter().zip(limits) {
                 let error = relative(&series[k], &wanted[k]);

@@ -1,0 +1,147 @@
+//! Peaks of blocks that rock and twist under fifty inputs that differ by one percent: distributions beside single runs.
+
+use basemat::bem::plan::Plan;
+use basemat::bem::{ElasticGround, Grading, Strip};
+use basemat::interface::Coulomb;
+use basemat::motion::{STANDARD_GRAVITY, Triaxial, el_centro_1940};
+use basemat::structure::{RigidBlock, RigidBody};
+use basemat::{Simulation, Soil};
+use plotters::prelude::SeriesLabelPosition;
+
+use super::outcome::{Case, Check, Outcome};
+use crate::AnyError;
+use crate::artificial_motion::artificial_motion;
+use crate::figure::{BLUE, Figure, GREEN, ORANGE, Panel, RED};
+use basemat_problems::random::Random;
+use basemat_problems::series::whole;
+
+pub(crate) const CASE: Case = Case {
+    name: "scatter",
+    title: "Blocks that rock and twist under fifty inputs",
+    reference: "the same scene at half the step, as a distribution; the run with factor 1 alone",
+    settings: "factors of the motion within 1 % of 1 (seed 46); block 1.6 m × 6 m, 16 graded elements, Δt = 2.5; 1.25 ms; column 2 m × 2 m × 7 m, 4 × 4 cells, Δt = 5; 2.5 ms",
+    run,
+};
+
+const INPUTS: usize = 50;
+const DURATION: f64 = 14.0;
+const SPEED: f64 = 300.0;
+
+/// Largest tilt and twist of a run, mrad, by factor of the motion and time step.
+type Scene = fn(f64, f64) -> Result<[f64; 2], AnyError>;
+
+fn soil() -> basemat::Result<Soil> {
+    Soil::from_shear_wave_speed(SPEED, 1.0 / 3.0, 1900.0)
+}
+
+/// A block in the plane under a factor of El Centro.
+fn rocks(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
+    let block = RigidBlock::new(1.6, 6.0, 2000.0)?.with_p_delta(STANDARD_GRAVITY)?;
+    let strip = Strip::under(&block, 16, Grading::Cosine)?.remove(0);
+    let mut simulation = Simulation::builder(time_step)
+        .structure(block)
+        .ground(ElasticGround::new(soil()?, strip)?)
+        .interface(Coulomb::new(0.7)?)
+        .motion(el_centro_1940().scaled(factor)?)
+        .build()?;
+    let run = simulation.run(whole(DURATION / time_step), |_| {})?;
+    Ok([1e3 * run.whole.base_rotation.magnitude(), 0.0])
+}
+
+/// A column in plan under a factor of El Centro and, across, of an artificial motion.
+fn twists(factor: f64, time_step: f64) -> Result<[f64; 2], AnyError> {
+    let column = RigidBody::cuboid([2.0, 2.0, 7.0], 2000.0)?.with_p_delta(STANDARD_GRAVITY)?;
+    let across = artificial_motion(2.0, 3)?.scaled(0.35 * STANDARD_GRAVITY * factor)?;
+    let mut simulation = Simulation::builder(time_step)
+        .structure(column)
+        .ground(ElasticGround::in_plan(soil()?, Plan::rectangle(-1.0..1.0, -1.0..1.0, 4)?)?)
+        .interface(Coulomb::new(0.7)?)
+        .motion(Triaxial {
+            x: Some(el_centro_1940().scaled(factor)?),
+            y: Some(across),
+            ..Triaxial::default()
+        })
+        .build()?;
+    let run = simulation.run(whole(DURATION / time_step), |_| {})?;
+    let whole = &run.whole;
+    let tilt = whole.base_rotation.magnitude();
+    Ok([1e3 * tilt, 1e3 * whole.twist.magnitude()])
+}
+
+/// Value below which this part of the sorted values lies.
+fn quantile(sorted: &[f64], part: f64) -> f64 {
+    let place = part * (sorted.len() - 1) as f64;
+    let below = whole(place.floor());
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (place - place.floor()) * (sorted[above] - sorted[below])
+}
+
+/// Peaks of the run with factor 1, and the sorted peaks of all inputs.
+struct Peaks {
+    single: f64,
+    all: Vec<f64>,
+}
+
+/// Tilts and twists of a scene under `scale` times the motion.
+fn peaks(
+    scene: Scene,
+    scale: f64,
+    factors: &[f64],
+    time_step: f64,
+) -> Result<[Peaks; 2], AnyError> {
+    let single = scene(scale, time_step)?;
+    let runs = factors.iter().map(|factor| scene(scale * factor, time_step));
+    let runs: Vec<[f64; 2]> = runs.collect::<Result<_, _>>()?;
+    Ok([0, 1].map(|k| {
+        let mut all: Vec<f64> = runs.iter().map(|own| own[k]).collect();
+        all.sort_by(f64::total_cmp);
+        Peaks { single: single[k], all }
+    }))
+}
+
+fn run(short: bool) -> Result<Outcome, AnyError> {
+    let mut random = Random(46);
+    let count = if short { 6 } else { INPUTS };
+    let factors: Vec<f64> = (0..count).map(|_| random.within(0.99, 1.01)).collect();
+    let (mut checks, mut panels) = (Vec::new(), Vec::new());
+    // With the largest spread, relative to the median; half the step may change a peak by a third of it.
+    let scenes: [(&str, Scene, f64, f64, f64, &[&str]); 4] = [
+        ("block, 1.2 El Centro", rocks, 1.2, 2.5e-3, 0.1, &["tilt"]),
+        ("block, 1.5 El Centro", rocks, 1.5, 2.5e-3, 0.1, &["tilt"]),
+        ("block, 2 El Centro", rocks, 2.0, 2.5e-3, 0.1, &["tilt"]),
+        ("column that twists", twists, 1.0, 5e-3, 0.6, &["tilt", "twist"]),
+    ];
+    for (scene, run, scale, step, spread, quantities) in scenes {
+        let near = 1.0 - spread / 3.0..=1.0 + spread / 3.0;
+        let [coarse, fine] = [step, 0.5 * step].map(|step| peaks(run, scale, &factors, step));
+        let [coarse, fine] = [coarse?, fine?];
+        for ((name, coarse), fine) in quantities.iter().zip(&coarse).zip(&fine) {
+            let mut row = |what: &str, value: f64, limits| {
+                checks.push(Check::within(format!("{scene}: {name}, {what}"), value, limits));
+            };
+            let parts = [0.16, 0.5, 0.84].map(|part| quantile(&coarse.all, part));
+            row("factor 1, mrad", coarse.single, 30.0..=130.0);
+            let half = fine.single / coarse.single;
+            row("factor 1 at half the step, over that", half, near.clone());
+            row("median, mrad", parts[1], 30.0..=130.0);
+            row("16 % over the median", parts[0] / parts[1], 1.0 - spread..=1.0);
+            row("84 % over the median", parts[2] / parts[1], 1.0..=1.0 + spread);
+            let half = quantile(&fine.all, 0.5) / parts[1];
+            row("median at half the step, over that", half, near.clone());
+            let curve = |own: &Peaks| {
+                let each = own.all.iter().enumerate();
+                each.map(|(n, peak)| (*peak, (n as f64 + 0.5) / count as f64)).collect()
+            };
+            panels.push(
+                Panel::new(&format!("{scene}: largest {name}, mrad"), "part of the inputs")
+                    .line("fifty inputs", BLUE, curve(coarse))
+                    .line("half the step", GREEN, curve(fine))
+                    .circles("factor 1", ORANGE, vec![(coarse.single, 0.5)])
+                    .crosses("factor 1, half the step", RED, vec![(fine.single, 0.5)])
+                    .legend(SeriesLabelPosition::LowerRight),
+            );
+        }
+    }
+    let title = "Largest tilt and twist under inputs that differ by 1 % at most";
+    Ok(Outcome { checks, figure: Figure::new(title, 3, panels) })
+}
