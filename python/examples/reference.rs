@@ -163,7 +163,8 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
         "storeys" => write(&run(&mut storeys(friction.unwrap_or(0.0))?, steps, recorder)?.1)?,
         "raft" => write(&run(&mut raft(friction.unwrap_or(0.0))?, steps, recorder)?.1)?,
         "basement" => {
-            write(&run(&mut basement(friction.unwrap_or(0.0))?, steps, recorder.contact(1))?.1)?
+            let mut simulation = basement(friction.unwrap_or(0.0))?;
+            write(&run(&mut simulation, steps, recorder.contact(1))?.1)?;
         }
         "time" => {
             let mut simulation = scene(friction, steps)?;

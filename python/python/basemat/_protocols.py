@@ -69,7 +69,7 @@ class UserGround(Protocol):
     over the elements.
 
     If it has them, these count too: ``save()`` (internal variables, an array of shape (n,)) and ``restore(values)``, both
-    for checkpoints and for runs beyond the expected steps; ``shear_wave_speed`` (m/s), for warnings of coarse elements.
+    for checkpoints and for runs beyond the expected steps; ``shear_wave_speed`` (m/s), for warnings of coarse steps and elements.
 
     Every simulation works on a deep copy, which `Simulation.ground` returns. Exceptions of the methods come out of the
     run. ``advance`` is called after the step is accepted: its exception ends the run after that step, and further steps
