@@ -1,19 +1,23 @@
 //! The same scenes as in Python's tests, by the Rust crate: `reference containment 0.4 2000` writes
-//! every time series bit by bit, so do `block`, `storeys` and `raft` of scenes in plan, and
-//! `reference time 0.4 54000` the seconds of a run that keeps them.
+//! every time series bit by bit, so do `block`, `storeys` and `raft` of scenes in plan and
+//! `basement` with walls, and `reference time 0.4 54000` the seconds of a run that keeps them.
 
 use std::time::Instant;
 
+use basemat::bem::embedded::{Trench, TrenchGround};
 use basemat::bem::{ElasticGround, SpringGround, Strip};
+use basemat::coupled::Face;
 use basemat::fem::{BeamSection, LumpedMass, Material, Mesh, Shell, SpaceBeam};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{PlaneWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
 use basemat::results::{Quantity, Recorder, TimeSeries};
+use basemat::site::TrenchMotion;
 use basemat::structure::{
-    Bilinear, FemModel, PlanStorey, RayleighDamping, RigidBody, StoreyBuilding,
+    Bilinear, FemModel, PlanStorey, RayleighDamping, RigidBlock, RigidBody, StoreyBuilding,
+    WithWalls,
 };
-use basemat::{Result, Simulation, Soil};
+use basemat::{Result, Simulation, Soil, unobserved};
 use basemat_problems::containment::Containment;
 
 /// The containment as the studies have it.
@@ -97,8 +101,23 @@ fn raft(friction: f64) -> Result<Simulation> {
     builder.interface(Coulomb::new(friction)?).structure(model).build()
 }
 
-fn run(simulation: &mut Simulation, steps: usize) -> Result<(Run, TimeSeries)> {
-    let mut histories = Recorder::new().start(simulation)?;
+/// A block in a trench, with laws of its own for base and walls.
+fn basement(friction: f64) -> Result<Simulation> {
+    let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
+    let elements = Trench::new(-6.0..6.0, 5.0)?.elements(2, 2)?;
+    let laws = elements.interfaces(Coulomb::new(0.5)?, Coulomb::new(friction)?);
+    let ground = TrenchGround::new(soil, elements)?.with_pressure_at_rest(0.5)?;
+    let record = el_centro_1940().padded(0.2, 0.0)?;
+    Simulation::builder(0.02)
+        .structure(WithWalls::new(RigidBlock::new(12.0, 20.0, 900.0)?, 5.0)?)
+        .motion(TrenchMotion::new(&ground, record, &mut unobserved)?)
+        .ground(ground)
+        .interfaces(laws)
+        .build()
+}
+
+fn run(simulation: &mut Simulation, steps: usize, recorder: Recorder) -> Result<(Run, TimeSeries)> {
+    let mut histories = recorder.start(simulation)?;
     histories.reserve(steps)?;
     let run = simulation.run(steps, |state| histories.record(state))?;
     Ok((run, histories))
@@ -111,6 +130,11 @@ fn write(histories: &TimeSeries) -> Result<()> {
     columns.extend(quantities.map(|quantity| histories.series(quantity).to_vec()));
     for probe in histories.probes() {
         columns.push(histories.probe(&probe.name)?.to_vec());
+    }
+    let walls = [Face::LeftWall, Face::RightWall];
+    for face in walls.into_iter().filter(|face| histories.face(*face).any(|own| own.thrust > 0.0)) {
+        columns.push(histories.face(face).map(|own| own.thrust).collect());
+        columns.push(histories.face(face).map(|own| own.place).collect());
     }
     columns.push(
         histories.energy_balances().iter().map(|energy_balance| energy_balance.input).collect(),
@@ -127,20 +151,25 @@ fn main() -> std::result::Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [task, friction, steps] = &arguments[..] else {
         return Err(
-            "usage: reference containment|block|storeys|raft|time FRICTION|bonded STEPS".into()
+            "usage: reference containment|block|storeys|raft|basement|time FRICTION|bonded STEPS"
+                .into(),
         );
     };
     let friction = if friction == "bonded" { None } else { Some(friction.parse()?) };
-    let steps = steps.parse()?;
+    let (steps, recorder) = (steps.parse()?, Recorder::new());
     match task.as_str() {
-        "containment" => write(&run(&mut scene(friction, steps)?, steps)?.1)?,
-        "block" => write(&run(&mut block(friction.unwrap_or(0.0))?, steps)?.1)?,
-        "storeys" => write(&run(&mut storeys(friction.unwrap_or(0.0))?, steps)?.1)?,
-        "raft" => write(&run(&mut raft(friction.unwrap_or(0.0))?, steps)?.1)?,
+        "containment" => write(&run(&mut scene(friction, steps)?, steps, recorder)?.1)?,
+        "block" => write(&run(&mut block(friction.unwrap_or(0.0))?, steps, recorder)?.1)?,
+        "storeys" => write(&run(&mut storeys(friction.unwrap_or(0.0))?, steps, recorder)?.1)?,
+        "raft" => write(&run(&mut raft(friction.unwrap_or(0.0))?, steps, recorder)?.1)?,
+        "basement" => {
+            let mut simulation = basement(friction.unwrap_or(0.0))?;
+            write(&run(&mut simulation, steps, recorder.contact(1))?.1)?;
+        }
         "time" => {
             let mut simulation = scene(friction, steps)?;
             let begin = Instant::now();
-            let (run, _) = run(&mut simulation, steps)?;
+            let (run, _) = run(&mut simulation, steps, recorder)?;
             println!("{} {:e}", begin.elapsed().as_secs_f64(), run.whole.base_shear.magnitude());
         }
         _ => return Err(format!("there is no task '{task}'").into()),

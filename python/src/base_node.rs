@@ -11,7 +11,8 @@ use crate::several::no_such;
 
 /// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-/// (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``.
+/// (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
+/// below the surface also its height ``z`` above the surface (m, negative; zero unless given).
 #[pyclass(name = "BaseNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyBaseNode(BaseNode, Order);
@@ -29,7 +30,7 @@ fn listed(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
 
 #[pymethods]
 impl PyBaseNode {
-    #[pyo3(signature = (x, horizontal, vertical, *, y=0.0, across=None))]
+    #[pyo3(signature = (x, horizontal, vertical, *, y=0.0, across=None, z=0.0))]
     #[new]
     fn new(
         x: f64,
@@ -37,11 +38,13 @@ impl PyBaseNode {
         vertical: RowLike,
         y: f64,
         across: Option<RowLike>,
+        z: f64,
     ) -> PyResult<Self> {
         let mut order = horizontal.1.and(vertical.1)?;
         let mut node = BaseNode {
             x,
             y,
+            z,
             horizontal: horizontal.0,
             vertical: vertical.0,
             ..BaseNode::default()
@@ -95,6 +98,12 @@ impl PyBaseNode {
         self.0.y
     }
 
+    /// Height above the surface, m; negative below it.
+    #[getter]
+    fn z(&self) -> f64 {
+        self.0.z
+    }
+
     /// The `DofCombination` of its displacement to the right.
     #[getter]
     fn horizontal(&self) -> PyDofCombination {
@@ -114,13 +123,14 @@ impl PyBaseNode {
     }
 
     fn __repr__(&self) -> String {
-        let BaseNode { x, y, horizontal, across, vertical, .. } = &self.0;
+        let BaseNode { x, y, z, horizontal, across, vertical, .. } = &self.0;
         let in_plan = if across.is_empty() && *y == 0.0 {
             String::new()
         } else {
             format!(", y={y:?}, across={:?}", &**across)
         };
-        format!("BaseNode({x:?}, {:?}, {:?}{in_plan})", &**horizontal, &**vertical)
+        let below = if *z == 0.0 { String::new() } else { format!(", z={z:?}") };
+        format!("BaseNode({x:?}, {:?}, {:?}{in_plan}{below})", &**horizontal, &**vertical)
     }
 }
 

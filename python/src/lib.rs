@@ -75,8 +75,8 @@ mod _core {
         base_node::{PyBaseFaces, PyBaseNode},
         cases::{case_numbers, merge_cases, save_cases},
         ground::{
-            PyElasticGround, PyGround, PyImpedances, PyPlan, PySharedKernels, PySpringGround,
-            PyStrip,
+            PyElasticGround, PyGround, PyImpedances, PyKinematicMotions, PyPlan, PySharedKernels,
+            PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,
         },
         interface::{
             PyBonded, PyCohesive, PyCoulomb, PyInterfaceLaw, PyThinLayer, PyVariableFriction,
@@ -84,8 +84,8 @@ mod _core {
         },
         motion::{
             PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
-            el_centro_1940, free_field, log_spaced, ricker, travelling_wave, triaxial,
-            vertical_incidence,
+            PyTrenchMotion, el_centro_1940, free_field, log_spaced, ricker, travelling_wave,
+            triaxial, vertical_incidence,
         },
         probe::PyProbe,
         profile::{PyDampingLaw, PySoilLayer, PySoilProfile},
@@ -97,7 +97,7 @@ mod _core {
         },
         row::{PyDofCombination, PySectionRows},
         simulation::{
-            PyCheckpoint, PyFoundation, PyInitialConditions, PyLoad, PyResultOptions,
+            PyCheckpoint, PyFaceForces, PyFoundation, PyInitialConditions, PyLoad, PyResultOptions,
             PyServiceLimits, PySimulation, PySolverOptions, PyState, PySteps, PyTimeScheme,
         },
         site::{PyEquivalentLinear, PyStrainCurves},
@@ -108,7 +108,7 @@ mod _core {
             PyMatrixModel, PyMesh, PyPendulumBearing, PyPlanStorey, PyRayleighDamping,
             PyReducedModel, PyRigidBlock, PyRigidBody, PyShearBuilding, PyShellResultants,
             PyShellRows, PyStorey, PyStoreyBuilding, PyStructure, PyStructureGroup,
-            PyWithModalDamping, PyWithSprings,
+            PyWithModalDamping, PyWithSprings, PyWithWalls,
         },
         ticker::cancel_when,
         user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance},

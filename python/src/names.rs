@@ -2,6 +2,7 @@
 
 use std::sync::LazyLock;
 
+use basemat::coupled::Face;
 use basemat::interface::Mode;
 use pyo3::PyResult;
 
@@ -10,6 +11,10 @@ use crate::error::{OrRaise, refuse};
 /// All modes, in the order of their numbers in arrays.
 pub(crate) static MODES: LazyLock<Vec<String>> =
     LazyLock::new(|| Mode::ALL.iter().map(ToString::to_string).collect());
+
+/// Faces of a structure in the ground.
+pub(crate) const FACES: [(&str, Face); 3] =
+    [("left_wall", Face::LeftWall), ("base", Face::Base), ("right_wall", Face::RightWall)];
 
 pub(crate) fn mode_name(mode: Mode) -> &'static str {
     &MODES[mode as usize]

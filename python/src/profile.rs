@@ -95,7 +95,8 @@ impl PySoilLayer {
     }
 }
 
-fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
+/// The given damping, or none.
+pub(crate) fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
     given.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 

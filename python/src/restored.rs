@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 
 use crate::base_node::{PyBaseFaces, PyBaseNode};
 use crate::error::refuse;
-use crate::ground::PyImpedances;
+use crate::ground::{PyImpedances, PyKinematicMotions};
 use crate::motion::PySpectrum;
 use crate::refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity};
 use crate::results::{
@@ -17,7 +17,7 @@ use crate::results::{
     PySystemMode,
 };
 use crate::row::PyDofCombination;
-use crate::simulation::PyFoundation;
+use crate::simulation::{PyFaceForces, PyFoundation};
 use crate::soil::PySoil;
 use crate::user::{PyCondition, PyLimits, PyTolerance};
 
@@ -63,6 +63,6 @@ macro_rules! results {
 
 results! {
     PyRun PyPeak PyExtremes PyEnergyBalance PySummary PyServiceCheck PyFoundation PySpectrum PyImpedances PyRefinement
-    PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode
+    PyRefinements PySensitivity PyPeakTwins PyInteraction PySystemMode PyFaceForces PyKinematicMotions
     PySoil PyBaseNode PyBaseFaces PyDofCombination PyCondition PyLimits PyTolerance
 }

@@ -210,6 +210,7 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_GravityStage": lambda word: simulation(initial=bm.InitialConditions(gravity_stage=word)),
     "_Coordinates": lambda word: simulation(solver=bm.SolverOptions(coordinates=word)),
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
+    "_Face": lambda word: simulation().state.face(word),  # type: ignore[arg-type]
     "_PlanDirection": lambda word: bm.StoreyBuilding(
         bm.RigidBody.cuboid(2.0, 2.0, 1.0, 2e3),
         [bm.PlanStorey(3.0, 1e3, (2.0, 2.0), (1e6, 1e6, 1e6))],

@@ -70,7 +70,7 @@ def test_the_guides_parts_work(ran: dict[str, tuple[dict[str, Any], Path]]) -> N
 
 def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
     gallery = sorted(own.stem for own in (pages.DOCS / "gallery").glob("*.md"))
-    assert len(gallery) == 6
+    assert len(gallery) == 8
     listed = (pages.DOCS / "gallery.md").read_text("utf-8")
     for page in gallery:
         assert f"(gallery/{page}.md)" in listed
@@ -79,6 +79,26 @@ def test_each_page_of_the_gallery_draws_its_picture(ran: dict[str, tuple[dict[st
             assert {own.name for own in ran[page][1].iterdir()} == {f"{page}.png"}
     assert len(ran["fragility"][0]["table"]) == 200 and ran["fragility"][0]["table"]["error"].isna().all()
     assert ran["hysteresis"][0]["columns"].path > 0.05 and ran["cask"][0]["run"].uplifted_fraction.value > 0.3
+
+
+def test_the_basement_has_the_numbers_of_the_example_in_rust(ran: dict[str, tuple[dict[str, Any], Path]]) -> None:
+    names, _ = ran["basement"]
+    below, above, wall = names["below"], names["above"], names["wall"]
+    text = " ".join((ROOT.parent / "examples" / "README.md").read_text("utf-8").split())
+    rotations, drifts = (
+        [f"{1e3 * own.magnitude:.{digits}f}" for own in both]
+        for both, digits in (
+            ((below.base_rotation, above.base_rotation), 2),
+            ((below.probes["drift"], above.probes["drift"]), 1),
+        )
+    )
+    thrusts = [f"{1e-3 * own:.0f}" for own in (wall["thrust"].max(), wall["thrust"][0])]
+    assert f"turns by {rotations[0]} mrad instead of {rotations[1]} and" in text
+    assert f"drifts by {drifts[0]} mm instead of {drifts[1]};" in text
+    assert f"reaches {thrusts[0]} kN/m from {thrusts[1]} at rest" in text and wall["open_fraction"].max() == 1.0
+    assert max(below.energy_error, above.energy_error) < 1e-9
+    page = (pages.DOCS / "gallery" / "basement.md").read_text("utf-8")
+    assert all(f"{own} " in page for own in (*rotations, *drifts, *thrusts))
 
 
 def test_the_site_has_no_warnings(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
 use super::marks::{self, ASIDE, hex};
-use super::shown::{Shown, shown};
+use super::shown::shown;
 use super::svg::{Svg, changes, escaped, polygon};
 use super::text_width::{fitted, short, width};
 use super::trench;

@@ -7,7 +7,7 @@ use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::state::sequence::Sequence;
-use crate::coupled::{EnergyBalance, Probe, State};
+use crate::coupled::{EnergyBalance, Face, FaceForces, Probe, State};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::geometry::ContactLayout;
 use crate::structure::probe::probe_index;
@@ -283,6 +283,14 @@ impl TimeSeries {
     /// Snapshots of the base; none unless [`Recorder::contact`] was set.
     pub fn contact_frames(&self) -> impl Iterator<Item = ContactFrame<'_>> {
         self.contact.iter().flat_map(|frames| frames.frames(self.elements.len()))
+    }
+
+    /// Forces on a face at each snapshot of the base, as [`State::face`]; none unless [`Recorder::contact`] was set.
+    pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
+        let on = move |own: ContactFrame<'_>| {
+            FaceForces::on(face, &self.elements, own.states, own.modes)
+        };
+        self.contact_frames().map(on)
     }
 
     /// Snapshots of the structure; none unless [`Recorder::motion`] was set.

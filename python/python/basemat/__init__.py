@@ -35,6 +35,7 @@ for _class, _name, _method in (
     (EquivalentLinear, "to_frame", _frames.equivalent_linear_frame),
     (Impedances, "to_frame", _frames.impedance_frame),
     (Impedances, "plot", _plots.plot_impedances),
+    (KinematicMotions, "to_frame", _frames.kinematic_frame),
     (DeformedShape, "plot", _shapes.plot_shape),
     (Mesh, "plot_shells", _shapes.plot_shells),
 ):

@@ -11,7 +11,7 @@ from ._core import DeformedShape, Run
 from ._errors import InputError
 from ._figures import COLORS, SURFACE, label_axes, mode_key, pyplot
 from ._film import Film, moving
-from ._plots import contact_plan
+from ._plots import along, contact_plan
 from ._shapes import Outline, draw_ground, seen, usual_scale
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ def _in_plan(run: Run, shape: DeformedShape | None, scale: float | None, times: 
 
 def _in_plane(run: Run, shape: DeformedShape | None, scale: float | None, times: Any) -> tuple[Any, list[Drawn]]:
     """Figure of a run in the plane, and the functions that draw it."""
-    contact, left, right = run.contact, run.envelope["left"], run.envelope["right"]
+    contact, (left, right) = run.contact, along(run)
     parts: list[Drawn] = []
     if shape is None:
         figure, curves = pyplot().subplots(3, 1, sharex=True, figsize=(8.0, 6.0), layout="constrained")
@@ -184,7 +184,7 @@ def _strip(run: Run, axes: Axes) -> Drawn:
     """Contact modes along the lower edge of the axes, with their key."""
     from matplotlib.collections import LineCollection
 
-    modes, left, right = run.contact["mode"], run.envelope["left"], run.envelope["right"]
+    modes, (left, right) = run.contact["mode"], along(run)
     low = axes.get_ylim()[0]
     strip = LineCollection([[(a, low), (b, low)] for a, b in zip(left, right)], linewidths=12.0, capstyle="butt")
     axes.add_collection(strip, autolim=False)

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from pandas import DataFrame
 from typing_extensions import Self, TypeAlias, disjoint_base
 
-from ._protocols import Mode as Mode, UserHysteresis, UserLaw, UserPlanLaw, UserStructure
+from ._protocols import Mode as Mode, UserGround, UserHysteresis, UserLaw, UserPlanLaw, UserStructure
 
 __version__: str
 MODES: list[Mode]
@@ -47,6 +47,7 @@ _Change: TypeAlias = Literal["interface_law", "ground_motion", "load", "gravity_
 _GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
 _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
+_Face: TypeAlias = Literal["left_wall", "base", "right_wall"]
 _PlanDirection: TypeAlias = Literal["x", "y", "xy", "twist"]
 _Mass: TypeAlias = Literal["consistent", "lumped"]
 _Formulation: TypeAlias = Literal["incompatible_modes", "full", "one_point", "hourglass"]
@@ -55,6 +56,7 @@ _SpringDirection: TypeAlias = Literal[
     "x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z", "axial"
 ]
 
+_Ground: TypeAlias = Union["Ground", UserGround]
 _Interface: TypeAlias = Union["InterfaceLaw", UserLaw, UserPlanLaw]
 _Quantity: TypeAlias = Literal[
     "base_shear",
@@ -243,12 +245,17 @@ class Ground:
 
     @property
     def elements(self) -> NDArray[np.float64]:
-        """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m."""
+        """Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both are the
+        same on a wall.
+        """
     @property
     def depths(self) -> NDArray[np.float64]:
         """Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
         metre of thickness, in the plane.
         """
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it."""
 
 @final
 class ElasticGround(Ground):
@@ -392,6 +399,99 @@ class SpringGround(Ground):
         and ``theta`` are as in the class, the last three if given.
         A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
         """
+
+@final
+class Trench:
+    """Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep."""
+
+    def __new__(cls, left: float, right: float, depth: float) -> Self: ...
+    def elements(self, base: int, wall: int) -> TrenchElements:
+        """The `TrenchElements`: ``base`` contact elements of the base, an even number, and ``wall`` elements of each wall.
+
+        Elements are shorter towards the ends of each face. With 8 and 6 impedances are off by about 0.5 %, with twice as
+        many by 0.1 %.
+        """
+    @property
+    def sides(self) -> list[float]:
+        """Places of the left and the right wall, x, m."""
+    @property
+    def depth(self) -> float:
+        """Depth of the base below the surface, m."""
+
+@final
+class TrenchElements:
+    """Contact elements of the faces of a `Trench`: down the left wall, along the base, up the right wall.
+
+    `Trench.elements` makes them; ``len()`` counts them.
+    """
+
+    def interfaces(self, base: _Interface, walls: _Interface) -> list[_Interface]:
+        """Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base, ``walls`` for both walls (each
+        an `InterfaceLaw` or an object with the methods of `UserLaw`).
+        """
+    def __len__(self) -> int: ...
+
+@final
+class TrenchGround(Ground):
+    """Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
+    ``elements`` (`TrenchElements`).
+
+    The structure in it is `WithWalls`, its motion a `TrenchMotion`.
+
+    ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
+    unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,
+    if it is damped, its `DampingLaw`; the profile unless given.
+    ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
+    `ElasticGround`, whose defaults they have unless given.
+    """
+
+    def __new__(
+        cls,
+        soil: Soil | SoilProfile,
+        elements: TrenchElements,
+        *,
+        pressure_at_rest: float | None = None,
+        backfill: tuple[float, Soil] | tuple[float, Soil, DampingLaw] | None = None,
+        history: _History = "auto",
+        history_tolerance: float | None = None,
+        history_memory: int | None = None,
+        stages: int | None = None,
+        kernel_file: str | os.PathLike[str] | None = None,
+        kernels: SharedKernels | None = None,
+    ) -> Self: ...
+    def impedances(self, frequencies: ArrayLike) -> Impedances:
+        """Dynamic stiffness of a rigid body welded to walls and base, `Impedances`, at ``frequencies`` (array of shape (m,), Hz).
+
+        It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
+        """
+    def kinematic_motions(self, frequencies: ArrayLike) -> KinematicMotions:
+        """Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
+
+        Shear and pressure waves travel vertically. With backfill they do not, and the call raises an error.
+        """
+
+@final
+class KinematicMotions:
+    """Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+
+    It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
+    Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
+    """
+
+    @property
+    def frequency(self) -> NDArray[np.float64]:
+        """Frequencies: array of shape (m,), Hz."""
+    @property
+    def horizontal(self) -> NDArray[np.complex128]:
+        """Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio."""
+    @property
+    def rotation(self) -> NDArray[np.complex128]:
+        """Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m."""
+    @property
+    def vertical(self) -> NDArray[np.complex128]:
+        """Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio."""
+    def to_frame(self) -> DataFrame:
+        """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
 
 @final
 class Strip:
@@ -593,6 +693,23 @@ class FreeField:
         """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
     def displacement_at(self, x: float, y: float, time: float) -> list[float]:
         """Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s)."""
+
+@final
+class TrenchMotion(FreeField):
+    """Free field of a trench: vertical waves below a surface that moves as recorded.
+
+    ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
+    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; the one that is None rests. Motion at
+    depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
+    surface (`Record.padded`).
+    """
+
+    def __new__(
+        cls,
+        ground: TrenchGround,
+        horizontal: Record | None = None,
+        vertical: Record | None = None,
+    ) -> Self: ...
 
 @final
 class Record(FreeField):
@@ -1369,7 +1486,7 @@ class Run(Summary):
         """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
         Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
-        "y", "slip_across" (m) and "shear_across" (Pa).
+        "y", "slip_across" (m) and "shear_across" (Pa), and with walls "z", the height of the element's middle (m).
         """
     def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
         """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
@@ -1550,6 +1667,15 @@ class Run(Summary):
         "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
         """
     @property
+    def heights(self) -> NDArray[np.float64]:
+        """Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it."""
+    @property
+    def faces(self) -> dict[Literal["left_wall", "base", "right_wall"], dict[str, NDArray[np.float64]]]:
+        """`FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
+        walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
+        "open_fraction" (a ratio).
+        """
+    @property
     def mode_changes(self) -> int:
         """Number of changes of contact mode."""
     @property
@@ -1585,7 +1711,7 @@ class DeformedShape:
     """Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
 
     A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and
-    columns, reduced, damped and grouped structures as those that they are made of. An object with a method
+    columns; reduced, damped and grouped structures and those in the ground as the structures that they are made of. An object with a method
     ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
     box of this ``height`` (m) on its base; unless given, such a structure is an error.
     """
@@ -1833,7 +1959,8 @@ class Simulation:
     Args:
         time_step: time step, s.
         structure: a `Structure`, or any object with the methods of `UserStructure`.
-        ground: an `ElasticGround` or a `SpringGround`.
+        ground: a `Ground`: an `ElasticGround`, `SpringGround` or `TrenchGround`; or any object with the methods of
+            `UserGround`.
         interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for
             all contact elements, or a list of one each, from left to right.
         motion: ground motion, a `FreeField`: a `Record`, a wave, or what
@@ -1856,7 +1983,7 @@ class Simulation:
         cls,
         time_step: float,
         structure: _Structure,
-        ground: Ground,
+        ground: _Ground,
         interface: _Interface | Sequence[_Interface],
         *,
         motion: FreeField | None = None,
@@ -1883,20 +2010,21 @@ class Simulation:
         motion_every: int | None = None,
         warn: bool = True,
     ) -> Run:
-        """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
-        motion. If that is past, as many as it has, under rest, with a `BasematWarning`:
-        `reset` goes back to the start.
+        """Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
 
-        ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
-        function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
-        and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
-        a `BasematWarning` says that the process ignores it. In all three cases the
-        simulation stays at the last accepted step.
+        After that end the motion's number of steps again, under rest, with a `BasematWarning`; `reset` returns to the start.
 
-        ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
-        default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-        motion every ``motion_every``th (none unless given). They must fit into `memory_limit`: all
-        of them before the first step; with ``observe``, which may end the run, those of the steps made.
+        ``progress``: True for lines on stderr, one for the ground's coefficients and one for the steps; or a function
+        ``(steps done, steps in all)``, called about every 50 ms.
+
+        ``observe(state)`` is called after every ``observe_every``th step. The run ends when it returns True. An exception of
+        it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
+        stays at the last accepted step.
+
+        ``series``: whether time series are kept, True by default: the scalars of every ``every``th step (1 by default, as
+        floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
+        ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
+        ``observe``, which may end the run, only the values of the steps made.
 
         ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
         by default.
@@ -1921,8 +2049,8 @@ class Simulation:
         this simulation works on, with its internal variables.
         """
     @property
-    def ground(self) -> Ground:
-        """The ground as it was given."""
+    def ground(self) -> Any:
+        """The ground as it was given; of one written in Python the copy that this simulation works on."""
     @property
     def interface(self) -> Any:
         """The law of the interface as it was given, or the list of laws."""
@@ -1988,8 +2116,9 @@ class Simulation:
 
 @final
 class Steps:
-    """An iterator that makes a step whenever it is asked and yields the `State` at its end, as long
-    as ``len()`` of them are left: see `Simulation.steps`.
+    """Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
+
+    ``len()`` is the number of steps to come. `Simulation.steps` makes it.
     """
 
     def __iter__(self) -> Self: ...
@@ -2144,6 +2273,10 @@ class State:
     @property
     def acceleration(self) -> NDArray[np.float64]:
         """Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s²."""
+    def face(self, face: _Face) -> FaceForces:
+        """The `FaceForces` on a ``face`` of a structure in the ground: "left_wall", "base" or "right_wall"; zeros for a wall of
+        a base without walls.
+        """
     def state_variables(self, element: int) -> list[float]:
         """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
         has none.
@@ -2158,6 +2291,25 @@ class State:
         """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
         also "torque" or "uplifted_area".
         """
+
+@final
+class FaceForces:
+    """Forces on the soil behind one face of a structure in the ground, per metre: of `State.face`."""
+
+    @property
+    def thrust(self) -> float:
+        """Total pressure, positive in compression, N/m."""
+    @property
+    def shear(self) -> float:
+        """Force on the soil along the outline, N/m: positive down the left wall, to the right along the base, up the right wall."""
+    @property
+    def place(self) -> float:
+        """Point where the thrust acts, m: height above the base; of the base, distance to the right of its middle. NaN without
+        thrust.
+        """
+    @property
+    def open_fraction(self) -> float:
+        """Ratio of the length of open elements to the length of the face."""
 
 @final
 class FoundationState:
@@ -2365,10 +2517,12 @@ class RigidBody(Structure):
         center: tuple[float, float] = (0.0, 0.0),
         p_delta: float | None = None,
     ) -> RigidBody:
-        """Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
-        freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
-        the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
-        those of `cuboid`, if given.
+        """Any rigid body on a convex base, by its mass and inertia.
+
+        Places count from the point of the degrees of freedom. ``outline``: corners of the base, list of x and y, m. ``mass``:
+        kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of inertia off the
+        diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta`` act as in `cuboid`, if
+        given.
         """
     def displacement_at(self, x: float, y: float, z: float) -> list[DofCombination]:
         """The three `DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
@@ -2457,8 +2611,10 @@ class ShearBuilding(Structure):
         less the motion of the base, its rotation included, m.
         """
     def shear(self, storey: int) -> SectionRows:
-        """The `SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
-        lowest) on what is below; of a storey that follows a law, from the inertia above.
+        """The `SectionRows` of the shear force (N/m) in the columns of a ``storey`` (0: the lowest).
+
+        The upper part of the building exerts it on the lower part. In a storey that follows a law it is computed from the
+        inertia of the floors above.
         """
 
 @final
@@ -2602,10 +2758,25 @@ class WithModalDamping(Structure):
         """Frequencies of the modes that are not rigid: array of shape (modes,), Hz."""
 
 @final
+class WithWalls(Structure):
+    """A ``structure`` in the ground: its rigid base lies at a ``depth`` (m) and has walls up to the surface.
+
+    The structure is the same as on the surface: its heights count from the base. The ground is a `TrenchGround` of this
+    width and depth. A structure whose base bends lists its nodes itself, down the left wall, along the base, up the right
+    wall, with their heights ``z`` (`BaseNode`).
+    """
+
+    def __new__(cls, structure: _Structure, depth: float) -> Self: ...
+    @property
+    def depth(self) -> float:
+        """Depth of the base, m."""
+
+@final
 class BaseNode:
     """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
     one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``.
+    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
+    below the surface also its height ``z`` above the surface (m, negative; zero unless given).
     """
 
     def __new__(
@@ -2616,6 +2787,7 @@ class BaseNode:
         *,
         y: float = 0.0,
         across: _RowLike | None = None,
+        z: float = 0.0,
     ) -> Self: ...
     @staticmethod
     def rigid(x: float, center: float, dofs: Sequence[int]) -> BaseNode:
@@ -2643,6 +2815,9 @@ class BaseNode:
     @property
     def y(self) -> float:
         """Coordinate away from the reader, m; zero in the plane."""
+    @property
+    def z(self) -> float:
+        """Height above the surface, m; negative below it."""
     @property
     def horizontal(self) -> DofCombination:
         """The `DofCombination` of its displacement to the right."""
@@ -3204,9 +3379,10 @@ class Mesh:
         formulation: _Formulation = "incompatible_modes",
         hourglass_percent: int = 5,
     ) -> list[int]:
-        """Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
-        (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
-        those of `Layer`, are for four nodes.
+        """Adds plane-strain quadrilaterals of a ``material`` and returns their numbers.
+
+        ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
+        Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
         """
     @property
     def nodes(self) -> NDArray[np.float64]:

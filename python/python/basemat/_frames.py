@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from ._core import _ELEMENT_UNITS, MODES, EquivalentLinear, Impedances, Run, Spectrum
+from ._core import _ELEMENT_UNITS, MODES, EquivalentLinear, Impedances, KinematicMotions, Run, Spectrum
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ def pandas() -> Any:
 
 
 _UNITS = {
-    "m": "depth x y residual_slip residual_slip_across displacement",
+    "m": "depth x y z residual_slip residual_slip_across displacement",
     "Pa": "shear_modulus",
     "s": "time period",
     "m/s": "pseudo_velocity",
@@ -60,7 +60,7 @@ def contact_frame(self: Run) -> DataFrame:
     """Snapshots of the base as a tidy pandas frame: a row per frame and element.
 
     Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
-    "y", "slip_across" (m) and "shear_across" (Pa).
+    "y", "slip_across" (m) and "shear_across" (Pa), and with walls "z", the height of the element's middle (m).
     """
     columns = {**self.contact}
     time, modes = columns.pop("time"), columns.pop("mode")
@@ -69,6 +69,8 @@ def contact_frame(self: Run) -> DataFrame:
     sides = {"x": ("left", "right"), "y": ("front", "back")} if self.in_plan else {"x": ("left", "right")}
     for name, (low, high) in sides.items():
         table[name] = np.tile(0.5 * (self.envelope[low] + self.envelope[high]), frames)
+    if self.heights.any():
+        table["z"] = np.tile(self.heights.mean(axis=1), frames)
     table.update({name: values.ravel() for name, values in columns.items()})
     modes = pandas().Categorical.from_codes(modes.ravel(), categories=MODES)
     return _with_units(pandas().DataFrame({**table, "mode": modes}), _UNIT, self)
@@ -163,3 +165,9 @@ def spectrum_frame(self: Spectrum) -> DataFrame:
 def impedance_frame(self: Impedances) -> DataFrame:
     """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
     return _of(self, "frequency", "horizontal vertical rocking coupling")
+
+
+def kinematic_frame(self: KinematicMotions) -> DataFrame:
+    """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
+    frame = _of(self, "frequency", "horizontal rotation vertical")
+    return _with_units(frame, {"frequency": "Hz", "rotation": "1/m"})

@@ -25,6 +25,7 @@ _RETURNING = (
     (_core.PlaneWave, "field_from_vertical"),
     (_core.PlaneWave, "field_from_across"),
     (_core.Plan, "with_unions"),
+    (_core.Trench, "elements"),
     (_core.Plan, "without_overhang"),
     (_core.PlaneWave, "reversed"),
     (_core.InclinedWave, "field"),
@@ -92,8 +93,8 @@ def _kept(value: Any) -> Any:
 
 
 def _is_part(value: Any) -> bool:
-    """Whether this is a function, a structure or a law of the user's, whatever else it may be."""
-    methods = ("base", "conditions", "limits")
+    """Whether this is a function, a structure, a ground or a law of the user's, whatever else it may be."""
+    methods = ("base", "conditions", "limits", "step_compliance")
     return callable(value) or any(callable(getattr(value, method, None)) for method in methods)
 
 

@@ -93,9 +93,10 @@ def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None)
         own.stackplot(time, areas, colors=[COLORS[mode] for mode in found])
         label_axes(own, "time, s", "area of the elements, m²")
         return own
-    edges, rows = [self.envelope["left"][0]], []
-    for left, right, row in zip(self.envelope["left"], self.envelope["right"], modes.T):
-        if left > edges[-1]:
+    lefts, rights = along(self)
+    edges, rows = [lefts[0]], []
+    for left, right, row in zip(lefts, rights, modes.T):
+        if left - edges[-1] > 1e-6 * (right - left):
             # Between two foundations.
             edges.append(left)
             rows.append(np.full(len(time), np.nan))
@@ -114,6 +115,18 @@ def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None)
     label_axes(own, "time, s", "x, m")
     own.grid(visible=False)
     return own
+
+
+def along(run: Run) -> tuple[Any, Any]:
+    """Ends of the elements along the base, of a run in the plane: walls continue it to both sides."""
+    left, right = run.envelope["left"], run.envelope["right"]
+    above = run.heights - run.heights.min()
+    reach = np.diff(above).ravel()
+    # The left wall comes before the base.
+    side = np.where(np.arange(len(left)) < np.argmax(right > left), -1.0, 1.0)
+    near, far = left + side * above[:, 0], right + side * above[:, 1]
+    is_wall = reach > 0.0
+    return np.where(is_wall, np.minimum(near, far), left), np.where(is_wall, np.maximum(near, far), right)
 
 
 def sides(run: Run) -> list[tuple[Any, Any]]:

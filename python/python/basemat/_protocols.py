@@ -5,10 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-__all__ = ["Mode", "UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
+__all__ = ["Mode", "UserGround", "UserHysteresis", "UserLaw", "UserPlanLaw", "UserStructure"]
 
 if TYPE_CHECKING:
-    from ._core import BaseFaces, BaseNode, Condition, ContactState, Limits, PreviousContact, Tolerance
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ._core import (
+        BaseFaces,
+        BaseNode,
+        Condition,
+        ContactState,
+        Limits,
+        Plan,
+        PreviousContact,
+        Strip,
+        Tolerance,
+        TrenchElements,
+    )
 
 Mode = Literal[
     "stick", "slip_left", "slip_right", "open", "yield", "yield_left", "yield_right", "slip", "yield_slip"
@@ -42,6 +56,44 @@ class UserStructure(Protocol):
 
     def stiffness(self) -> Any:
         """Stiffness matrix (n × n, dense or of ``scipy.sparse``, N/m per metre)."""
+
+
+class UserGround(Protocol):
+    """A ground written in Python, of Q contact elements: ``elements`` and these methods.
+
+    Displacements of the elements at the end of a step are the step compliance times the tractions of this step, which are
+    constant over it, plus the effect of all earlier tractions. Both are changes from the static state.
+
+    Contact vectors have 2Q numbers: down (pressure is positive in compression) for each element, then to the right; with
+    walls the normal into the soil, then along the outline. In plan they have 3Q: down, along x, along y. Numbers are means
+    over the elements.
+
+    If it has them, these count too: ``save()`` (internal variables, an array of shape (n,)) and ``restore(values)``, both
+    for checkpoints and for runs beyond the expected steps; ``shear_wave_speed`` (m/s), for warnings of coarse steps and elements.
+
+    Every simulation works on a deep copy, which `Simulation.ground` returns. Exceptions of the methods come out of the
+    run. ``advance`` is called after the step is accepted: its exception ends the run after that step, and further steps
+    are refused until an earlier checkpoint is resumed.
+    """
+
+    @property
+    def elements(self) -> Strip | Sequence[Strip] | Plan | TrenchElements:
+        """The contact elements, from left to right; of a trench along the outline."""
+
+    def static_compliance(self) -> Any:
+        """Displacements at rest by unit tractions: array of shape (2Q, 2Q), m/Pa. A rigid settlement may be added to all."""
+
+    def step_compliance(self, time_step: float) -> Any:
+        """Displacements at the end of a step of ``time_step`` seconds by unit tractions: array of shape (2Q, 2Q), m/Pa.
+
+        It also clears all earlier tractions: called before the first step, and before ``restore`` if a run goes on.
+        """
+
+    def advance(self, traction: NDArray[np.float64]) -> Any:
+        """Displacements at the end of the next step by all tractions so far: array of shape (2Q,), m.
+
+        ``traction`` (shape (2Q,), Pa) acted during the step that has ended. Called once after every accepted step.
+        """
 
 
 class UserLaw(Protocol):

@@ -21,7 +21,7 @@ use crate::ticker::watched;
 /// are built with the same object. A copy in another process begins empty; ``len()`` counts them.
 #[pyclass(name = "SharedKernels", module = "basemat", frozen)]
 #[derive(Default)]
-pub(crate) struct PySharedKernels(SharedKernels);
+pub(crate) struct PySharedKernels(pub(super) SharedKernels);
 
 #[pymethods]
 impl PySharedKernels {

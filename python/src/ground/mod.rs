@@ -1,13 +1,19 @@
 //! Grounds.
 
 mod elastic;
+mod given;
 mod plan;
 mod spring;
 mod strip;
 mod superclass;
+mod trench;
+mod trench_ground;
 
 pub(crate) use elastic::{PyElasticGround, PySharedKernels};
+pub(crate) use given::made;
 pub(crate) use plan::PyPlan;
 pub(crate) use spring::PySpringGround;
 pub(crate) use strip::PyStrip;
-pub(crate) use superclass::{PyGround, PyImpedances};
+pub(crate) use superclass::{PyGround, PyImpedances, heights};
+pub(crate) use trench::{PyTrench, PyTrenchElements};
+pub(crate) use trench_ground::{PyKinematicMotions, PyTrenchGround};

@@ -12,6 +12,13 @@ use crate::error::OrRaise;
 use crate::names::choice;
 use crate::recipe::Recipe;
 
+/// Lower and upper end of an element, m above the surface.
+pub(crate) fn heights(element: &ContactElement) -> [f64; 2] {
+    let (middle, half) = (element.center()[2], 0.5 * element.length());
+    let reach = half * element.directions()[1][2].abs();
+    [middle - reach, middle + reach]
+}
+
 /// A ground: a description from which every simulation makes one of its own.
 #[pyclass(name = "Ground", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyGround {
@@ -32,10 +39,17 @@ impl PyGround {
 
 #[pymethods]
 impl PyGround {
-    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m.
+    /// Ends of the contact elements along x, from left to right in the plane: array of shape (elements, 2), m. Both are the
+    /// same on a wall.
     #[getter]
     fn elements(&self) -> Rows {
         Rows(self.elements.iter().map(|e| vec![e.left(), e.right()]).collect())
+    }
+
+    /// Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it.
+    #[getter]
+    fn heights(&self) -> Rows {
+        Rows(self.elements.iter().map(|e| heights(e).to_vec()).collect())
     }
 
     /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the

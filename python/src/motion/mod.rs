@@ -3,11 +3,13 @@
 mod function;
 mod record;
 mod spectrum;
+mod trench;
 mod waves;
 
 pub(crate) use function::{PyFreeField, free_field, given};
 pub(crate) use record::{PyRecord, el_centro_1940};
 pub(crate) use spectrum::{PySpectrum, coarse, log_spaced};
+pub(crate) use trench::PyTrenchMotion;
 pub(crate) use waves::{
     PyColumn, PyInclinedWave, PyPlaneWave, control, ricker, travelling_wave, triaxial,
     vertical_incidence,

@@ -29,16 +29,21 @@ pub(crate) fn vertical_incidence(
     horizontal: Option<Bound<'_, PyRecord>>,
     vertical: Option<Bound<'_, PyRecord>>,
 ) -> PyResult<PyFreeField> {
-    let own = |record: &Bound<'_, PyRecord>| Record::clone(&record.get().0);
-    let incidence = VerticalIncidence {
-        horizontal: horizontal.as_ref().map(own),
-        vertical: vertical.as_ref().map(own),
-    };
-    if incidence == VerticalIncidence::default() {
+    let (incidence, duration) = incidence([horizontal, vertical])?;
+    Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
+}
+
+/// Motion by a horizontal and a vertical record, and the time at which the last of them ends (s).
+pub(super) fn incidence(
+    given: [Option<Bound<'_, PyRecord>>; 2],
+) -> PyResult<(VerticalIncidence, Option<f64>)> {
+    let duration = longest(&given);
+    let [horizontal, vertical] =
+        given.map(|record| record.map(|record| Record::clone(&record.get().0)));
+    if duration.is_none() {
         return Err(refuse("give a horizontal record, a vertical one, or both"));
     }
-    let duration = longest(&[horizontal, vertical]);
-    Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
+    Ok((VerticalIncidence { horizontal, vertical }, duration))
 }
 
 /// Time at which the last of the records ends, s.

@@ -10,8 +10,9 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use super::shape::shape;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
-use crate::array::{Array, Named, Numbers};
+use crate::array::{Array, Named, Numbers, Rows};
 use crate::error::{OrRaise, in_python, refuse, warn};
+use crate::ground::heights;
 use crate::html::preformatted;
 use crate::motion::{PyRecord, PySpectrum, coarse};
 use crate::ticker::watched;
@@ -229,6 +230,20 @@ impl PyRun {
         let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
         let time = [("time".to_owned(), "s")].into_iter();
         time.chain(scalars).chain(probes).chain(terms).collect()
+    }
+
+    /// Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it.
+    #[getter]
+    fn heights(&self) -> Rows {
+        Rows(self.run.envelope.iter().map(|own| heights(&own.element).to_vec()).collect())
+    }
+
+    /// `FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
+    /// walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
+    /// "open_fraction" (a ratio).
+    #[getter]
+    fn faces(&self) -> PyResult<Named<&'static str, Named<&'static str, Array>>> {
+        series::faces(self.kept()?)
     }
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",

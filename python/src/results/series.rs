@@ -1,6 +1,6 @@
 //! Time series and snapshots as arrays.
 
-use basemat::coupled::{EnergyBalance, EnergyTerm};
+use basemat::coupled::{EnergyBalance, EnergyTerm, FaceForces};
 use basemat::interface::ContactState;
 use basemat::results::{ContactFrame, MotionFrame, Quantity, Run, TimeSeries};
 use pyo3::prelude::*;
@@ -8,6 +8,7 @@ use pyo3::types::{PyDict, PyDictMethods};
 
 use crate::array::{Array, Named, filled};
 use crate::error::refuse;
+use crate::names::FACES;
 
 /// A scalar, or a probe, by its name.
 pub(super) fn named(time_series: &TimeSeries, name: &str) -> PyResult<Array> {
@@ -74,6 +75,30 @@ pub(super) fn contact<'py>(
     let modes = frames.iter().flat_map(|frame| frame.modes).map(|mode| *mode as u8);
     columns.set_item("mode", filled(py, shape, modes)?)?;
     Ok(columns)
+}
+
+/// Forces on each face that has elements, at the snapshots of the base.
+pub(super) fn faces(
+    time_series: &TimeSeries,
+) -> PyResult<Named<&'static str, Named<&'static str, Array>>> {
+    let times: Vec<f64> = time_series.contact_frames().map(|frame| frame.time).collect();
+    if times.is_empty() {
+        return Err(refuse("no contact was kept: give `contact_every` to `run`"));
+    }
+    let has_walls = time_series.elements().iter().any(|own| own.directions()[0][2] > -0.5);
+    let columns = |face| {
+        let forces: Vec<FaceForces> = time_series.face(face).collect();
+        let column = |value: fn(&FaceForces) -> f64| forces.iter().map(value).collect::<Array>();
+        Named(vec![
+            ("time", Array::from(&*times)),
+            ("thrust", column(|own| own.thrust)),
+            ("shear", column(|own| own.shear)),
+            ("place", column(|own| own.place)),
+            ("open_fraction", column(|own| own.open_fraction)),
+        ])
+    };
+    let known = FACES.iter().filter(|(name, _)| has_walls || *name == "base");
+    Ok(known.map(|(name, face)| (*name, columns(*face))).collect())
 }
 
 /// Snapshots of the structure: times, and arrays of shape (frames, n).

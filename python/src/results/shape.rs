@@ -12,13 +12,13 @@ use crate::error::{OrRaise, refuse};
 use crate::row::RowLike;
 use crate::structure::{
     PyFemModel, PyReducedModel, PyShearBuilding, PyStoreyBuilding, PyStructureGroup,
-    PyWithModalDamping, PyWithSprings, recipe,
+    PyWithModalDamping, PyWithSprings, PyWithWalls, recipe,
 };
 
 /// Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
 ///
 /// A `FemModel` is drawn by its elements, a `ShearBuilding` or `StoreyBuilding` by floors and
-/// columns, reduced, damped and grouped structures as those that they are made of. An object with a method
+/// columns; reduced, damped and grouped structures and those in the ground as the structures that they are made of. An object with a method
 /// ``deformed_shape()`` gives its own, as the structures of `basemat.opensees.structure` do. Any other is drawn as a
 /// box of this ``height`` (m) on its base; unless given, such a structure is an error.
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
@@ -45,10 +45,15 @@ pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<
     if let Ok(own) = object.cast::<PyWithModalDamping>() {
         return shape(own.get().structure.bind(py), height);
     }
+    if let Ok(own) = object.cast::<PyWithWalls>() {
+        let own = own.get();
+        return mapped(&shape(own.structure.bind(py), height)?, [0.0, -own.depth], Ok)
+            .and_then(made);
+    }
     if let Ok(own) = object.cast::<PyReducedModel>() {
         let recovery = own.get().reduced.recovery();
         let full = shape(own.get().structure.bind(py), height)?;
-        return mapped(&full, 0.0, |row| recovery.row(row)).and_then(made);
+        return mapped(&full, [0.0; 2], |row| recovery.row(row)).and_then(made);
     }
     if let Ok(own) = object.cast::<PyStructureGroup>() {
         return group(own.get(), py, height);
@@ -72,10 +77,10 @@ fn made((points, cells): Parts) -> PyResult<DeformedShape> {
     DeformedShape::new(points, cells).or_raise()
 }
 
-/// A shape moved to the right by `shift` (m), whose points are moved by `row` of their own rows.
+/// A shape moved to the right and up by `shift` (m), whose points are moved by `row` of their own rows.
 fn mapped(
     shape: &DeformedShape,
-    shift: f64,
+    shift: [f64; 2],
     row: impl Fn(DofCombination) -> basemat::Result<DofCombination>,
 ) -> PyResult<Parts> {
     let point = |own: &ShapePoint| {
@@ -83,7 +88,7 @@ fn mapped(
             if of.is_empty() { Ok(DofCombination::default()) } else { row(of.clone()) }
         };
         Ok(ShapePoint {
-            position: [own.position[0] + shift, own.position[1]],
+            position: [own.position[0] + shift[0], own.position[1] + shift[1]],
             horizontal: moved(&own.horizontal)?,
             vertical: moved(&own.vertical)?,
             away: own.away,
@@ -99,7 +104,7 @@ fn group(own: &PyStructureGroup, py: Python<'_>, height: Option<f64>) -> PyResul
     let (group, mut all) = ((own.make)().or_raise()?, Parts::default());
     for (member, (structure, shift)) in own.members.iter().enumerate() {
         let shape = shape(structure.bind(py), height)?;
-        let (points, cells) = mapped(&shape, *shift, |row| group.row(member, row))?;
+        let (points, cells) = mapped(&shape, [*shift, 0.0], |row| group.row(member, row))?;
         let first = all.0.len();
         let moved = |cell: Vec<usize>| cell.into_iter().map(|point| first + point).collect();
         all.0.extend(points);

@@ -19,7 +19,6 @@ use crate::array::{Array, whole};
 use crate::dof_names::DofNames;
 use crate::error;
 use crate::error::{OrRaise, kept, locked, raise, refuse, take_raised};
-use crate::ground::PyGround;
 use crate::probe::PyProbe;
 use crate::results::{PyInteraction, PyRun};
 use crate::several::{Several, no_such};
@@ -30,7 +29,8 @@ use crate::ticker::{progress_function, watched};
 /// Args:
 ///     time_step: time step, s.
 ///     structure: a `Structure`, or any object with the methods of `UserStructure`.
-///     ground: an `ElasticGround` or a `SpringGround`.
+///     ground: a `Ground`: an `ElasticGround`, `SpringGround` or `TrenchGround`; or any object with the methods of
+///         `UserGround`.
 ///     interface: an `InterfaceLaw` or an object with the methods of `UserLaw`; one for
 ///         all contact elements, or a list of one each, from left to right.
 ///     motion: ground motion, a `FreeField`: a `Record`, a wave, or what
@@ -51,6 +51,7 @@ use crate::ticker::{progress_function, watched};
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
     structure: Py<PyAny>,
+    ground: Py<PyAny>,
     /// Laws of the structure's springs that are written in Python.
     hysteresis: Vec<Py<PyAny>>,
     names: Option<DofNames>,
@@ -114,10 +115,10 @@ impl PySimulation {
         &self.structure
     }
 
-    /// The ground as it was given.
+    /// The ground as it was given; of one written in Python the copy that this simulation works on.
     #[getter]
-    fn ground(&self) -> &Py<PyGround> {
-        &self.given.ground
+    fn ground(&self) -> &Py<PyAny> {
+        &self.ground
     }
 
     /// The law of the interface as it was given, or the list of laws.
@@ -180,13 +181,10 @@ impl PySimulation {
         take_raised();
         let needed = "a number of seconds: Simulation(time_step, structure, ground, interface)";
         let time_step = time_step.extract().map_err(|_| no_such(&time_step, needed))?;
-        let ground = ground
-            .cast::<PyGround>()
-            .map_err(|_| no_such(&ground, "an ElasticGround or a SpringGround"))?;
         let given = Given {
             time_step,
             structure: structure.unbind(),
-            ground: ground.clone().unbind(),
+            ground: ground.unbind(),
             interface: interface.unbind(),
             motion: motion.map(Bound::unbind),
             loads: loads.map(Several::unbound).unwrap_or_default(),
@@ -199,27 +197,28 @@ impl PySimulation {
             },
             fixed_base,
         };
-        let Made { builder, structure, hysteresis, names, duration } = given.made(py)?;
+        let Made { builder, structure, ground, hysteresis, names, duration } = given.made(py)?;
         let simulation = build::build(py, builder, progress.as_ref())?;
         let start = build::start(&simulation);
         let simulation = Mutex::new(simulation);
-        Ok(Self { simulation, structure, hysteresis, names, duration, start, given })
+        Ok(Self { simulation, structure, ground, hysteresis, names, duration, start, given })
     }
 
-    /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the
-    /// motion. If that is past, as many as it has, under rest, with a `BasematWarning`:
-    /// `reset` goes back to the start.
+    /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
     ///
-    /// ``progress``: True for lines on stderr, one for the coefficients of a layered ground and one for the steps, or a
-    /// function ``(steps done, steps in all)`` that is called about every 50 ms. ``observe(state)`` is called after every ``observe_every``th step
-    /// and ends the run when it returns True; what it raises comes out of here. Ctrl-C is heard, or
-    /// a `BasematWarning` says that the process ignores it. In all three cases the
-    /// simulation stays at the last accepted step.
+    /// After that end the motion's number of steps again, under rest, with a `BasematWarning`; `reset` returns to the start.
     ///
-    /// ``series``: whether time series are kept, True by default: of every ``every``th step (1 by
-    /// default, which floor spectra need), of contact every ``contact_every``th and of the structure's
-    /// motion every ``motion_every``th (none unless given). They must fit into `memory_limit`: all
-    /// of them before the first step; with ``observe``, which may end the run, those of the steps made.
+    /// ``progress``: True for lines on stderr, one for the ground's coefficients and one for the steps; or a function
+    /// ``(steps done, steps in all)``, called about every 50 ms.
+    ///
+    /// ``observe(state)`` is called after every ``observe_every``th step. The run ends when it returns True. An exception of
+    /// it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
+    /// stays at the last accepted step.
+    ///
+    /// ``series``: whether time series are kept, True by default: the scalars of every ``every``th step (1 by default, as
+    /// floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
+    /// ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
+    /// ``observe``, which may end the run, only the values of the steps made.
     ///
     /// ``warn``: whether every warning in `Run.warnings` is also a `BasematWarning`; True
     /// by default.

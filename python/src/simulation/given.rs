@@ -8,7 +8,7 @@ use super::options::Options;
 use super::{PyLoad, build};
 use crate::dof_names::DofNames;
 use crate::error::OrRaise;
-use crate::ground::PyGround;
+use crate::ground;
 use crate::motion::PyFreeField;
 use crate::probe::PyProbe;
 use crate::recipe::Recipe;
@@ -18,7 +18,7 @@ use crate::{interface, motion, structure, user};
 pub(super) struct Given {
     pub(super) time_step: f64,
     pub(super) structure: Py<PyAny>,
-    pub(super) ground: Py<PyGround>,
+    pub(super) ground: Py<PyAny>,
     pub(super) interface: Py<PyAny>,
     pub(super) motion: Option<Py<PyAny>>,
     pub(super) probes: Vec<Py<PyProbe>>,
@@ -31,6 +31,7 @@ pub(super) struct Given {
 pub(super) struct Made {
     pub(super) builder: SimulationBuilder,
     pub(super) structure: Py<PyAny>,
+    pub(super) ground: Py<PyAny>,
     /// Laws of the structure's springs that are written in Python.
     pub(super) hysteresis: Vec<Py<PyAny>>,
     pub(super) names: Option<DofNames>,
@@ -46,7 +47,7 @@ fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
 impl Given {
     /// A builder of parts of its own.
     pub(super) fn made(&self, py: Python<'_>) -> PyResult<Made> {
-        let ground = made(&self.ground.bind(py).get().make)?;
+        let (ground, own_ground) = ground::made(self.ground.bind(py))?;
         let in_plan = ground.elements().first().is_some_and(|own| own.directions().len() == 3);
         let laws = interface::recipes(self.interface.bind(py), in_plan)?;
         let laws = laws.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
@@ -76,6 +77,7 @@ impl Given {
         }
         let motion = motion.and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
-        Ok(Made { builder, structure: object.unbind(), hysteresis, names, duration })
+        let (structure, ground) = (object.unbind(), own_ground.unbind());
+        Ok(Made { builder, structure, ground, hysteresis, names, duration })
     }
 }

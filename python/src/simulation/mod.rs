@@ -2,6 +2,8 @@
 
 mod build;
 mod class;
+mod face;
+mod foundation;
 mod given;
 mod load;
 mod options;
@@ -10,7 +12,9 @@ mod state;
 mod watched;
 
 pub(crate) use class::PySimulation;
+pub(crate) use face::PyFaceForces;
+pub(crate) use foundation::PyFoundation;
 pub(crate) use load::PyLoad;
 pub(crate) use options::{PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions};
 pub(crate) use scheme::PyTimeScheme;
-pub(crate) use state::{PyCheckpoint, PyFoundation, PyState, PySteps};
+pub(crate) use state::{PyCheckpoint, PyState, PySteps};

@@ -1,12 +1,13 @@
 //! The state at the end of a step, steps as an iterator, and checkpoints that pickle.
 
-use basemat::coupled::{Checkpoint, Foundation, State};
+use basemat::coupled::{Checkpoint, State};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use super::{PyFaceForces, PyFoundation};
 use crate::array::{Array, Count};
 use crate::error::{OrRaise, refuse};
-use crate::names::mode_name;
+use crate::names::{FACES, choice, mode_name};
 use crate::results::PyEnergyBalance;
 
 /// The simulation at the end of an accepted step.
@@ -16,111 +17,6 @@ use crate::results::PyEnergyBalance;
 /// It belongs to its simulation and does not pickle: a `Checkpoint` does.
 #[pyclass(name = "State", module = "basemat", frozen)]
 pub(crate) struct PyState(pub(super) State);
-
-/// A foundation at the end of a step; forces act from the structure on the soil, per metre
-/// of thickness in the plane, of the whole body in plan (N and N·m).
-#[pyclass(name = "FoundationState", module = "basemat", frozen)]
-#[derive(serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyFoundation(Foundation);
-
-#[pymethods]
-impl PyFoundation {
-    /// Numbers of its first element and of the one after its last.
-    #[getter]
-    fn elements(&self) -> (usize, usize) {
-        (self.0.elements.start, self.0.elements.end)
-    }
-
-    /// Horizontal force on the soil, positive to the right, N/m.
-    #[getter]
-    fn shear(&self) -> f64 {
-        self.0.base_shear
-    }
-
-    /// Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
-    #[getter]
-    fn moment(&self) -> f64 {
-        self.0.base_moment
-    }
-
-    /// Total pressure, N/m.
-    #[getter]
-    fn normal_force(&self) -> f64 {
-        self.0.normal_force
-    }
-
-    /// Ratio of its open length to its length, in plan of areas.
-    #[getter]
-    fn uplifted_fraction(&self) -> f64 {
-        self.0.uplifted_fraction
-    }
-
-    /// Slip averaged over the foundation, m.
-    #[getter]
-    fn mean_slip(&self) -> f64 {
-        self.0.mean_slip
-    }
-
-    /// Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule.
-    #[getter]
-    fn rotation(&self) -> f64 {
-        self.0.base_rotation
-    }
-
-    /// In plan: force on the soil along y, positive away, N.
-    #[getter]
-    fn shear_across(&self) -> f64 {
-        self.0.shear_across
-    }
-
-    /// In plan: moment on the soil about x, N·m.
-    #[getter]
-    fn moment_across(&self) -> f64 {
-        self.0.moment_across
-    }
-
-    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
-    #[getter]
-    fn torque(&self) -> f64 {
-        self.0.torque
-    }
-
-    /// In plan: slip along y averaged over the foundation, m.
-    #[getter]
-    fn mean_slip_across(&self) -> f64 {
-        self.0.mean_slip_across
-    }
-
-    /// In plan: rotation about x, rad.
-    #[getter]
-    fn rotation_across(&self) -> f64 {
-        self.0.rotation_across
-    }
-
-    /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
-    #[getter]
-    fn twist(&self) -> f64 {
-        self.0.twist
-    }
-
-    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
-    #[getter]
-    fn force_vector(&self) -> [f64; 3] {
-        self.0.force_vector()
-    }
-
-    /// Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m.
-    #[getter]
-    fn moment_vector(&self) -> [f64; 3] {
-        self.0.moment_vector()
-    }
-
-    /// Rotation as a vector by the right-hand rule, rad.
-    #[getter]
-    fn rotation_vector(&self) -> [f64; 3] {
-        self.0.rotation_vector()
-    }
-}
 
 #[pymethods]
 impl PyState {
@@ -312,6 +208,12 @@ impl PyState {
         Ok(self.0.value(quantity.parse().or_raise()?))
     }
 
+    /// The `FaceForces` on a ``face`` of a structure in the ground: "left_wall", "base" or "right_wall"; zeros for a wall of
+    /// a base without walls.
+    fn face(&self, face: &str) -> PyResult<PyFaceForces> {
+        Ok(PyFaceForces(self.0.face(choice("face", face, &FACES)?)))
+    }
+
     /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
     /// has none.
     fn state_variables(&self, element: Count) -> PyResult<Vec<f64>> {
@@ -328,8 +230,9 @@ impl PyState {
     }
 }
 
-/// An iterator that makes a step whenever it is asked and yields the `State` at its end, as long
-/// as ``len()`` of them are left: see `Simulation.steps`.
+/// Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
+///
+/// ``len()`` is the number of steps to come. `Simulation.steps` makes it.
 #[pyclass(name = "Steps", module = "basemat")]
 pub(crate) struct PySteps {
     /// Simulation, which has a method `step`.

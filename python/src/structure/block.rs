@@ -155,10 +155,12 @@ impl PyRigidBody {
         body(RigidBody::cylinder(radius, height, density), center, p_delta)
     }
 
-    /// Any rigid body: ``outline``, corners of its convex base (list of x and y, m) from the point of the degrees of
-    /// freedom, ``mass`` (kg), tensor of ``inertia`` about the centre of mass (3 × 3, kg m²; minus products of inertia beside
-    /// the diagonal), and that centre, ``gravity_center`` (x, y and z from the same point, m). ``center`` and ``p_delta`` are
-    /// those of `cuboid`, if given.
+    /// Any rigid body on a convex base, by its mass and inertia.
+    ///
+    /// Places count from the point of the degrees of freedom. ``outline``: corners of the base, list of x and y, m. ``mass``:
+    /// kg. ``inertia``: tensor about the centre of mass, 3 × 3, kg m², with the negative products of inertia off the
+    /// diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta`` act as in `cuboid`, if
+    /// given.
     #[pyo3(
         signature = (outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None),
         text_signature = "(outline, mass, inertia, gravity_center, *, center=(0.0, 0.0), p_delta=None)"

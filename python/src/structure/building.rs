@@ -172,8 +172,10 @@ impl PyShearBuilding {
         Ok(self.made()?.total_drift(storey.0).or_raise()?.into())
     }
 
-    /// The `SectionRows` of the force (N/m) of what is above the columns of a ``storey`` (0: the
-    /// lowest) on what is below; of a storey that follows a law, from the inertia above.
+    /// The `SectionRows` of the shear force (N/m) in the columns of a ``storey`` (0: the lowest).
+    ///
+    /// The upper part of the building exerts it on the lower part. In a storey that follows a law it is computed from the
+    /// inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<PySectionRows> {
         Ok(self.made()?.shear(storey.0).or_raise()?.into())
     }

@@ -1,9 +1,9 @@
-//! Structures made of others: reduced ones, groups, modal damping; Rayleigh damping.
+//! Structures made of others: reduced ones, groups, modal damping, walls; Rayleigh damping.
 
 use std::sync::Arc;
 
 use basemat::structure::{
-    CraigBampton, ModalDamping, RayleighDamping, ReducedModel, Structure, StructureGroup,
+    CraigBampton, ModalDamping, RayleighDamping, ReducedModel, Structure, StructureGroup, WithWalls,
 };
 use pyo3::prelude::*;
 
@@ -192,5 +192,32 @@ impl PyWithModalDamping {
     #[getter]
     fn frequencies(&self) -> Array {
         self.frequencies.as_slice().into()
+    }
+}
+
+/// A ``structure`` in the ground: its rigid base lies at a ``depth`` (m) and has walls up to the surface.
+///
+/// The structure is the same as on the surface: its heights count from the base. The ground is a `TrenchGround` of this
+/// width and depth. A structure whose base bends lists its nodes itself, down the left wall, along the base, up the right
+/// wall, with their heights ``z`` (`BaseNode`).
+#[pyclass(name = "WithWalls", module = "basemat", extends = PyStructure, frozen)]
+pub(crate) struct PyWithWalls {
+    /// The structure without walls.
+    pub(crate) structure: Py<PyAny>,
+    /// Depth of the base, m.
+    #[pyo3(get)]
+    pub(crate) depth: f64,
+}
+
+#[pymethods]
+impl PyWithWalls {
+    #[new]
+    fn new(structure: Bound<'_, PyAny>, depth: f64) -> PyResult<PyClassInitializer<Self>> {
+        let own = recipe(&structure)?;
+        let walls = WithWalls::new(own().or_raise()?, depth).or_raise()?;
+        let names = DofNames::from_structure(&structure, walls.dofs())?;
+        let base = PyStructure::new(move || WithWalls::new(own()?, depth)).named(names);
+        let own = Self { structure: structure.unbind(), depth };
+        Ok(PyClassInitializer::from(base).add_subclass(own))
     }
 }

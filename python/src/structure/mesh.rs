@@ -259,9 +259,10 @@ impl PyMesh {
         self.0.add(element.or_raise()?).or_raise()
     }
 
-    /// Adds plane-strain quadrilaterals of a ``material`` on ``nodes``, counter-clockwise: array of shape
-    /// (quads, 4), or (quads, 8) with the midside nodes last. ``formulation`` and ``hourglass_percent``,
-    /// those of `Layer`, are for four nodes.
+    /// Adds plane-strain quadrilaterals of a ``material`` and returns their numbers.
+    ///
+    /// ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
+    /// Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
     #[pyo3(signature = (nodes, material, *, formulation="incompatible_modes", hourglass_percent=5))]
     fn add_quads(
         &mut self,

@@ -21,7 +21,7 @@ pub(crate) use beam_section::PyBeamSection;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};
 pub(crate) use composed::{
-    PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping,
+    PyRayleighDamping, PyReducedModel, PyStructureGroup, PyWithModalDamping, PyWithWalls,
 };
 pub(crate) use fem::{PyFemModel, PyGmshMesh};
 pub(crate) use gmsh_space::PyGmshSpaceMesh;

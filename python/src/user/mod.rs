@@ -1,11 +1,13 @@
 //! Parts that users write in Python. The core calls them without the GIL, which is taken here.
 
+mod ground;
 mod hysteresis;
 mod law;
 mod object;
 mod previous_contact;
 mod structure;
 
+pub(crate) use ground::UserGround;
 pub(crate) use hysteresis::{hysteresis, made_springs};
 pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
 pub(crate) use previous_contact::{PyContactState, PyLimits, PyPreviousContact};

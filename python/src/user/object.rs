@@ -8,7 +8,7 @@ use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
 use crate::array::Numbers;
-use crate::error::{asked, has_raised, kept, returned};
+use crate::error::{asked, has_raised, kept, refuse, returned};
 
 /// An object with the methods of a part, some of which may be missing.
 #[derive(Clone)]
@@ -60,6 +60,21 @@ impl UserObject {
     {
         let found = self.bind(py).call_method1(method, arguments)?;
         found.extract().or_else(|_| returned(&format!("{method} of the {}", self.part), &found))
+    }
+
+    /// Value returned by a method, if its shape is the one that is needed.
+    pub(super) fn shaped<T>(
+        &self,
+        method: &str,
+        kind: &str,
+        value: T,
+        [shape, needed]: [String; 2],
+    ) -> PyResult<T> {
+        if shape == needed {
+            return Ok(value);
+        }
+        let text = format!("returned {kind} of shape {shape}, but must return one of {needed}");
+        Err(refuse(format!("{method} of the {} {text}", self.part)))
     }
 
     /// Stored and dissipated energy by the method `energy`, if there is one.

@@ -9,7 +9,7 @@ use super::object::{UserObject, copied};
 use crate::array::{Array, Count, Matrix, Numbers};
 use crate::base_node::BaseLike;
 use crate::dof_names::DofNames;
-use crate::error::{keep, refuse, returned};
+use crate::error::{keep, returned};
 
 /// Name of this kind of part in errors.
 const PART: &str = "structure";
@@ -69,9 +69,8 @@ impl UserStructure {
     ) -> Result<()> {
         let found = self.object.attempt(|py| {
             let Matrix(found) = self.object.call(py, method, arguments)?;
-            let [own, needed] =
-                [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
-            shaped(method, "a matrix", found, own, needed)
+            let own = [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
+            self.object.shaped(method, "a matrix", found, own)
         });
         for &(row, column, value) in found?.entries() {
             matrix.add(row, column, value);
@@ -88,21 +87,12 @@ impl UserStructure {
     ) -> Result<()> {
         let found = self.object.attempt(|py| {
             let Numbers(found) = self.object.call(py, method, arguments)?;
-            let [own, needed] = [found.len(), sum.len()].map(|count| format!("({count},)"));
-            shaped(method, "an array", found, own, needed)
+            let own = [found.len(), sum.len()].map(|count| format!("({count},)"));
+            self.object.shaped(method, "an array", found, own)
         });
         sum.iter_mut().zip(found?).for_each(|(sum, value)| *sum += value);
         Ok(())
     }
-}
-
-/// Value returned by a method of the structure, if its shape `found` is the `shape` that is needed.
-fn shaped<T>(method: &str, what: &str, value: T, found: String, shape: String) -> PyResult<T> {
-    if found == shape {
-        return Ok(value);
-    }
-    let text = format!("returned {what} of shape {found}, but must return one of {shape}");
-    Err(refuse(format!("{method} of the structure {text}")))
 }
 
 impl Structure for UserStructure {

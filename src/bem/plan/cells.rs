@@ -306,7 +306,7 @@ impl Plan {
     }
 
     /// The contact elements.
-    pub(in crate::bem) fn elements(&self) -> Vec<ContactElement> {
+    pub fn elements(&self) -> Vec<ContactElement> {
         let mut all: Vec<[[f64; 2]; 2]> = vec![];
         for number in 0..self.count() {
             let own = self.ends(number);

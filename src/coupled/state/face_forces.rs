@@ -1,6 +1,8 @@
 //! Forces between soil and each face of a structure in the ground.
 
 use crate::coupled::state::State;
+use crate::geometry::ContactElement;
+use crate::interface::{ContactState, Mode};
 
 /// Face of a structure in the ground, in the order of the outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -13,6 +15,17 @@ pub enum Face {
     Base,
     /// Wall on the right.
     RightWall,
+}
+
+impl Face {
+    fn has(self, element: &ContactElement) -> bool {
+        let into_soil = element.directions()[0];
+        match self {
+            Self::LeftWall => into_soil[0] < -0.5,
+            Self::Base => element.faces_down(),
+            Self::RightWall => into_soil[0] > 0.5,
+        }
+    }
 }
 
 /// Forces on the soil behind one face, per metre.
@@ -55,27 +68,44 @@ impl State {
     /// // K₀ ρ g d²/2, a third of the depth above the base.
     /// assert!((wall.thrust / (0.5 * 1900.0 * STANDARD_GRAVITY * 12.5) - 1.0).abs() < 1e-12);
     /// assert!((wall.place - 5.0 / 3.0).abs() < 0.1);
+    /// let series = basemat::results::Recorder::new().contact(1).start(&simulation)?;
+    /// assert_eq!(series.face(Face::LeftWall).next(), Some(wall));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn face(&self, face: Face) -> FaceForces {
-        let elements = &self.context.elements;
-        let floor = &elements[elements.floor()];
-        let bottom = floor[0].center()[2];
-        let middle = 0.5 * (floor[0].left() + floor[floor.len() - 1].right());
+        FaceForces::on(face, &self.context.elements, &self.contact, &self.modes)
+    }
+}
+
+impl FaceForces {
+    /// Forces on a face, from state and mode of each of the `elements` of a ground.
+    pub(crate) fn on(
+        face: Face,
+        elements: &[ContactElement],
+        contact: &[ContactState],
+        modes: &[Mode],
+    ) -> Self {
+        let mut floor = elements.iter().filter(|own| own.faces_down());
+        let bottom = floor.clone().next().map_or(0.0, |own| own.center()[2]);
+        let left = floor.clone().next().map_or(0.0, ContactElement::left);
+        let middle = 0.5 * (left + floor.next_back().map_or(0.0, ContactElement::right));
         let [mut thrust, mut shear, mut moment, mut open, mut length] = [0.0; 5];
-        for e in elements.faces()[face as usize].clone() {
-            let (area, state) = (elements.areas()[e], &self.contact[e]);
-            let [x, _, z] = elements[e].center();
+        for (element, (state, mode)) in elements.iter().zip(contact.iter().zip(modes)) {
+            if !face.has(element) {
+                continue;
+            }
+            let area = element.area();
+            let [x, _, z] = element.center();
             let arm = if face == Face::Base { x - middle } else { z - bottom };
             thrust += area * state.pressure;
             shear += area * state.shear;
             moment += area * state.pressure * arm;
             length += area;
-            if !self.modes[e].is_closed() {
+            if !mode.is_closed() {
                 open += area;
             }
         }
         let open_fraction = if length > 0.0 { open / length } else { 0.0 };
-        FaceForces { thrust, shear, place: moment / thrust, open_fraction }
+        Self { thrust, shear, place: moment / thrust, open_fraction }
     }
 }

@@ -1,0 +1,62 @@
+//! Trench and its contact elements.
+
+use basemat::bem::embedded::{Trench, TrenchElements};
+use pyo3::prelude::*;
+
+use crate::array::Count;
+use crate::error::OrRaise;
+
+/// Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep.
+#[pyclass(name = "Trench", module = "basemat", frozen, dict)]
+#[derive(Clone)]
+pub(crate) struct PyTrench(Trench);
+
+#[pymethods]
+impl PyTrench {
+    #[new]
+    fn new(left: f64, right: f64, depth: f64) -> PyResult<Self> {
+        Trench::new(left..right, depth).or_raise().map(Self)
+    }
+
+    /// Places of the left and the right wall, x, m.
+    #[getter]
+    fn sides(&self) -> [f64; 2] {
+        self.0.sides()
+    }
+
+    /// Depth of the base below the surface, m.
+    #[getter]
+    fn depth(&self) -> f64 {
+        self.0.depth()
+    }
+
+    /// The `TrenchElements`: ``base`` contact elements of the base, an even number, and ``wall`` elements of each wall.
+    ///
+    /// Elements are shorter towards the ends of each face. With 8 and 6 impedances are off by about 0.5 %, with twice as
+    /// many by 0.1 %.
+    fn elements(&self, base: Count, wall: Count) -> PyResult<PyTrenchElements> {
+        self.0.elements(base.0, wall.0).or_raise().map(PyTrenchElements)
+    }
+}
+
+/// Contact elements of the faces of a `Trench`: down the left wall, along the base, up the right wall.
+///
+/// `Trench.elements` makes them; ``len()`` counts them.
+#[pyclass(name = "TrenchElements", module = "basemat", frozen, dict)]
+#[derive(Clone)]
+pub(crate) struct PyTrenchElements(pub(super) TrenchElements);
+
+#[pymethods]
+impl PyTrenchElements {
+    /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base, ``walls`` for both walls (each
+    /// an `InterfaceLaw` or an object with the methods of `UserLaw`).
+    fn interfaces(&self, base: Py<PyAny>, walls: Py<PyAny>, py: Python<'_>) -> Vec<Py<PyAny>> {
+        let elements = self.0.elements();
+        let is_base = elements.iter().map(|own| own.directions()[0][2] < -0.5);
+        is_base.map(|below| if below { &base } else { &walls }.clone_ref(py)).collect()
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.elements().len()
+    }
+}

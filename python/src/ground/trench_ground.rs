@@ -1,0 +1,171 @@
+//! Ground with a trench in it.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use basemat::Complex;
+use basemat::bem::embedded::{KinematicMotion, TrenchGround};
+use basemat::bem::layered::Stages;
+use basemat::history::{HistoryMethod, HistoryOptions};
+use basemat::soil::Relaxation;
+use numpy::Complex64;
+use pyo3::prelude::*;
+
+use super::{PyGround, PyImpedances, PySharedKernels, PyTrenchElements};
+use crate::array::{Array, Numbers, complex, whole};
+use crate::error::{OrRaise, WithGiven};
+use crate::profile::{Profile, PyDampingLaw, law};
+use crate::soil::PySoil;
+use crate::ticker::watched;
+
+/// A damping law that several grounds read.
+#[derive(Debug, Clone)]
+struct SharedLaw(Arc<dyn Relaxation>);
+
+impl Relaxation for SharedLaw {
+    fn modulus(&self, s: Complex) -> Complex {
+        self.0.modulus(s)
+    }
+
+    fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
+        self.0.moduli(s, moduli);
+    }
+
+    fn describe(&self) -> String {
+        self.0.describe()
+    }
+
+    fn is_causal(&self) -> bool {
+        self.0.is_causal()
+    }
+
+    fn identity(&self) -> Option<Vec<f64>> {
+        self.0.identity()
+    }
+}
+
+/// Width, m, soil and damping of a backfill.
+struct Backfill(f64, PySoil, SharedLaw);
+
+extracts!(Backfill, object => {
+    if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
+        return Ok(Self(width, PySoil(soil.get().0), SharedLaw(law(None))));
+    }
+    let needed = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
+    let found = object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>();
+    let (width, soil, damping) = found.map_err(|_: PyErr| crate::several::no_such(&object, needed))?;
+    Ok(Self(width, PySoil(soil.get().0), SharedLaw(law(Some(damping.get())))))
+});
+
+/// Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
+/// ``elements`` (`TrenchElements`).
+///
+/// The structure in it is `WithWalls`, its motion a `TrenchMotion`.
+///
+/// ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
+/// unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,
+/// if it is damped, its `DampingLaw`; the profile unless given.
+/// ``history``, ``history_tolerance``, ``history_memory``, ``stages``, ``kernel_file`` and ``kernels`` are as for
+/// `ElasticGround`, whose defaults they have unless given.
+#[pyclass(name = "TrenchGround", module = "basemat", extends = PyGround, frozen)]
+pub(crate) struct PyTrenchGround {
+    pub(crate) make: Arc<dyn Fn() -> basemat::Result<TrenchGround> + Send + Sync>,
+}
+
+#[pymethods]
+impl PyTrenchGround {
+    #[new]
+    #[pyo3(signature = (soil, elements, *, pressure_at_rest=None, backfill=None, history="auto", history_tolerance=None, history_memory=None, stages=None, kernel_file=None, kernels=None))]
+    fn new(
+        soil: Profile,
+        elements: Bound<'_, PyTrenchElements>,
+        pressure_at_rest: Option<f64>,
+        backfill: Option<Backfill>,
+        history: &str,
+        history_tolerance: Option<f64>,
+        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole)] stages: Option<usize>,
+        kernel_file: Option<PathBuf>,
+        kernels: Option<Bound<'_, PySharedKernels>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let method: HistoryMethod = history.parse().or_raise()?;
+        let mut options = HistoryOptions { tolerance: history_tolerance, ..method.into() };
+        options.memory = history_memory.unwrap_or(options.memory);
+        let stages = stages.map(Stages::from_count).transpose().or_raise()?;
+        let kernels = kernels.map(|kernels| kernels.get().0.clone());
+        let elements = elements.get().0.clone();
+        let make = move || {
+            TrenchGround::new(soil.0.clone(), elements.clone())
+                .with(pressure_at_rest, TrenchGround::with_pressure_at_rest)
+                .with(backfill.as_ref(), |ground, Backfill(width, soil, damping)| {
+                    ground.with_backfill(*width, soil.0, damping.clone())
+                })
+                .and_then(|ground| ground.with_history(options))
+                .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
+                .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
+                .with(kernels.as_ref(), |ground, own| Ok(ground.with_shared_kernels(own)))
+        };
+        let make = Arc::new(make);
+        let again = Arc::clone(&make);
+        let base = PyGround::new(move || again())?;
+        Ok(PyClassInitializer::from(base).add_subclass(Self { make }))
+    }
+
+    /// Dynamic stiffness of a rigid body welded to walls and base, `Impedances`, at ``frequencies`` (array of shape (m,), Hz).
+    ///
+    /// It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
+    fn impedances(&self, py: Python<'_>, frequencies: Numbers) -> PyResult<PyImpedances> {
+        let ground = (self.make)().or_raise()?;
+        let call = move || watched(None, |observer| ground.impedances(&frequencies.0, observer));
+        py.detach(call).map(PyImpedances)
+    }
+
+    /// Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
+    ///
+    /// Shear and pressure waves travel vertically. With backfill they do not, and the call raises an error.
+    fn kinematic_motions(
+        &self,
+        py: Python<'_>,
+        frequencies: Numbers,
+    ) -> PyResult<PyKinematicMotions> {
+        let ground = (self.make)().or_raise()?;
+        let call =
+            move || watched(None, |observer| ground.kinematic_motions(&frequencies.0, observer));
+        py.detach(call).map(PyKinematicMotions)
+    }
+}
+
+/// Motion of a rigid body without mass in a trench for e^(iωt), per unit motion of the free field's surface.
+///
+/// It is the input motion of a structure on springs and dashpots. Complex arrays of shape (m,), one value per frequency.
+/// Translations are of the middle of the base, vertical ones positive down; a positive rotation lowers the right end.
+#[pyclass(name = "KinematicMotions", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyKinematicMotions(Vec<KinematicMotion>);
+
+#[pymethods]
+impl PyKinematicMotions {
+    /// Frequencies: array of shape (m,), Hz.
+    #[getter]
+    fn frequency(&self) -> Array {
+        self.0.iter().map(|at| at.frequency).collect()
+    }
+
+    /// Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio.
+    #[getter]
+    fn horizontal(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.horizontal)).collect()
+    }
+
+    /// Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m.
+    #[getter]
+    fn rotation(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.rotation)).collect()
+    }
+
+    /// Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio.
+    #[getter]
+    fn vertical(&self) -> Array<Complex64> {
+        self.0.iter().map(|at| complex(at.vertical)).collect()
+    }
+}

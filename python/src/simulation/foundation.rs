@@ -1,0 +1,109 @@
+//! A foundation at the end of a step.
+
+use basemat::coupled::Foundation;
+use pyo3::prelude::*;
+
+/// A foundation at the end of a step; forces act from the structure on the soil, per metre
+/// of thickness in the plane, of the whole body in plan (N and N·m).
+#[pyclass(name = "FoundationState", module = "basemat", frozen)]
+#[derive(serde::Serialize, serde::Deserialize)]
+pub(crate) struct PyFoundation(pub(super) Foundation);
+
+#[pymethods]
+impl PyFoundation {
+    /// Numbers of its first element and of the one after its last.
+    #[getter]
+    fn elements(&self) -> (usize, usize) {
+        (self.0.elements.start, self.0.elements.end)
+    }
+
+    /// Horizontal force on the soil, positive to the right, N/m.
+    #[getter]
+    fn shear(&self) -> f64 {
+        self.0.base_shear
+    }
+
+    /// Moment on the soil about its middle, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m.
+    #[getter]
+    fn moment(&self) -> f64 {
+        self.0.base_moment
+    }
+
+    /// Total pressure, N/m.
+    #[getter]
+    fn normal_force(&self) -> f64 {
+        self.0.normal_force
+    }
+
+    /// Ratio of its open length to its length, in plan of areas.
+    #[getter]
+    fn uplifted_fraction(&self) -> f64 {
+        self.0.uplifted_fraction
+    }
+
+    /// Slip averaged over the foundation, m.
+    #[getter]
+    fn mean_slip(&self) -> f64 {
+        self.0.mean_slip
+    }
+
+    /// Rotation of the foundation's chord, counter-clockwise, rad; in plan about y by the right-hand rule.
+    #[getter]
+    fn rotation(&self) -> f64 {
+        self.0.base_rotation
+    }
+
+    /// In plan: force on the soil along y, positive away, N.
+    #[getter]
+    fn shear_across(&self) -> f64 {
+        self.0.shear_across
+    }
+
+    /// In plan: moment on the soil about x, N·m.
+    #[getter]
+    fn moment_across(&self) -> f64 {
+        self.0.moment_across
+    }
+
+    /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
+    #[getter]
+    fn torque(&self) -> f64 {
+        self.0.torque
+    }
+
+    /// In plan: slip along y averaged over the foundation, m.
+    #[getter]
+    fn mean_slip_across(&self) -> f64 {
+        self.0.mean_slip_across
+    }
+
+    /// In plan: rotation about x, rad.
+    #[getter]
+    fn rotation_across(&self) -> f64 {
+        self.0.rotation_across
+    }
+
+    /// In plan: rotation about the vertical axis, counter-clockwise from above, rad.
+    #[getter]
+    fn twist(&self) -> f64 {
+        self.0.twist
+    }
+
+    /// Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader.
+    #[getter]
+    fn force_vector(&self) -> [f64; 3] {
+        self.0.force_vector()
+    }
+
+    /// Moment on the soil about its middle as a vector by the right-hand rule, N·m/m, in plan N·m.
+    #[getter]
+    fn moment_vector(&self) -> [f64; 3] {
+        self.0.moment_vector()
+    }
+
+    /// Rotation as a vector by the right-hand rule, rad.
+    #[getter]
+    fn rotation_vector(&self) -> [f64; 3] {
+        self.0.rotation_vector()
+    }
+}

@@ -1,0 +1,159 @@
+//! A ground written in Python.
+
+use basemat::bem::{ContactElement, Ground, GroundDescription};
+use basemat::coupled::CheckpointError;
+use basemat::{Error, Observer, Result};
+use pyo3::call::PyCallArgs;
+use pyo3::prelude::*;
+
+use super::object::{UserObject, copied};
+use crate::array::{Array, Numbers, Table};
+use crate::error::{keep, refuse, returned};
+
+/// Name of this kind of part in errors.
+const PART: &str = "ground";
+
+/// A Python object with `elements`, `static_compliance()`, `step_compliance(time_step)` and `advance(traction)`, and as it
+/// may be `save()`, `restore(values)` and `shear_wave_speed`.
+pub(crate) struct UserGround {
+    object: UserObject,
+    elements: Vec<ContactElement>,
+    /// Length of a contact vector.
+    size: usize,
+    shear_wave_speed: Option<f64>,
+    /// Step compliance; empty before `prepare`.
+    step: Vec<f64>,
+    /// Displacement at the end of the next step by all tractions so far; `None` after an exception of `advance`.
+    history: Option<Vec<f64>>,
+}
+
+impl UserGround {
+    /// The ground of one simulation: a deep copy of the object, so that simulations do not share its past tractions.
+    ///
+    /// `contact_elements` reads its `elements`.
+    pub(crate) fn new(
+        given: &Bound<'_, PyAny>,
+        contact_elements: fn(&Bound<'_, PyAny>) -> PyResult<Vec<ContactElement>>,
+    ) -> PyResult<Self> {
+        let given = copied(given)?;
+        let elements = given.getattr("elements")?;
+        let elements = if elements.is_callable() { elements.call0()? } else { elements };
+        let elements = contact_elements(&elements).map_err(|reason| {
+            refuse(format!("elements of the ground: {}", reason.value(given.py())))
+        })?;
+        let size = elements.iter().map(|own| own.directions().len()).sum();
+        let speed = given.getattr_opt("shear_wave_speed")?.filter(|speed| !speed.is_none());
+        let name = "shear_wave_speed of the ground";
+        Ok(Self {
+            object: UserObject::new(&given, PART, &["save"])?,
+            elements,
+            size,
+            shear_wave_speed: speed.map(|speed| returned(name, &speed)).transpose()?,
+            step: Vec::new(),
+            history: Some(vec![0.0; size]),
+        })
+    }
+
+    /// The object that is called.
+    pub(crate) fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
+        self.object.bind(py).clone()
+    }
+
+    /// Square matrix that a method returns, row by row.
+    fn matrix(&self, method: &str, arguments: impl for<'py> PyCallArgs<'py>) -> Result<Vec<f64>> {
+        self.object.attempt(|py| {
+            let found = self.object.bind(py).call_method1(method, arguments)?;
+            let Table { columns, rows } = Table::read(&found, "(n, n)")?;
+            let own = [format!("({}, {columns})", rows.len()), format!("({0}, {0})", self.size)];
+            let values = rows.concat();
+            self.object.shaped(method, "an array", values, own).and_then(|own| finite(method, own))
+        })
+    }
+
+    /// Displacement at the end of the next step, after the tractions of a step.
+    fn advanced(&self, traction: &[f64]) -> PyResult<Vec<f64>> {
+        Python::attach(|py| {
+            let Numbers(values) = self.object.call(py, "advance", (Array::from(traction),))?;
+            let own = [values.len(), self.size].map(|count| format!("({count},)"));
+            self.object
+                .shaped("advance", "an array", values, own)
+                .and_then(|own| finite("advance", own))
+        })
+    }
+}
+
+/// The values that a method returned, if they are finite.
+fn finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
+    match values.iter().find(|value| !value.is_finite()) {
+        None => Ok(values),
+        Some(value) => Err(refuse(format!(
+            "{method} of the ground returned the number {value}, but all must be finite"
+        ))),
+    }
+}
+
+/// `values` into a slice of the core, if it is as long.
+fn copy(values: &[f64], to: &mut [f64]) -> Result<()> {
+    if values.len() != to.len() {
+        return Err(Error::part(PART, format!("{} numbers for {}", values.len(), to.len())));
+    }
+    to.copy_from_slice(values);
+    Ok(())
+}
+
+impl Ground for UserGround {
+    fn elements(&self) -> &[ContactElement] {
+        &self.elements
+    }
+
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        _steps: Option<usize>,
+        _observer: &mut Observer<'_>,
+    ) -> Result<()> {
+        self.step = self.matrix("step_compliance", (time_step,))?;
+        self.history = Some(vec![0.0; self.size]);
+        Ok(())
+    }
+
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        copy(&self.step, matrix)
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        let lost = "`advance` failed after the last step: resume an earlier checkpoint";
+        copy(self.history.as_ref().ok_or_else(|| Error::part(PART, lost))?, displacement)
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        // The step is already accepted: an exception ends the run after it.
+        self.history = self.advanced(traction).map_err(keep).ok();
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        copy(&self.matrix("static_compliance", ())?, matrix)
+    }
+
+    fn description(&self) -> GroundDescription {
+        let shear_wave_speed = self.shear_wave_speed;
+        GroundDescription { shear_wave_speed, ..GroundDescription::default() }
+    }
+
+    fn save(&self) -> Result<Vec<f64>> {
+        let Some(history) = self.history.as_ref().filter(|_| self.object.has("save")) else {
+            return Err(CheckpointError::Unsupported { part: PART }.into());
+        };
+        Ok([&history[..], &self.object.saved()?].concat())
+    }
+
+    fn restore(&mut self, _steps: usize, values: &[f64]) -> Result<()> {
+        let Some((history, own)) = values.split_at_checked(self.size) else {
+            return Err(CheckpointError::Corrupt { quantity: "state of the ground" }.into());
+        };
+        let own = (Array::from(own),);
+        self.object.attempt(|py| self.object.bind(py).call_method1("restore", own).map(|_| ()))?;
+        self.history = Some(history.to_vec());
+        Ok(())
+    }
+}
