@@ -91,7 +91,7 @@ fn stiff_solids_move_as_the_rigid_block() {
             let state = own.step().unwrap();
             let wall = state.face(Face::RightWall);
             let [open, lifted] = [wall.open_fraction, state.face(Face::Base).open_fraction];
-            let moved = [top.value(&state.absolute_displacement()), state.base_rotation];
+            let moved = [top.value(state.absolute_displacement()), state.base_rotation];
             let forces = [state.base_shear, state.base_moment, wall.thrust, wall.shear];
             [moved[0], moved[1], forces[0], forces[1], forces[2], forces[3], open, lifted]
         });
@@ -166,7 +166,8 @@ fn weight_on_walls_counts_in_p_delta() {
     let model = model.with_rigid_link(nodes[5], &[nodes[4], nodes[6]]).unwrap();
     let model = model.with_p_delta(STANDARD_GRAVITY).unwrap();
     let weight = 20.0e3 * STANDARD_GRAVITY;
-    let forces: Vec<f64> = model.mesh().elements().filter_map(|own| own.compression()).collect();
+    let forces: Vec<f64> =
+        model.mesh().elements().filter_map(basemat::fem::Element::compression).collect();
     for wall in [0..4, 6..10] {
         for force in &forces[wall] {
             assert!((force / weight - 1.0).abs() < 1e-9, "{forces:?}");

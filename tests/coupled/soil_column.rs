@@ -103,7 +103,7 @@ fn difference(soil: Soil, density: f64, kernels: &SharedKernels) -> (f64, bool) 
     let run = simulation
         .run(STEPS, |state| {
             let surface = record.at(state.time).displacement;
-            let found = top.value(&state.absolute_displacement());
+            let found = top.value(state.absolute_displacement());
             apart = apart.max((found - surface).abs());
             largest = largest.max(surface.abs());
             stuck &= state.modes.iter().all(|mode| *mode == Mode::Stick);
