@@ -99,13 +99,16 @@ fn peaks(
     }))
 }
 
+/// Name and run of a scene, scale of its motion, time step, largest spread relative to the median, and quantities.
+type Row = (&'static str, Scene, f64, f64, f64, &'static [&'static str]);
+
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let mut random = Random(46);
     let count = if short { 6 } else { INPUTS };
     let factors: Vec<f64> = (0..count).map(|_| random.within(0.99, 1.01)).collect();
     let (mut checks, mut panels) = (Vec::new(), Vec::new());
-    // With the largest spread, relative to the median; half the step may change a peak by a third of it.
-    let scenes: [(&str, Scene, f64, f64, f64, &[&str]); 4] = [
+    // Half the step may change a peak by a third of the spread.
+    let scenes: [Row; 4] = [
         ("block, 1.2 El Centro", rocks, 1.2, 2.5e-3, 0.1, &["tilt"]),
         ("block, 1.5 El Centro", rocks, 1.5, 2.5e-3, 0.1, &["tilt"]),
         ("block, 2 El Centro", rocks, 2.0, 2.5e-3, 0.1, &["tilt"]),
