@@ -155,7 +155,7 @@ impl SoilProfile {
     }
 
     /// The soil at the surface; `None` for rigid bedrock without layers.
-    pub(crate) fn surface(&self) -> Option<Soil> {
+    pub fn surface(&self) -> Option<Soil> {
         self.soils().next().map(|(soil, _)| soil)
     }
 

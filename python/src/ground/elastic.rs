@@ -120,7 +120,8 @@ impl PyElasticGround {
         grading: &str,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let elements = Elements::under(&structure, count, self::grading(grading)?)?;
+        let surface = soil.extract::<Profile>()?.0.surface();
+        let elements = Elements::under(&structure, count, self::grading(grading)?, surface)?;
         structure.py().get_type::<Self>().call((soil, elements), options)
     }
 

@@ -65,7 +65,7 @@ impl PySpringGround {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = structure.py();
         let mut arguments =
-            vec![Elements::under(&structure, count, Grading::Uniform)?.into_bound(py)];
+            vec![Elements::under(&structure, count, Grading::Uniform, None)?.into_bound(py)];
         arguments.extend(stiffness);
         py.get_type::<Self>().call(PyTuple::new(py, arguments)?, options)
     }

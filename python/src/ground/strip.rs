@@ -1,5 +1,6 @@
 //! Contact elements: strips of them in the plane, or those of a plan.
 
+use basemat::Soil;
 use basemat::bem::plan::Plan;
 use basemat::bem::{Grading, Strip};
 use basemat::structure::Base;
@@ -59,16 +60,21 @@ pub(super) enum Elements {
 }
 
 impl Elements {
-    /// Elements under the foundations of a structure, or under its faces in plan.
+    /// Elements under the foundations of a structure, or under its faces in plan, on a soil if one is given.
     pub(super) fn under(
         structure: &Bound<'_, PyAny>,
         count: usize,
         grading: Grading,
+        soil: Option<Soil>,
     ) -> PyResult<Py<PyAny>> {
         let py = structure.py();
         let structure = crate::structure::recipe(structure)?().or_raise()?;
         if matches!(structure.base(), Base::Faces(_)) {
-            return PyPlan(Plan::under(&*structure, count).or_raise()?).into_py_any(py);
+            let plan = match soil {
+                Some(soil) => Plan::on_soil(&*structure, count, &soil),
+                None => Plan::under(&*structure, count),
+            };
+            return PyPlan(plan.or_raise()?).into_py_any(py);
         }
         let strips = Strip::under(&*structure, count, grading).or_raise()?;
         strips.into_iter().map(PyStrip).collect::<Vec<_>>().into_py_any(py)

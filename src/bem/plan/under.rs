@@ -16,7 +16,7 @@ impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
     /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because a right overhang depends on
-    /// the soil ([`ElasticGround::under`](crate::bem::ElasticGround::under)). The plan has at least one cell for each
+    /// the soil ([`Plan::on_soil`]). The plan has at least one cell for each
     /// flexible face (two triangles count as one): between cells only the structure holds its nodes. This raises the
     /// number to 1000 cells at most: a base that needs more causes an error or a warning of the build
     /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
@@ -25,6 +25,17 @@ impl Plan {
     /// As for [`Plan::on_faces`].
     pub fn under(structure: &dyn Structure, cells: usize) -> Result<Self> {
         Self::of_base(structure, cells, None)?.map_or_else(|| Self::on_faces(&[], cells), Ok)
+    }
+
+    /// Cells under the faces of a structure on `soil`, as of [`ElasticGround::under`](crate::bem::ElasticGround::under).
+    ///
+    /// Cells under flexible faces extend beyond the outline by the part that is right for this soil.
+    ///
+    /// # Errors
+    /// As for [`Plan::on_faces`]; errors of the structure's stiffness matrix.
+    pub fn on_soil(structure: &dyn Structure, cells: usize, soil: &Soil) -> Result<Self> {
+        let plan = Self::of_base(structure, cells, Some(soil))?;
+        plan.map_or_else(|| Self::on_faces(&[], cells), Ok)
     }
 
     /// Cells under the faces of a structure; `None` for a structure in the plane.
