@@ -227,5 +227,6 @@ fn energy_balance_closes_around_random_trenches() {
     let refused = |error: &Error| matches!(error, Error::Input { .. } | Error::Step { .. });
     assert!(errors.iter().all(|(.., error)| refused(error)), "{errors:?}");
     let all = usize::try_from(trenches * scenes).unwrap();
-    assert!(10 * counts[0] >= 9 * all && counts[1..].iter().all(|own| 2 * own > counts[0]));
+    // A third of the scenes or more open their walls, open their base, slide.
+    assert!(10 * counts[0] >= 9 * all && counts[1..].iter().all(|own| 3 * own > counts[0]));
 }
