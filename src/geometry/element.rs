@@ -125,11 +125,19 @@ impl ContactElement {
 
     /// Components of a vector `[x, y, z]` along the normal and both sides.
     pub(crate) fn components(&self, vector: [f64; 3]) -> [f64; 3] {
+        if self.faces_down() {
+            let [x, y, up] = vector;
+            return [0.0 - up, 0.0 + x, 0.0 + y];
+        }
         self.directions.map(|own| own[0] * vector[0] + own[1] * vector[1] + own[2] * vector[2])
     }
 
     /// The vector `[x, y, z]` with these components along the normal and both sides.
     pub(crate) fn vector(&self, components: [f64; 3]) -> [f64; 3] {
+        if self.faces_down() {
+            let [normal, along, across] = components;
+            return [0.0 + along, 0.0 + across, 0.0 - normal];
+        }
         let [n, t, b] = self.directions;
         let [along_n, along_t, along_b] = components;
         [0, 1, 2].map(|k| n[k] * along_n + t[k] * along_t + b[k] * along_b)

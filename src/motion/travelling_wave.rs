@@ -2,6 +2,8 @@
 
 use super::Record;
 use super::free_field::{FreeField, differenced};
+#[cfg(feature = "embedded")]
+use crate::error::require_part;
 use crate::error::{Result, finite, require};
 
 /// A free field that runs along the surface: u(x, t) = u₀(t − (x − x₀)/c).
@@ -83,9 +85,9 @@ impl TravellingWave {
     /// Slowness (s/m) along x and origin (m) of a wave that runs along x.
     #[cfg(feature = "embedded")]
     pub(crate) fn along(&self) -> Result<[f64; 2]> {
-        let [cos, sin] = self.direction;
-        let needed = "0 or pi: waves of a ground in the plane run along x";
-        require("sine of a wave's azimuth", sin, sin.abs() <= f64::EPSILON, needed)?;
+        let needed = "none: waves of a ground in the plane run along x and move it along x and up";
+        require_part("motion of a wave along y", !self.moves_across(), needed)?;
+        let [cos, _] = self.direction;
         Ok([self.slowness * cos, self.origin * cos])
     }
 

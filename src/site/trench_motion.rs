@@ -34,8 +34,12 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 /// assert!((moved[shear_at_base] - 0.5 * (at(3.975) + at(4.025))).abs() < 2e-6);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+#[derive(Debug, Clone)]
 pub struct TrenchMotion {
-    surface: Box<dyn FreeField>,
+    /// Motion of the surface at the origin, by records that begin earlier by `lead` (s).
+    surface: VerticalIncidence,
+    lead: f64,
+    given: Vec<Record>,
     elements: Vec<ContactElement>,
     soils: Option<Vec<f64>>,
     /// Horizontal slowness (s/m), and the place (m) of the given motion.
@@ -44,9 +48,8 @@ pub struct TrenchMotion {
     components: Vec<Component>,
 }
 
-short_debug! { TrenchMotion; self; slowness: self.slowness, elements: self.elements.len() }
-
 /// The soil's motion by one component of the surface's motion.
+#[derive(Debug, Clone)]
 struct Component {
     /// Time by which the records begin earlier than the motion of the surface, s.
     lead: f64,
@@ -74,7 +77,8 @@ impl TrenchMotion {
         motion: impl Into<VerticalIncidence>,
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
-        let surface = motion.into();
+        let surface: VerticalIncidence = motion.into();
+        let given = surface.records().into_iter().cloned().collect();
         let waves = Waves::new(ground, 0.0)?;
         let records = [&surface.horizontal, &surface.vertical];
         let count = records.iter().flat_map(|own| own.iter()).count();
@@ -90,8 +94,8 @@ impl TrenchMotion {
             let levels = waves.levels(kind, &own, &mut pace)?;
             components.push(Component { lead, drift, levels });
         }
-        let Waves { elements, soils, slowness, .. } = waves;
-        Ok(Self { surface: Box::new(surface), elements, soils, slowness, origin: 0.0, components })
+        let (Waves { elements, soils, slowness, .. }, lead, origin) = (waves, 0.0, 0.0);
+        Ok(Self { surface, lead, given, elements, soils, slowness, origin, components })
     }
 
     /// Waves with the motion of `wave` at the surface: inclined ones, or Rayleigh's wave of a half-plane.
@@ -113,7 +117,7 @@ impl TrenchMotion {
     /// let second = |t: f64| (pulse(t + 0.01) - 2.0 * pulse(t) + pulse(t - 0.01)) / 1e-4;
     /// let record = Record::new(0.01, samples.map(second).collect())?;
     /// let wave = PlaneWave::rayleigh(soil).field_from_horizontal(&record, -6.0)?;
-    /// let motion = TrenchMotion::travelling(&ground, wave, &mut unobserved)?;
+    /// let motion = TrenchMotion::travelling(&ground, &wave, &mut unobserved)?;
     /// let [mut moved, mut impulse] = [vec![0.0; 20], vec![0.0; 20]];
     /// // At −3 m, the middle of the base's left half.
     /// let time = 20.0 + 3.0 / soil.rayleigh_wave_speed();
@@ -128,20 +132,30 @@ impl TrenchMotion {
     /// [`Error::Scene`](crate::Error::Scene) for a wave without records; as for [`new`](Self::new).
     pub fn travelling(
         ground: &TrenchGround,
-        wave: TravellingWave,
+        wave: &TravellingWave,
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let [slowness, origin] = wave.along()?;
         let waves = Waves::new(ground, slowness)?;
         let mut watch = Watch::new("motion at depth", 2 * Pace::PARTS, observer);
-        let (lead, surface) = waves.surface(&wave, origin)?;
+        let (lead, surface) = waves.surface(wave, origin)?;
         let mut components = vec![];
         for (kind, record) in surface.iter().enumerate() {
             let levels = waves.levels(kind, record, &mut Pace::part(&mut watch, kind))?;
             components.push(Component { lead, drift: 0.0, levels });
         }
         let Waves { elements, soils, .. } = waves;
-        Ok(Self { surface: Box::new(wave), elements, soils, slowness, origin, components })
+        let [horizontal, vertical] = surface.map(Some);
+        let surface = VerticalIncidence { horizontal, vertical };
+        let given = wave.records().into_iter().cloned().collect();
+        Ok(Self { surface, lead, given, elements, soils, slowness, origin, components })
+    }
+}
+
+impl TrenchMotion {
+    /// Time of the motion at the origin that is at a place at `time`.
+    fn since(&self, x: f64, time: f64) -> f64 {
+        time - self.slowness * (x - self.origin)
     }
 }
 
@@ -158,7 +172,7 @@ impl Component {
 
 impl FreeField for TrenchMotion {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.displacement(x, time)
+        self.surface.displacement(x, self.lead + self.since(x, time))
     }
 
     fn at_faces(
@@ -180,8 +194,7 @@ impl FreeField for TrenchMotion {
             for component in &self.components {
                 let level = component.level(element);
                 for side in [-APART, APART] {
-                    let x = element.center()[0] + side * half - self.origin;
-                    let since = time - self.slowness * x;
+                    let since = self.since(element.center()[0] + side * half, time);
                     for (k, (sum, record)) in sums.iter_mut().zip(level).enumerate() {
                         let Some(record) = record else { continue };
                         let own = record.at(since + component.lead);
@@ -204,15 +217,11 @@ impl FreeField for TrenchMotion {
         self.soils.as_deref()
     }
 
-    fn moves_across(&self) -> bool {
-        self.surface.moves_across()
-    }
-
     fn records(&self) -> Vec<&Record> {
-        self.surface.records()
+        self.given.iter().collect()
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.velocity(x, time)
+        self.surface.velocity(x, self.lead + self.since(x, time))
     }
 }

@@ -28,7 +28,7 @@ fn pulse() -> Record {
 
 fn motion(profile: impl Into<SoilProfile>, wave: TravellingWave) -> TrenchMotion {
     let ground = TrenchGround::new(profile, elements()).unwrap();
-    TrenchMotion::travelling(&ground, wave, &mut unobserved).unwrap()
+    TrenchMotion::travelling(&ground, &wave, &mut unobserved).unwrap()
 }
 
 /// Vector to the right and up from its normal and tangential components.
@@ -138,7 +138,7 @@ fn a_vertical_travelling_wave_is_the_vertical_one() {
     let ground = TrenchGround::new(profile, elements()).unwrap();
     let vertical = TrenchMotion::new(&ground, surface.clone(), &mut unobserved).unwrap();
     let field = TravellingWave::new(surface, f64::INFINITY, -4.0).unwrap();
-    let travelling = TrenchMotion::travelling(&ground, field, &mut unobserved).unwrap();
+    let travelling = TrenchMotion::travelling(&ground, &field, &mut unobserved).unwrap();
     let mut largest = [0.0_f64; 2];
     for step in 0..50 {
         let time = 0.8 + 0.01 * f64::from(step);
@@ -159,8 +159,8 @@ fn other_waves_are_refused() {
     let field = PlaneWave::sv(soil(), 0.3).unwrap().field_from_horizontal(&pulse(), -4.0).unwrap();
     let ground = TrenchGround::new(soil(), elements()).unwrap();
     let oblique = field.with_azimuth(0.5).unwrap();
-    assert!(TrenchMotion::travelling(&ground, oblique, &mut unobserved).is_err());
+    assert!(TrenchMotion::travelling(&ground, &oblique, &mut unobserved).is_err());
     let fading =
         TravellingWave::new(RickerDisplacement::new(0.1, 0.1, 1.0).unwrap(), 500.0, -4.0).unwrap();
-    assert!(TrenchMotion::travelling(&ground, fading, &mut unobserved).is_err());
+    assert!(TrenchMotion::travelling(&ground, &fading, &mut unobserved).is_err());
 }
