@@ -24,27 +24,25 @@ const SLAB: f64 = -7.0;
 /// Length of beams and sides of solids, m.
 const SIDE: f64 = 0.5;
 
-/// Nodes from a point to another, made where there are none.
-fn line(mesh: &mut Mesh, from: [f64; 2], to: [f64; 2]) -> Result<Vec<usize>> {
-    let way = [0, 1].map(|k| to[k] - from[k]);
-    let count = (way[0].hypot(way[1]) / SIDE).round();
-    (0..=count as usize)
-        .map(|k| {
-            let [x, y] = [0, 1].map(|axis| from[axis] + way[axis] * (k as f64 / count));
-            mesh.node_at(x, y).or_else(|_| mesh.add_node(x, y))
-        })
-        .collect()
+/// Nodes at the ends of `parts` between two points, made where there are none.
+fn line(mesh: &mut Mesh, from: [f64; 2], to: [f64; 2], parts: u32) -> Result<Vec<usize>> {
+    let node = |part: u32| {
+        let share = f64::from(part) / f64::from(parts);
+        let [x, y] = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
+        mesh.node_at(x, y).or_else(|_| mesh.add_node(x, y))
+    };
+    (0..=parts).map(node).collect()
 }
 
 fn culvert() -> Result<FemModel> {
     let mut mesh = Mesh::new();
     let [left, right] = [[-HALF, SLAB], [HALF, SLAB]];
-    let down = line(&mut mesh, [-HALF, 0.0], left)?;
-    let along = line(&mut mesh, left, right)?;
-    let up = line(&mut mesh, right, [HALF, 0.0])?;
+    let down = line(&mut mesh, [-HALF, 0.0], left, 14)?;
+    let along = line(&mut mesh, left, right, 16)?;
+    let up = line(&mut mesh, right, [HALF, 0.0], 14)?;
     let mut rows = vec![];
     for y in [-2.0, -1.5, -1.0, -0.5, 0.0] {
-        rows.push(line(&mut mesh, [-HALF, y], [HALF, y])?);
+        rows.push(line(&mut mesh, [-HALF, y], [HALF, y], 16)?);
     }
     // A metre of concrete, as a strip of a plate.
     let fill = rows.len() - 1;

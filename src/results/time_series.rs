@@ -7,7 +7,9 @@ use super::{Quantity, Recorder};
 use crate::Simulation;
 use crate::bem::ContactElement;
 use crate::coupled::state::sequence::Sequence;
-use crate::coupled::{EnergyBalance, Face, FaceForces, Probe, State};
+use crate::coupled::{EnergyBalance, Probe, State};
+#[cfg(feature = "embedded")]
+use crate::coupled::{Face, FaceForces};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::geometry::ContactLayout;
 use crate::structure::probe::probe_index;
@@ -286,6 +288,7 @@ impl TimeSeries {
     }
 
     /// Forces on a face at each snapshot of the base, as [`State::face`]; none unless [`Recorder::contact`] was set.
+    #[cfg(feature = "embedded")]
     pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
         let on = move |own: ContactFrame<'_>| {
             FaceForces::on(face, &self.elements, own.states, own.modes)

@@ -26,9 +26,9 @@ fn pulse() -> Record {
     Record::new(STEP, (0..400).map(|k| second(STEP * f64::from(k) - 1.0)).collect()).unwrap()
 }
 
-fn motion(profile: impl Into<SoilProfile>, wave: TravellingWave) -> TrenchMotion {
+fn motion(profile: impl Into<SoilProfile>, wave: &TravellingWave) -> TrenchMotion {
     let ground = TrenchGround::new(profile, elements()).unwrap();
-    TrenchMotion::travelling(&ground, &wave, &mut unobserved).unwrap()
+    TrenchMotion::travelling(&ground, wave, &mut unobserved).unwrap()
 }
 
 /// Vector to the right and up from its normal and tangential components.
@@ -91,7 +91,7 @@ fn tractions_are_the_momentum_of_the_soil_within() {
     let [sv, p] = [PlaneWave::sv(soil(), 0.4).unwrap(), PlaneWave::p(soil(), 0.7).unwrap()];
     for wave in [sv, p] {
         let field = wave.field_from_horizontal(&record, -4.0).unwrap();
-        let motion = motion(soil(), field);
+        let motion = motion(soil(), &field);
         let rule = |n: usize| (0..n).map(move |k| (k as f64 + 0.5) / n as f64);
         let mut largest = [0.0_f64; 2];
         let mut checks = vec![];
