@@ -129,7 +129,8 @@ impl TrenchMotion {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Scene`](crate::Error::Scene) for a wave without records; as for [`new`](Self::new).
+    /// [`Error::Scene`](crate::Error::Scene) for a wave without records or with motion along y;
+    /// [`Error::Input`](crate::Error::Input) for one slower than surface waves; as for [`new`](Self::new).
     pub fn travelling(
         ground: &TrenchGround,
         wave: &TravellingWave,

@@ -24,6 +24,8 @@ pub(super) const VALUES: usize = 4;
 const REST: [f64; 2] = [2.0, 32.0];
 /// Part of a record's length over which motion before and after it fades.
 const FADING: f64 = 0.5;
+/// Least velocity along the surface over the lowest shear wave speed: surface waves of layers run at 0.87 or more.
+const SLOWEST: f64 = 0.8;
 /// Places and weights of Gauss's rule on an interval of length one.
 const GAUSS: [[f64; 2]; 4] = [
     [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
@@ -60,6 +62,10 @@ impl<'a> Waves<'a> {
         require_part("backfill", !ground.has_backfill(), needed)?;
         let (profile, bottom) = (ground.profile(), ground.trench_elements().trench().depth());
         profile.check_causal()?;
+        let speeds = profile.soils().map(|(soil, _)| soil.shear_wave_speed());
+        let fits = SLOWEST * speeds.fold(f64::INFINITY, f64::min) * slowness.abs() <= 1.0;
+        let needed = "at least 0.8 of the lowest shear wave speed";
+        require("apparent velocity of a wave", 1.0 / slowness, fits, needed)?;
         let elements = ground.trench_elements().elements();
         let is_left = |own: &&ContactElement| own.directions()[0][0] < -0.5;
         let (mut middles, mut points) = (vec![], vec![]);

@@ -153,7 +153,7 @@ fn a_vertical_travelling_wave_is_the_vertical_one() {
     assert!(largest[0] > 0.0);
 }
 
-/// Waves across the plane, and grounds with backfill, are refused.
+/// Waves across the plane, without records, or slower than surface waves are refused.
 #[test]
 fn other_waves_are_refused() {
     let field = PlaneWave::sv(soil(), 0.3).unwrap().field_from_horizontal(&pulse(), -4.0).unwrap();
