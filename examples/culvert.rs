@@ -24,7 +24,7 @@ const SLAB: f64 = -7.0;
 /// Length of beams and sides of solids, m.
 const SIDE: f64 = 0.5;
 
-/// Nodes at the ends of `parts` between two points, made where there are none.
+/// Nodes at equal distances between two points; adds those that do not exist.
 fn line(mesh: &mut Mesh, from: [f64; 2], to: [f64; 2], parts: u32) -> Result<Vec<usize>> {
     let node = |part: u32| {
         let share = f64::from(part) / f64::from(parts);

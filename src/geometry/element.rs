@@ -1,5 +1,7 @@
 //! Contact element: its place, its directions and its area.
 
+use std::ops::Range;
+
 use super::middle;
 use crate::error::{Result, finite, positive, require};
 
@@ -121,6 +123,14 @@ impl ContactElement {
     /// Whether some of the elements are of walls.
     pub(crate) fn any_wall<'a>(elements: impl IntoIterator<Item = &'a Self>) -> bool {
         elements.into_iter().any(|own| !own.faces_down())
+    }
+
+    /// Elements of the left wall, those that face down, and elements of the right wall, of a list along an outline.
+    pub(crate) fn faces(elements: &[Self]) -> [Range<usize>; 3] {
+        let count = elements.len();
+        let first = elements.iter().position(Self::faces_down).unwrap_or(count);
+        let end = elements.iter().rposition(Self::faces_down).map_or(count, |last| last + 1);
+        [0..first, first..end, end..count]
     }
 
     /// Components of a vector `[x, y, z]` along the normal and both sides.

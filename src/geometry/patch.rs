@@ -42,11 +42,6 @@ impl Patch {
         self.floor.clone()
     }
 
-    /// Elements of the left wall, the floor and the right wall.
-    pub(crate) fn faces(&self) -> [Range<usize>; 3] {
-        [0..self.floor.start, self.floor(), self.floor.end..self.elements.len()]
-    }
-
     /// Whether elements face to the side.
     pub(crate) fn has_walls(&self) -> bool {
         self.floor.len() < self.elements.len()
@@ -100,15 +95,13 @@ impl Patch {
 ///
 /// Returns an error unless they are neighbours in the list.
 fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
-    let first = elements.iter().position(ContactElement::faces_down);
-    let last = elements.iter().rposition(ContactElement::faces_down);
-    let (Some(first), Some(last)) = (first, last) else {
+    let [_, floor, _] = ContactElement::faces(elements);
+    if floor.is_empty() {
         return Err(Error::Scene {
             quantity: "contact elements of the ground",
             needed: "some that face down",
         });
-    };
-    let floor = first..last + 1;
+    }
     if elements[floor.clone()].iter().all(ContactElement::faces_down) {
         return Ok(floor);
     }

@@ -5,6 +5,7 @@ use super::trench_waves::{Level, VALUES, Waves};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
 use crate::error::{Observer, Result, Watch};
+use crate::linalg::gauss;
 use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 
 /// Free field of a trench: waves from below a surface whose motion is known.
@@ -55,12 +56,9 @@ struct Component {
     lead: f64,
     /// Velocity (m/s) of such a record at the beginning of the surface's motion: not part of the motion.
     drift: f64,
-    /// Depth of the middle (m) of each wall element, from the surface down, and of the base.
-    levels: Vec<(f64, Level)>,
+    /// Of the elements of a wall, from the surface down, and of the base.
+    levels: Vec<Level>,
 }
-
-/// Distance of the points of Gauss's rule of two points from the middle, over half the length.
-const APART: f64 = 0.577_350_269_189_625_8;
 
 impl TrenchMotion {
     /// Vertical waves around the trench of `ground`, from the `motion` of the surface without it.
@@ -160,17 +158,6 @@ impl TrenchMotion {
     }
 }
 
-impl Component {
-    /// Level of an element: the one nearest in depth; the last one for the base.
-    fn level(&self, element: &ContactElement) -> &Level {
-        let last = self.levels.len() - 1;
-        let (walls, base) = self.levels.split_at(last);
-        let apart = |(middle, _): &&(f64, Level)| (middle + element.center()[2]).abs();
-        let nearest = walls.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-        &nearest.filter(|_| !element.faces_down()).unwrap_or(&base[0]).1
-    }
-}
-
 impl FreeField for TrenchMotion {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
         self.surface.displacement(x, self.lead + self.since(x, time))
@@ -189,18 +176,21 @@ impl FreeField for TrenchMotion {
         let count = elements.len();
         for (e, element) in elements.iter().enumerate() {
             let is_base = element.faces_down();
-            // Along the base the wave needs time.
-            let half = if is_base && self.slowness != 0.0 { 0.5 * element.length() } else { 0.0 };
+            // Along the base the wave needs time: a rule of two points.
+            let half = 0.5 * element.length() * gauss::rule(2).nodes[1];
+            let is_wide = is_base && self.slowness != 0.0;
+            let points: &[f64] = if is_wide { &[-half, half] } else { &[0.0] };
+            let share = 1.0 / points.len() as f64;
             let mut sums = [0.0; VALUES];
             for component in &self.components {
-                let level = component.level(element);
-                for side in [-APART, APART] {
-                    let since = self.since(element.center()[0] + side * half, time);
+                let level = &component.levels[e.min(count - 1 - e).min(component.levels.len() - 1)];
+                for point in points {
+                    let since = self.since(element.center()[0] + point, time);
                     for (k, (sum, record)) in sums.iter_mut().zip(level).enumerate() {
                         let Some(record) = record else { continue };
                         let own = record.at(since + component.lead);
                         let moved = own.displacement - component.drift * since;
-                        *sum += 0.5 * if k < 2 { moved } else { own.velocity };
+                        *sum += share * if k < 2 { moved } else { own.velocity };
                     }
                 }
             }

@@ -11,7 +11,7 @@ use super::transform::{Contour, ContourPoint, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};
 use crate::error::{Result, Watch, memory, require, require_part};
-use crate::linalg::Complex;
+use crate::linalg::{Complex, gauss};
 use crate::motion::{FreeField, Record, TravellingWave};
 use crate::soil::SoilProfile;
 
@@ -26,13 +26,6 @@ const REST: [f64; 2] = [2.0, 32.0];
 const FADING: f64 = 0.5;
 /// Least velocity along the surface over the lowest shear wave speed: surface waves of layers run at 0.87 or more.
 const SLOWEST: f64 = 0.8;
-/// Places and weights of Gauss's rule on an interval of length one.
-const GAUSS: [[f64; 2]; 4] = [
-    [0.069_431_844_202_973_71, 0.173_927_422_568_726_93],
-    [0.330_009_478_207_571_87, 0.326_072_577_431_273_07],
-    [0.669_990_521_792_428_1, 0.326_072_577_431_273_07],
-    [0.930_568_155_797_026_3, 0.173_927_422_568_726_93],
-];
 
 /// Waves of one horizontal slowness in a profile, down to the base of a trench.
 pub(super) struct Waves<'a> {
@@ -41,8 +34,10 @@ pub(super) struct Waves<'a> {
     pub(super) elements: Vec<ContactElement>,
     /// Numbers that are equal only for equal soils, if they are known.
     pub(super) soils: Option<Vec<f64>>,
-    /// Depth of the middle of each wall element (m), from the surface down, and of the base.
-    middles: Vec<f64>,
+    /// Number of elements of a wall: their levels come first, then the level of the base.
+    walls: usize,
+    /// Depth of the base, m.
+    bottom: f64,
     /// Points on the way down.
     points: Vec<Point>,
 }
@@ -67,9 +62,9 @@ impl<'a> Waves<'a> {
         let needed = "at least 0.8 of the lowest shear wave speed";
         require("apparent velocity of a wave", 1.0 / slowness, fits, needed)?;
         let elements = ground.trench_elements().elements();
-        let is_left = |own: &&ContactElement| own.directions()[0][0] < -0.5;
-        let (mut middles, mut points) = (vec![], vec![]);
-        for own in elements.iter().filter(is_left) {
+        let [left, ..] = ContactElement::faces(&elements);
+        let (walls, mut points) = (left.len(), vec![]);
+        for (level, own) in elements[left].iter().enumerate() {
             let (middle, length) = (-own.center()[2], own.length());
             let (top, bottom) = (middle - 0.5 * length, middle + 0.5 * length);
             let mut start = top;
@@ -79,27 +74,25 @@ impl<'a> Waves<'a> {
                     continue;
                 }
                 let mut passed = 0.0;
-                for [place, weight] in GAUSS {
+                for (place, weight) in gauss::rule(4).points_on_unit_interval() {
                     let weight = weight * height / length;
                     let height = (place - passed) * height;
-                    points.push(Point { level: middles.len(), weight, soil, height });
+                    points.push(Point { level, weight, soil, height });
                     passed = place;
                 }
                 let height = (1.0 - passed) * height;
-                points.push(Point { level: middles.len(), weight: 0.0, soil, height });
+                points.push(Point { level, weight: 0.0, soil, height });
                 start += height;
             }
-            middles.push(middle);
         }
-        points.push(Point { level: middles.len(), weight: 1.0, soil: 0, height: 0.0 });
-        middles.push(bottom);
+        points.push(Point { level: walls, weight: 1.0, soil: 0, height: 0.0 });
         let soils = ground.description().identity;
-        Ok(Self { profile, slowness, elements, soils, middles, points })
+        Ok(Self { profile, slowness, elements, soils, walls, bottom, points })
     }
 
     /// Time (s) that waves take from the base to the surface.
     fn travel(&self) -> f64 {
-        self.profile.above(self.middles[self.middles.len() - 1]).travel_time()
+        self.profile.above(self.bottom).travel_time()
     }
 
     /// Time before and after a record in which waves pass, s.
@@ -155,7 +148,7 @@ impl<'a> Waves<'a> {
         kind: usize,
         surface: &Record,
         pace: &mut Pace<'_, '_>,
-    ) -> Result<Vec<(f64, Level)>> {
+    ) -> Result<Vec<Level>> {
         let (step, samples) = (surface.time_step(), surface.accelerations());
         // Vertical waves have one direction.
         let sought: Vec<usize> =
@@ -163,7 +156,7 @@ impl<'a> Waves<'a> {
         let contour = Contour::new(step, samples.len(), self.travel())?;
         let mut transform = Transform::new(contour, samples)?;
         let (mut moduli, mut values) = (vec![], vec![]);
-        transform.filter(sought.len() * self.middles.len(), true, pace, |places, found| {
+        transform.filter(sought.len() * (self.walls + 1), true, pace, |places, found| {
             for (i, place) in places.iter().enumerate() {
                 self.profile.moduli(place.s, &mut moduli)?;
                 self.values(kind, place.s, &moduli, &mut values);
@@ -174,7 +167,7 @@ impl<'a> Waves<'a> {
             Ok(())
         })?;
         let mut levels = vec![];
-        for (level, middle) in self.middles.iter().enumerate() {
+        for level in 0..=self.walls {
             let mut own = Level::default();
             for (slot, &k) in sought.iter().enumerate() {
                 let mut found = transform.motion(level * sought.len() + slot)?;
@@ -185,7 +178,7 @@ impl<'a> Waves<'a> {
                 found.cut(samples.len());
                 own[k] = Some(Record::new(step, found.samples)?);
             }
-            levels.push((*middle, own));
+            levels.push(own);
         }
         pace.reach(1.0)?;
         Ok(levels)
@@ -202,16 +195,16 @@ impl<'a> Waves<'a> {
         let soils = self.profile.soils().zip(moduli);
         let media: Vec<Medium> =
             soils.map(|((soil, _), modulus)| Medium::new(soil, *modulus, self.slowness)).collect();
-        let (zero, last) = (Complex::default(), self.middles.len() - 1);
+        let zero = Complex::default();
         let mut field: Field = [zero; 4];
         field[kind] = Complex::real(if kind == 0 { 1.0 } else { -1.0 });
         values.clear();
-        values.resize(last + 1, [zero; VALUES]);
+        values.resize(self.walls + 1, [zero; VALUES]);
         for point in &self.points {
             let medium = &media[point.soil];
             field = medium.below(s, point.height, field);
             let [right, down, shear, normal] = field;
-            let across = if point.level < last { medium.sideways(field) } else { normal };
+            let across = if point.level < self.walls { medium.sideways(field) } else { normal };
             let own = [right, -down, shear / s, -(across / s)];
             let sums = values[point.level].iter_mut().zip(own);
             sums.for_each(|(sum, own)| *sum += own.scale(point.weight));

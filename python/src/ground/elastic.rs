@@ -4,13 +4,12 @@ use std::path::PathBuf;
 
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, SharedKernels};
-use basemat::history::{HistoryMethod, HistoryOptions};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::strip::{Elements, grading};
-use super::superclass::contact;
+use super::superclass::{contact, history_options};
 use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole};
 use crate::error::{OrRaise, WithGiven};
@@ -73,9 +72,7 @@ impl PyElasticGround {
         kernel_file: Option<PathBuf>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let method: HistoryMethod = history.parse().or_raise()?;
-        let mut options = HistoryOptions { tolerance: history_tolerance, ..method.into() };
-        options.memory = history_memory.unwrap_or(options.memory);
+        let options = history_options(history, history_tolerance, history_memory)?;
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
         let plan = match &strips {

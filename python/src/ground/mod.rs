@@ -14,6 +14,6 @@ pub(crate) use given::made;
 pub(crate) use plan::PyPlan;
 pub(crate) use spring::PySpringGround;
 pub(crate) use strip::PyStrip;
-pub(crate) use superclass::{PyGround, PyImpedances, heights};
+pub(crate) use superclass::{PyGround, PyImpedances};
 pub(crate) use trench::{PyTrench, PyTrenchElements};
 pub(crate) use trench_ground::{PyKinematicMotions, PyTrenchGround};

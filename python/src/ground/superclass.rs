@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use basemat::bem::layered::{StripContact, StripImpedance};
 use basemat::bem::{ContactElement, Ground};
+use basemat::history::{HistoryMethod, HistoryOptions};
 use numpy::Complex64;
 use pyo3::prelude::*;
 
@@ -11,13 +12,6 @@ use crate::array::{Array, Rows, complex};
 use crate::error::OrRaise;
 use crate::names::choice;
 use crate::recipe::Recipe;
-
-/// Lower and upper end of an element, m above the surface.
-pub(crate) fn heights(element: &ContactElement) -> [f64; 2] {
-    let (middle, half) = (element.center()[2], 0.5 * element.length());
-    let reach = half * element.directions()[1][2].abs();
-    [middle - reach, middle + reach]
-}
 
 /// A ground: a description from which every simulation makes one of its own.
 #[pyclass(name = "Ground", module = "basemat", subclass, frozen, dict)]
@@ -49,7 +43,7 @@ impl PyGround {
     /// Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it.
     #[getter]
     fn heights(&self) -> Rows {
-        Rows(self.elements.iter().map(|e| heights(e).to_vec()).collect())
+        Rows(self.elements.iter().map(|e| e.heights().to_vec()).collect())
     }
 
     /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
@@ -65,6 +59,17 @@ impl PyGround {
 #[pyclass(name = "Impedances", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyImpedances(pub(super) Vec<StripImpedance>);
+
+/// Options of a history by the words of a ground's arguments.
+pub(super) fn history_options(
+    method: &str,
+    tolerance: Option<f64>,
+    memory: Option<usize>,
+) -> PyResult<HistoryOptions> {
+    let method: HistoryMethod = method.parse().or_raise()?;
+    let options = HistoryOptions { tolerance, ..method.into() };
+    Ok(HistoryOptions { memory: memory.unwrap_or(options.memory), ..options })
+}
 
 pub(super) fn contact(name: &str) -> PyResult<StripContact> {
     choice("contact", name, &[("bonded", StripContact::Bonded), ("relaxed", StripContact::Relaxed)])

@@ -6,11 +6,11 @@ use std::sync::Arc;
 use basemat::Complex;
 use basemat::bem::embedded::{KinematicMotion, TrenchGround};
 use basemat::bem::layered::Stages;
-use basemat::history::{HistoryMethod, HistoryOptions};
 use basemat::soil::Relaxation;
 use numpy::Complex64;
 use pyo3::prelude::*;
 
+use super::superclass::history_options;
 use super::{PyGround, PyImpedances, PySharedKernels, PyTrenchElements};
 use crate::array::{Array, Numbers, complex, whole};
 use crate::error::{OrRaise, WithGiven};
@@ -88,9 +88,7 @@ impl PyTrenchGround {
         kernel_file: Option<PathBuf>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let method: HistoryMethod = history.parse().or_raise()?;
-        let mut options = HistoryOptions { tolerance: history_tolerance, ..method.into() };
-        options.memory = history_memory.unwrap_or(options.memory);
+        let options = history_options(history, history_tolerance, history_memory)?;
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
         let elements = elements.get().0.clone();

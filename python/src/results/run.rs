@@ -12,7 +12,6 @@ use super::shape::shape;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
 use crate::array::{Array, Named, Numbers, Rows};
 use crate::error::{OrRaise, in_python, refuse, warn};
-use crate::ground::heights;
 use crate::html::preformatted;
 use crate::motion::{PyRecord, PySpectrum, coarse};
 use crate::ticker::watched;
@@ -235,7 +234,7 @@ impl PyRun {
     /// Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it.
     #[getter]
     fn heights(&self) -> Rows {
-        Rows(self.run.envelope.iter().map(|own| heights(&own.element).to_vec()).collect())
+        Rows(self.run.envelope.iter().map(|own| own.element.heights().to_vec()).collect())
     }
 
     /// `FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without

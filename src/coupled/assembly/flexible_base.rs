@@ -23,7 +23,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{axis_name, far_ends, in_a_row};
+use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
 use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Triplets};
 
@@ -138,7 +138,7 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
 /// A foundation without walls is one face.
 fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
     base.foundations().enumerate().flat_map(|(foundation, (nodes, own))| {
-        let faces = base.elements().faces().into_iter();
+        let faces = ContactElement::faces(base.elements()).into_iter();
         let parts = faces.map(move |face| face.start.max(own.start)..face.end.min(own.end));
         parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
     })

@@ -56,15 +56,14 @@ impl Sampler<'_> {
         let elements = self.ground.elements();
         let count = elements.len();
         // Walls of a base do not count.
-        let first = elements.iter().position(ContactElement::faces_down).unwrap_or(0);
-        let last = elements.iter().rposition(ContactElement::faces_down).unwrap_or(count - 1);
+        let [_, floor, _] = ContactElement::faces(elements);
         let layout = ContactLayout::for_elements(elements);
         let mut field = vec![0.0; layout.len()];
         let [mut difference, mut sum] = [0.0; 2];
         for time in self.instants() {
             self.ground.free_field(self.motion, time, &mut field);
             for component in field.chunks_exact(count) {
-                let (first, last) = (component[first], component[last]);
+                let (first, last) = (component[floor.start], component[floor.end - 1]);
                 difference += (last - first).powi(2);
                 sum += 0.5 * (first * first + last * last);
             }

@@ -1,7 +1,7 @@
 //! Forces between soil and each face of a structure in the ground.
 
 use crate::coupled::state::State;
-use crate::geometry::ContactElement;
+use crate::geometry::{ContactElement, middle};
 use crate::interface::{ContactState, Mode};
 
 /// Face of a structure in the ground, in the order of the outline.
@@ -15,17 +15,6 @@ pub enum Face {
     Base,
     /// Wall on the right.
     RightWall,
-}
-
-impl Face {
-    fn has(self, element: &ContactElement) -> bool {
-        let into_soil = element.directions()[0];
-        match self {
-            Self::LeftWall => into_soil[0] < -0.5,
-            Self::Base => element.faces_down(),
-            Self::RightWall => into_soil[0] > 0.5,
-        }
-    }
 }
 
 /// Forces on the soil behind one face, per metre.
@@ -85,15 +74,15 @@ impl FaceForces {
         contact: &[ContactState],
         modes: &[Mode],
     ) -> Self {
-        let mut floor = elements.iter().filter(|own| own.faces_down());
-        let bottom = floor.clone().next().map_or(0.0, |own| own.center()[2]);
-        let left = floor.clone().next().map_or(0.0, ContactElement::left);
-        let middle = 0.5 * (left + floor.next_back().map_or(0.0, ContactElement::right));
+        let faces = ContactElement::faces(elements);
+        let floor = &elements[faces[Face::Base as usize].clone()];
+        let bottom = floor.first().map_or(0.0, |own| own.center()[2]);
+        let ends =
+            [floor.first().map(ContactElement::left), floor.last().map(ContactElement::right)];
+        let middle = middle(ends.map(Option::unwrap_or_default));
         let [mut thrust, mut shear, mut moment, mut open, mut length] = [0.0; 5];
-        for (element, (state, mode)) in elements.iter().zip(contact.iter().zip(modes)) {
-            if !face.has(element) {
-                continue;
-            }
+        for e in faces[face as usize].clone() {
+            let (element, state) = (&elements[e], &contact[e]);
             let area = element.area();
             let [x, _, z] = element.center();
             let arm = if face == Face::Base { x - middle } else { z - bottom };
@@ -101,7 +90,7 @@ impl FaceForces {
             shear += area * state.shear;
             moment += area * state.pressure * arm;
             length += area;
-            if !mode.is_closed() {
+            if !modes[e].is_closed() {
                 open += area;
             }
         }

@@ -181,7 +181,7 @@ impl Foundation {
 
 /// A vector in the axes of the scene from its components along x, y and up.
 ///
-/// Axes of the plane point to the right, up and towards the reader: what is along y in plan is last there.
+/// In the plane axes point to the right, up and towards the reader. The component along y comes last there.
 pub(crate) fn in_axes(in_plan: bool, [x, y, up]: [f64; SPACE]) -> [f64; SPACE] {
     if in_plan { [x, y, up] } else { [x, up, y] }
 }
