@@ -185,10 +185,11 @@ impl Parts {
         coefficients.check()?;
         let [x, y] = elements.center();
         let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
+        // Before the ground is prepared, which can take long.
+        let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
         let soil = Arc::new(Thinned::new(soil, start_motion.len()));
         Ok(Self {
             structure,

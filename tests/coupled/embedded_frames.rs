@@ -276,12 +276,12 @@ fn a_motion_made_for_another_ground_is_refused() {
         let fill = Soil::from_shear_wave_speed(100.0, 0.3, 1800.0).unwrap();
         ground.with_backfill(3.0, fill, basemat::soil::Elastic).unwrap()
     };
+    let made_for = TrenchGround::new(layered(8.0), elements(DEPTH)).unwrap();
+    let motion = TrenchMotion::new(&made_for, el_centro_1940(), &mut unobserved).unwrap();
     let build = |ground: TrenchGround| {
-        let made_for = TrenchGround::new(layered(8.0), elements(DEPTH)).unwrap();
-        let motion = TrenchMotion::new(&made_for, el_centro_1940(), &mut unobserved).unwrap();
         let builder = Simulation::builder(0.05).structure(block()).expected_steps(1);
         let laws: Vec<Box<dyn InterfaceLaw>> = vec![Box::new(Coulomb::new(0.5).unwrap())];
-        builder.ground(ground).interfaces(laws).motion(motion).build()
+        builder.ground(ground).interfaces(laws).motion(motion.clone()).build()
     };
     assert!(build(ground(layered(8.0), DEPTH)).is_ok());
     for other in [
