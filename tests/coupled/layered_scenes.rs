@@ -1,5 +1,5 @@
 //! GOAL: no energy is lost or found on layered ground, whatever its scales.
-//! SCENE: 200 blocks on one to three layers, uplifting and sliding; steps from 0.02 to 50 elements
+//! SCENE: 60 blocks (HEAVY_TESTS: 200) on one to three layers, uplifting and sliding; steps from 0.02 to 50 elements
 //! per wave, ν up to 0.4999, contrasts from 1 to 100, layers from 1/20 of an element to 100 bases,
 //! damping from 0 to 20 %.
 //! REFERENCE: the energy balance.
@@ -13,9 +13,9 @@ use basemat::soil::{GeneralizedMaxwell, KelvinVoigt, SoilProfile};
 use basemat::structure::RigidBlock;
 use basemat::{Result, Soil};
 
+use basemat_problems::heavy;
 use basemat_problems::random::Random;
 
-const SCENES: u64 = 200;
 const STEPS: usize = 60;
 const WIDTH: f64 = 4.0;
 
@@ -85,13 +85,14 @@ fn run(seed: u64) -> Result<(f64, bool, bool)> {
 #[test]
 fn energy_balance_close_over_all_scales() {
     let (mut worst, mut opened, mut slid) = (0.0_f64, 0, 0);
-    for seed in 0..SCENES {
+    let scenes = if heavy() { 200 } else { 60 };
+    for seed in 0..scenes {
         let (residual, open, slide) = run(seed).unwrap_or_else(|e| panic!("scene {seed}: {e}"));
         assert!(residual < 1e-9, "scene {seed}: {residual:e}");
         worst = worst.max(residual);
-        opened += usize::from(open);
-        slid += usize::from(slide);
+        opened += u64::from(open);
+        slid += u64::from(slide);
     }
     println!("worst {worst:e}; {opened} opened, {slid} slid");
-    assert!(opened > 100 && slid > 100, "{opened} opened, {slid} slid");
+    assert!(opened > scenes / 2 && slid > scenes / 2, "{opened} opened, {slid} slid");
 }

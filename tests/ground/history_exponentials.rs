@@ -11,6 +11,7 @@ use basemat::history::{
 };
 use basemat::{Error, MemoryError, Soil, unobserved};
 
+use basemat_problems::heavy;
 use basemat_problems::passivity::Scene;
 use basemat_problems::random::Random;
 
@@ -162,7 +163,7 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
 
 #[test]
 fn random_tractions_never_extract_energy() {
-    let steps = if std::env::var_os("HEAVY_TESTS").is_some() { 8000 } else { 2000 };
+    let steps = if heavy() { 8000 } else { 2000 };
     let (mut least, mut largest) = (f64::INFINITY, 0.0_f64);
     for beta in [0.25, 0.5, 2.0, 50.0] {
         for poisson in [-0.5, 0.0, 1.0 / 3.0, 0.4999] {

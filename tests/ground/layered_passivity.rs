@@ -1,6 +1,6 @@
 //! GOAL: layered soil operators never give energy away.
-//! SCENE: layers on rock and on a rigid base, damped or not; time steps cΔt/l from 0.02 to 50;
-//! tractions that take out all they can.
+//! SCENE: layers on rock and on a rigid base, damped or not; three time steps cΔt/l from 0.02 to 50
+//! for each (HEAVY_TESTS: six); tractions that take out all they can.
 //! REFERENCE: zero work.
 
 use basemat::Soil;
@@ -10,6 +10,7 @@ use basemat::history::ConvolutionWeights;
 use basemat::soil::{Elastic, SoilProfile};
 
 use basemat_problems::dense::solve;
+use basemat_problems::heavy;
 use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 const STEPS: usize = 256;
@@ -94,6 +95,7 @@ fn an_adversary_extracts_no_energy() {
             .with_layer(Soil::from_shear_wave_speed(0.5, 0.45, 0.9).unwrap(), 1.0)
             .unwrap();
     let mut worst = f64::INFINITY;
+    let mut number = 0;
     for (name, profile) in [
         ("elastic layer on rock", p1(Elastic, Elastic)),
         ("damped layer on rock", p1(gmb(5), gmb(1))),
@@ -104,6 +106,11 @@ fn an_adversary_extracts_no_energy() {
         for (grading, stages) in [(Grading::Uniform, Stages::Two), (Grading::Cosine, Stages::Three)]
         {
             for ratio in [0.02, 0.1, 0.5, 2.0, 10.0, 50.0] {
+                number += 1;
+                // Each profile and grading has every second ratio, and its neighbour has the others.
+                if !heavy() && (number + number / 6) % 2 == 0 {
+                    continue;
+                }
                 let strip = Strip::new(-1.0..1.0, 5, grading).unwrap();
                 let ground = two_stages(profile.clone(), &strip).with_stages(stages);
                 let least = least_work(&matrices(&*ground.weights(ratio * 0.4).unwrap()));

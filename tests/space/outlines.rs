@@ -5,6 +5,8 @@ use basemat::interface::Coulomb;
 use basemat::structure::RigidBody;
 use basemat::{Simulation, Soil};
 
+use basemat_problems::heavy;
+
 const POISSON: f64 = 0.3;
 const SHEAR_MODULUS: f64 = 80e6;
 const MASS: f64 = 1e5;
@@ -45,7 +47,6 @@ fn settlements_fall_steadily_to_their_closed_form() {
     let rounder = |corners: usize| [1.0, 1.0 + 0.0212 * 16.0 / (corners * corners) as f64];
     let exact = |value: f64| [value, value];
     let cylinder = RigidBody::cylinder(1.0, 2.0, 1000.0).unwrap();
-    let heavy = std::env::var_os("HEAVY_TESTS").is_some();
     let shapes = [
         ("cylinder", cylinder, exact(4.0), 0.004),
         ("square, 10 degrees", square(10.0), exact(4.6092), 0.005),
@@ -54,7 +55,7 @@ fn settlements_fall_steadily_to_their_closed_form() {
         ("hexagon", body(polygon(6, 1.0, 0.0)), rounder(6).map(|x| x * disc_of(6)), 0.005),
         ("octagon", body(polygon(8, 1.0, 0.0)), rounder(8).map(|x| x * disc_of(8)), 0.005),
     ];
-    for (name, body, [low, high], gate) in shapes.into_iter().step_by(if heavy { 1 } else { 2 }) {
+    for (name, body, [low, high], gate) in shapes.into_iter().step_by(if heavy() { 1 } else { 2 }) {
         let found = [4, 6, 8, 12, 16].map(|cells| stiffness(&body, cells));
         println!("{name}: {:.4?}", found.map(|k| k / low - 1.0));
         assert!(found.is_sorted_by(|coarse, fine| fine < coarse), "{name} {found:?}");

@@ -10,6 +10,11 @@
     reason = "not published"
 )]
 
+/// Whether tests take all their scenes, as every night: `HEAVY_TESTS` is set.
+pub fn heavy() -> bool {
+    std::env::var_os("HEAVY_TESTS").is_some()
+}
+
 pub mod block_on_springs;
 pub mod bricks;
 pub mod chatter;
