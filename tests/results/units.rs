@@ -189,6 +189,8 @@ fn damping_that_brakes_a_sliding_block_is_told() {
     let (rate, loss) = told.unwrap();
     assert!((rate - 0.5).abs() < 1e-9);
     assert!((loss - (1.0 - braked / free)).abs() < 0.05, "{loss} {braked} {free}");
-    // A hundredth of that brakes by half a per cent.
-    assert_eq!(slid(0.005).1, None);
+    // A hundredth of that brakes by half a per cent; rounding does not brake.
+    for damping in [0.005, 1e-9, 1e-12, 1e-14, 1e-16] {
+        assert_eq!(slid(damping).1, None, "{damping}");
+    }
 }

@@ -197,7 +197,8 @@ impl Warning {
         // Sliding to rest against friction takes ln(1 + x)/rate, with x the damping force over friction at the
         // start. It covers 2 (1 − ln(1 + x)/x)/x of the distance without damping.
         let x = (rate * longest).exp_m1();
-        let loss = 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x;
+        // The formula cancels where x is small; its series starts with 2x/3.
+        let loss = if x < 1e-3 { 2.0 / 3.0 * x } else { 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x };
         (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
     }
 
