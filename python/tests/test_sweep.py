@@ -175,6 +175,14 @@ def test_a_parameter_called_error_is_refused_before_anything_runs() -> None:
     assert made == []
 
 
+@pytest.mark.parametrize("value", [1.0, "sand"])
+def test_a_parameter_with_a_value_in_place_of_a_list_is_refused(value: object) -> None:
+    made: list[object] = []
+    with pytest.raises(bm.InputError, match=f"grid: soil is {value!r}, but must be a list of values"):
+        bm.sweep(lambda **case: made.append(case), {"soil": value})
+    assert made == []
+
+
 def test_a_result_with_the_name_of_another_column_is_an_error_of_its_row() -> None:
     results = {2: {"a": 0.0, "b": 0.0}, 3: {"b": 5.0}, 4: {"error": "none"}}
     table = bm.sweep(lambda a: results[a], {"a": [2, 3, 4]})
@@ -213,6 +221,8 @@ def test_files_of_shards_merge_to_the_table(tmp_path: Path) -> None:
     assert heading == "case,width,soil,area,flat,none,error"
     assert first.startswith("# basemat sweep 1 check sum ") and int(first[-16:], 16)
     assert row == "0,4.0,sand,5.333333333333333,1.0,,"
+    read = pandas.read_csv(tmp_path / "whole.csv", skiprows=1)
+    assert read["area"].dropna().tolist() == right["area"].tolist() and read["soil"].tolist() == merged["soil"].tolist()
 
     with pytest.raises(bm.FileError, match=r"3 of the sweep's cases missing: .*shard 1/2"):
         bm.merge(tmp_path / "0.csv", AREAS)

@@ -6,7 +6,7 @@ import itertools
 import math
 import os
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import (
     BrokenExecutor,
     Future,
@@ -36,9 +36,13 @@ Grid = list[tuple[str, list[Any]]]
 
 def parameters_of(grid: Any) -> Grid | None:
     """Names and values of a grid that is a mapping."""
-    if isinstance(grid, Mapping):
-        return [(name, list(values)) for name, values in grid.items()]
-    return None
+    if not isinstance(grid, Mapping):
+        return None
+    for name, values in grid.items():
+        # A text by itself would be a case for each letter.
+        if isinstance(values, str) or not isinstance(values, Iterable):
+            raise InputError(f"grid: {name} is {values!r}, but must be a list of values")
+    return [(name, list(values)) for name, values in grid.items()]
 
 
 def cases_of(grid: Any, parameters: Grid | None) -> list[dict[str, Any]]:
@@ -106,10 +110,11 @@ def sweep(
         progress: True for a line on stderr, or a function ``(cases done, cases in all)``.
         shard: ``(index, of)``: only case ``index`` and every ``of``-th one after it, from 0; the
             frame's index has the numbers of the cases. All cases unless given.
-        file: path of a file of comma-separated values that is written when all cases are done, with
-            a check sum, as Rust's sweeps write it: `merge` and Rust read it. The
-            grid must be a mapping to numbers or texts, and results must be numbers. If it cannot be
-            written, the frame is the attribute ``table`` of the error. None unless given.
+        file: path of a file of comma-separated values that is written when all cases are done, as
+            Rust's sweeps write it: `merge` and Rust read it, and pandas below its first line, a check
+            sum: ``read_csv(file, skiprows=1)``. The grid must be a mapping to numbers or texts, and
+            results must be numbers. If it cannot be written, the frame is the attribute ``table`` of
+            the error. None unless given.
 
     Returns:
         Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
