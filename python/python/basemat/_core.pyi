@@ -939,8 +939,8 @@ class SoilColumn:
         """
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-        "within", as long. A `BasematWarning` gives the size of what comes before or after and is
-        cut off, from 1e-4 of the peak on: `Record.padded` makes room for it.
+        "within", as long. A `BasematWarning` gives the size, relative to the peak, of what comes before or after
+        and is cut off, from 1e-4 on: `Record.padded` makes room for it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
@@ -1297,7 +1297,8 @@ class Summary:
     @property
     def least_overturning_safety(self) -> Peak:
         """Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
-        left or the right edge, and "overturning_safety_across", over the front or the back one.
+        left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
+        middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
         """
     @property
     def residual_slip_across(self) -> float:
@@ -1414,8 +1415,8 @@ class Extremes:
 class Run(Summary):
     """A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
 
-    ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
-    a page for a report.
+    ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
+    printed, a run is a page for a report.
     """
 
     @property
@@ -1976,7 +1977,7 @@ class Simulation:
             under it. Ground and interface are then left out, but for the places of the contact elements.
             False by default; `interaction` compares both.
         progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
-            layered ground are computed for the expected steps; none unless given.
+            ground with layers or a trench are computed for the expected steps; none unless given.
     """
 
     def __new__(

@@ -259,8 +259,8 @@ impl PyColumn {
     }
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
-    /// "within", as long. A `BasematWarning` gives the size of what comes before or after and is
-    /// cut off, from 1e-4 of the peak on: `Record.padded` makes room for it.
+    /// "within", as long. A `BasematWarning` gives the size, relative to the peak, of what comes before or after
+    /// and is cut off, from 1e-4 on: `Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own, observer| {

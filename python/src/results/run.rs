@@ -18,8 +18,8 @@ use crate::ticker::watched;
 
 /// A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
-/// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``; printed, a run is
-/// a page for a report.
+/// ``run["base_shear"]`` is the time series of a scalar or a probe at ``run.time``, ``list(run.series)`` has all names;
+/// printed, a run is a page for a report.
 #[pyclass(name = "Run", module = "basemat", frozen, extends = PySummary)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyRun {

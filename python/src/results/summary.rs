@@ -113,7 +113,8 @@ impl PySummary {
     }
 
     /// Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
-    /// left or the right edge, and "overturning_safety_across", over the front or the back one.
+    /// left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
+    /// middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
         let [along, across] = [self.0.overturning_safety, self.0.overturning_safety_across];

@@ -46,7 +46,7 @@ use crate::ticker::{progress_function, watched};
 ///         under it. Ground and interface are then left out, but for the places of the contact elements.
 ///         False by default; `interaction` compares both.
 ///     progress: True for a line on stderr, or a function ``(parts done, parts in all)``, while the coefficients of a
-///         layered ground are computed for the expected steps; none unless given.
+///         ground with layers or a trench are computed for the expected steps; none unless given.
 #[pyclass(name = "Simulation", module = "basemat", frozen)]
 pub(crate) struct PySimulation {
     simulation: Mutex<Simulation>,
