@@ -89,6 +89,7 @@ def of_fclib(path):
 def main():
     source, target = (Path(name) for name in sys.argv[1:3])
     target.mkdir(parents=True, exist_ok=True)
+    written = set()
     for path in sorted(source.iterdir()):
         # Text files of global problems have another layout.
         if path.name.lower().startswith("gfc") and "condensed" not in path.name:
@@ -106,8 +107,13 @@ def main():
         lines = [f"{dimension} {len(friction)} {float(eigenvalues[0] / eigenvalues[-1])!r}", friction, velocity[order]]
         lines += list(matrix[np.ix_(order, order)])
         text = [line if isinstance(line, str) else " ".join(repr(float(value)) for value in line) for line in lines]
+        text = "\n".join(text) + "\n"
+        # Some are there twice, with blocks and without.
+        if text in written:
+            continue
+        written.add(text)
         name = path.name.removesuffix(".dat").removesuffix(".hdf5")
-        (target / f"{name}.txt").write_text("\n".join(text) + "\n")
+        (target / f"{name}.txt").write_text(text)
     print(f"problems in {target}")
 
 
