@@ -17,6 +17,7 @@ mod document;
 mod elements;
 mod embedded;
 mod figure;
+mod footing_formulas;
 mod fragility;
 mod full_plane;
 mod history;
@@ -86,10 +87,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         Study::ContactChatter(options) => contact_chatter::run(&options),
-        Study::ContactProblems(options) => {
-            contact_problems::run(&options);
-            Ok(())
-        }
+        Study::ContactProblems(options) => contact_problems::run(&options),
         Study::HistoryCost(options) => history::cost(&options),
         Study::HistoryExponentials(options) => history::exponentials(&options),
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),

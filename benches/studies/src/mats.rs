@@ -25,6 +25,7 @@ use plotters::prelude::SeriesLabelPosition;
 use crate::AnyError;
 use crate::document::splice;
 use crate::figure::{BLUE, Figure, GREEN, Panel, RED};
+use crate::footing_formulas::pais_kausel;
 
 /// Mats in plan beside plane strain, and their error against run time.
 #[derive(Debug, clap::Args)]
@@ -67,18 +68,6 @@ const SCALE: f64 = 1.5;
 const TOWER: f64 = 25.0;
 const GENTLE: f64 = 0.6;
 
-/// Static stiffness of a rigid rectangle on the surface by Pais and Kausel, "Approximate formulas for dynamic
-/// stiffnesses of rigid foundations", Soil Dynamics and Earthquake Engineering 7 (1988): sway across the longer side,
-/// heave, rocking about the longer axis.
-fn pais_kausel(soil: Soil, half: f64, aspect: f64) -> [f64; 3] {
-    let (modulus, poisson) = (soil.shear_modulus(), soil.poisson());
-    [
-        modulus * half / (2.0 - poisson) * (6.8 * aspect.powf(0.65) + 0.8 * aspect + 1.6),
-        modulus * half / (1.0 - poisson) * (3.1 * aspect.powf(0.75) + 1.6),
-        modulus * half.powi(3) / (1.0 - poisson) * (3.2 * aspect + 0.8),
-    ]
-}
-
 /// Springs and dashpots of a strip as long as the mat, divided by the mat's.
 fn stiffness(short: bool) -> Result<String, AnyError> {
     let soil = soil()?;
@@ -93,10 +82,11 @@ fn stiffness(short: bool) -> Result<String, AnyError> {
         let mat = Plan::rectangle(-HALF..HALF, -HALF * aspect..HALF * aspect, cells)?;
         let all = [0.0, frequencies[0], frequencies[1]];
         let mats = impedances_in_plan(&profile, &mat, &all, StripContact::Bonded, &mut unobserved)?;
-        let formulas = pais_kausel(soil, HALF, aspect);
+        let formulas = pais_kausel(soil.poisson(), aspect, 0.0);
+        let arms = [1.0, 1.0, HALF * HALF].map(|arm| soil.shear_modulus() * HALF * arm);
         for (k, name) in ["sway", "heave", "rocking"].into_iter().enumerate() {
             let axis = [0, 2, 4][k];
-            let known = mats[0].matrix[axis][axis].re / formulas[k];
+            let known = mats[0].matrix[axis][axis].re / (arms[k] * formulas[[0, 2, 3][k]].re);
             for ((mat, strip), a0) in mats[1..].iter().zip(&strips).zip(FREQUENCIES) {
                 let mat = mat.matrix[axis][axis];
                 let strip = [strip.horizontal, strip.vertical, strip.rocking][k];

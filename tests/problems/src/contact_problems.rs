@@ -1,15 +1,14 @@
 //! Contact problems of single steps: a ground with any compliance matrix under a body too heavy to
 //! move. The solution of the simulation is compared with all that brute force finds.
 
-use std::sync::{Arc, Mutex};
-
 use basemat::bem::{ContactElement, ElasticGround, Ground, Strip};
 use basemat::contact::SearchMethod;
 use basemat::coupled::State;
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
-use basemat::{Observer, Result, Simulation, Soil, unobserved};
+use basemat::{Simulation, Soil, unobserved};
 
+use super::prescribed::Prescribed;
 use super::random::Random;
 
 /// Steps of a sequence: problems with the same matrix, each from where the last one ended.
@@ -18,40 +17,6 @@ pub const STEPS: usize = 20;
 const DISTINCT: f64 = 1e-6;
 /// Tolerance of brute force, relative to the largest traction and to the largest jump.
 const SLACK: f64 = 1e-10;
-
-/// A ground without memory, whose answer to tractions is `matrix` and whose motion in the next step
-/// is `motion` (2Q each: normal components down).
-struct Prescribed {
-    elements: Vec<ContactElement>,
-    matrix: Vec<f64>,
-    motion: Arc<Mutex<Vec<f64>>>,
-}
-
-impl Ground for Prescribed {
-    fn elements(&self) -> &[ContactElement] {
-        &self.elements
-    }
-
-    fn prepare(&mut self, _: f64, _: Option<usize>, _: &mut Observer<'_>) -> Result<()> {
-        Ok(())
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        matrix.copy_from_slice(&self.matrix);
-        Ok(())
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        displacement.copy_from_slice(&self.motion.lock().unwrap());
-        Ok(())
-    }
-
-    fn commit(&mut self, _: &[f64]) {}
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.step_compliance(matrix)
-    }
-}
 
 /// Delassus operator of a rigid block on a half-plane, and its elements.
 fn of_a_scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<ContactElement>) {
@@ -306,9 +271,8 @@ pub fn sequence(count: usize, friction: f64, real: bool, random: &mut Random) ->
         (invented(count, random), Strip::uniform(0.0..count as f64, count).unwrap().elements())
     };
     let size = 2 * count;
-    let motion = Arc::new(Mutex::new(vec![0.0; size]));
     let (left, right) = (elements[0].left(), elements[count - 1].right());
-    let ground = Prescribed { elements, matrix: matrix.clone(), motion: Arc::clone(&motion) };
+    let (ground, motion) = Prescribed::new(elements, matrix.clone());
     let body = RigidBlock::from_mass(right - left, 1e60, 1e60, 0.0).unwrap();
     let mut simulation = Simulation::builder(1.0)
         .structure(body.centered_at(0.5 * (left + right)).unwrap())

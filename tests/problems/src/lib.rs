@@ -30,6 +30,7 @@ pub mod impedance;
 pub mod laws_with_memory;
 pub mod passivity;
 pub mod patch;
+pub mod prescribed;
 pub mod profiles;
 pub mod random;
 pub mod rigid_strip;

@@ -1,4 +1,84 @@
-//! A rocking block on a soil that yields without inertia.
+//! Rigid bodies that rock on a rigid base, and on a soil that yields without inertia.
+
+use basemat::motion::STANDARD_GRAVITY;
+
+use crate::series::whole;
+
+/// A rigid body on two corners.
+#[derive(Debug, Clone, Copy)]
+pub struct Rocker {
+    /// Of the base, m.
+    pub half_width: f64,
+    /// kg/m.
+    pub mass: f64,
+    /// Of the centre of gravity, m.
+    pub height: f64,
+    /// About the middle of the base, kg m²/m.
+    pub inertia: f64,
+}
+
+impl Rocker {
+    /// N/m.
+    pub fn weight(&self) -> f64 {
+        self.mass * STANDARD_GRAVITY
+    }
+
+    /// Housner's block for small tilts under a moment, N m/m by time: tilts every `sample` seconds, and the times of impacts.
+    ///
+    /// About the corner that is down, I θ″ = M ∓ N(b ∓ hθ); at an impact the moment of momentum about the new corner is
+    /// kept, so the rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
+    pub fn tilts(
+        &self,
+        push: impl Fn(f64) -> f64,
+        sample: f64,
+        duration: f64,
+    ) -> (Vec<f64>, Vec<f64>) {
+        let Self { half_width, mass, height, inertia } = *self;
+        let moment_of_inertia = inertia + mass * half_width * half_width;
+        let kept = (inertia - mass * half_width * half_width) / moment_of_inertia;
+        let (stable, leaning) = (self.weight() * half_width, self.weight() * height);
+        // Side: +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
+        let acceleration = |time: f64, tilt: f64, side: f64| {
+            (push(time) - side * stable + leaning * tilt) / moment_of_inertia
+        };
+        let substeps = 2000;
+        let step = sample / f64::from(substeps);
+        let (mut tilt, mut rate, mut side) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut tilts, mut impacts) = (vec![0.0], Vec::new());
+        for n in 0..whole(duration / sample) {
+            for k in 0..substeps {
+                let time = n as f64 * sample + f64::from(k) * step;
+                if side == 0.0 {
+                    if push(time).abs() <= stable {
+                        continue;
+                    }
+                    side = push(time).signum();
+                }
+                // Velocity Verlet.
+                let before = acceleration(time, tilt, side);
+                let mut next = tilt + step * (rate + 0.5 * step * before);
+                rate += 0.5 * step * (before + acceleration(time + step, next, side));
+                if next * side < 0.0 {
+                    // Linear within the step: the event is off by step² at most.
+                    let part = tilt / (tilt - next);
+                    impacts.push(time + part * step);
+                    rate *= kept;
+                    side = -side;
+                    next = rate * (1.0 - part) * step;
+                }
+                tilt = next;
+            }
+            tilts.push(tilt);
+        }
+        (tilts, impacts)
+    }
+}
+
+/// Times at which a tilt with this sampling changes sign, by the straight line between samples.
+pub fn crossings(tilts: &[f64], sample: f64) -> Vec<f64> {
+    let pairs = tilts.windows(2).enumerate().filter(|(_, pair)| pair[0] * pair[1] < 0.0);
+    pairs.map(|(k, pair)| (k as f64 + pair[0] / (pair[0] - pair[1])) * sample).collect()
+}
 
 /// Time that a rigid block on a soil without inertia needs from rest at `tilt` until it is upright.
 ///

@@ -12,6 +12,7 @@ mod containment;
 mod convergence;
 mod embedded;
 mod lamb;
+mod named_mats;
 mod newmark_block;
 mod outcome;
 mod overturning;
@@ -19,6 +20,7 @@ mod plate;
 mod punch;
 mod report;
 mod rocking_block;
+mod rocking_frame;
 mod scatter;
 mod sliding_estimate;
 mod strip_impedance;
@@ -60,10 +62,11 @@ impl Options {
     }
 }
 
-const CASES: [Case; 18] = [
+const CASES: [Case; 20] = [
     lamb::CASE,
     strip_impedance::CASE,
     embedded::CASE,
+    named_mats::CASE,
     transient::BLOCKS,
     transient::CANTILEVER,
     transient::THREE_STOREYS,
@@ -71,6 +74,7 @@ const CASES: [Case; 18] = [
     newmark_block::CASE,
     sliding_estimate::CASE,
     rocking_block::CASE,
+    rocking_frame::CASE,
     overturning::CASE,
     two_springs::CASE,
     scatter::CASE,

@@ -12,7 +12,7 @@ use plotters::prelude::SeriesLabelPosition;
 use super::outcome::{Case, Check, Outcome, worse};
 use crate::AnyError;
 use crate::figure::{BLUE, Figure, Panel, RED};
-use basemat_problems::rocking::quarter_period;
+use basemat_problems::rocking::{Rocker, crossings, quarter_period};
 use basemat_problems::series::{Error, whole};
 
 pub(crate) const CASE: Case = Case {
@@ -111,49 +111,6 @@ fn tilts(
     Ok(tilts)
 }
 
-/// Housner's block for small tilts, every `SAMPLE`: about the corner that is down,
-/// I θ″ = M ∓ N(b ∓ hθ); at an impact the moment of momentum about the new corner is kept, so the
-/// rate falls to η = (I₀ − m b²)/(I₀ + m b²) of itself, I₀ about the middle of the base.
-/// Gives tilts, and the times of impacts.
-fn housner(duration: f64) -> (Vec<f64>, Vec<f64>) {
-    let moment_of_inertia = inertia() + mass() * B * B;
-    let kept = (inertia() - mass() * B * B) / moment_of_inertia;
-    // Side: +1 on the left corner (tilts counter-clockwise), −1 on the right one, 0 at rest.
-    let acceleration = |time: f64, tilt: f64, side: f64| {
-        (push(time) - side * weight() * B + weight() * H * tilt) / moment_of_inertia
-    };
-    let substeps = 2000;
-    let step = SAMPLE / f64::from(substeps);
-    let (mut tilt, mut rate, mut side) = (0.0_f64, 0.0_f64, 0.0_f64);
-    let (mut tilts, mut impacts) = (vec![0.0], Vec::new());
-    for n in 0..whole(duration / SAMPLE) {
-        for k in 0..substeps {
-            let time = n as f64 * SAMPLE + f64::from(k) * step;
-            if side == 0.0 {
-                if push(time).abs() <= weight() * B {
-                    continue;
-                }
-                side = push(time).signum();
-            }
-            // Velocity Verlet.
-            let before = acceleration(time, tilt, side);
-            let mut next = tilt + step * (rate + 0.5 * step * before);
-            rate += 0.5 * step * (before + acceleration(time + step, next, side));
-            if next * side < 0.0 {
-                // Linear within the step: the event is off by step² at most.
-                let part = tilt / (tilt - next);
-                impacts.push(time + part * step);
-                rate *= kept;
-                side = -side;
-                next = rate * (1.0 - part) * step;
-            }
-            tilt = next;
-        }
-        tilts.push(tilt);
-    }
-    (tilts, impacts)
-}
-
 /// Housner on two elements, whose pressures act at their middles, ±b: the two corners. The bed is
 /// stiff, and damped enough that a corner lands without rebound and the bed is back (c/k) within
 /// 0.05 ms.
@@ -172,12 +129,6 @@ fn relative(found: &[f64], wanted: &[f64]) -> f64 {
     let mut error = Error::default();
     found.iter().zip(wanted).for_each(|(a, b)| error.add(*a, *b));
     error.relative()
-}
-
-/// Where a sampled tilt changes sign, by the straight line between samples.
-fn crossings(tilts: &[f64]) -> Vec<f64> {
-    let pairs = tilts.windows(2).enumerate().filter(|(_, pair)| pair[0] * pair[1] < 0.0);
-    pairs.map(|(k, pair)| (k as f64 + pair[0] / (pair[0] - pair[1])) * SAMPLE).collect()
 }
 
 /// Quarter period of free rocking on the half-plane over Housner's, and over that on a
@@ -210,7 +161,8 @@ fn quarter(speed: f64, elements: usize) -> Result<[f64; 2], AnyError> {
 
 fn run(short: bool) -> Result<Outcome, AnyError> {
     let duration = if short { 5.0 } else { 6.5 };
-    let (wanted, impacts) = housner(duration);
+    let block = Rocker { half_width: B, mass: mass(), height: H, inertia: inertia() };
+    let (wanted, impacts) = block.tilts(push, SAMPLE, duration);
     let peak = |tilts: &[f64], from: f64, to: f64| {
         let part = &tilts[whole(from / SAMPLE)..=whole(to / SAMPLE)];
         part.iter().fold(0.0_f64, |most, tilt| worse(most, tilt.abs()))
@@ -226,7 +178,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
     let (mut tilt, mut off, mut peaks) = (0.0, 0.0, 0.0);
     let fine = runs(2e-5)?;
     for found in &fine {
-        let times = crossings(found);
+        let times = crossings(found, SAMPLE);
         if times.len() < IMPACTS {
             return Err("fewer impacts than are compared".into());
         }

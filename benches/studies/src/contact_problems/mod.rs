@@ -3,10 +3,17 @@
 //!
 //! ```text
 //! cargo study contact-problems
+//! cargo study contact-problems --published target/published_problems     # see export.py
 //! ```
+
+mod published;
+
+use std::path::PathBuf;
 
 use basemat_problems::contact_problems::{STEPS, Tally, sequence};
 use basemat_problems::random::Random;
+
+use crate::AnyError;
 
 /// Random contact problems against brute force.
 #[derive(Debug, clap::Args)]
@@ -17,6 +24,12 @@ pub(crate) struct Options {
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Folder of problems that export.py has written: these instead of random ones.
+    #[arg(long)]
+    published: Option<PathBuf>,
+    /// Folder of the documentation: given, the published problems go to benches/studies/tables, and its images/ the picture.
+    #[arg(long, requires = "published")]
+    docs: Option<PathBuf>,
 }
 
 /// Ranges of the friction coefficient.
@@ -25,7 +38,10 @@ const FRICTION: [[f64; 2]; 6] =
 /// Elements, and how many of a hundred sequences have them.
 const COUNTS: [(usize, usize); 5] = [(1, 10), (2, 30), (3, 40), (4, 18), (5, 2)];
 
-pub(crate) fn run(options: &Options) {
+pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
+    if let Some(folder) = &options.published {
+        return published::run(folder, options.docs.as_deref());
+    }
     let mut random = Random(options.seed);
     println!(
         "| operator | friction | problems | active set | Gauss–Seidel | path | solves, mean | most \
@@ -50,6 +66,7 @@ pub(crate) fn run(options: &Options) {
         }
     }
     print_row("all", "0 to 3", &total);
+    Ok(())
 }
 
 fn print_row(operator: &str, friction: &str, tally: &Tally) {

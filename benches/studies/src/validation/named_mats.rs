@@ -1,0 +1,162 @@
+//! Rigid discs and rectangles on the half-space beside formulas and tables that engineers know by name.
+
+use std::f64::consts::TAU;
+
+use basemat::bem::layered::StripContact;
+use basemat::bem::plan::{Plan, impedances_in_plan};
+use basemat::soil::SoilProfile;
+use basemat::{Complex, Soil, unobserved};
+
+use super::outcome::{Case, Check, Outcome, worse};
+use crate::AnyError;
+use crate::figure::{BLUE, Figure, GRAY, GREEN, Panel, RED};
+use crate::footing_formulas::{pais_kausel, veletsos_verbic};
+
+pub(crate) const CASE: Case = Case {
+    name: "named_mats",
+    title: "Discs and rectangles by name",
+    reference: "Veletsos & Verbic 1973; Pais & Kausel 1988; boundary elements of SASSI-EDU (polar meshes, Lamb's kernels, extrapolated)",
+    settings: "ν = 1/3; disc of 32 cells across without friction, ωR/c_S = 0.5, 1, 1.5; welded rectangles of 12 cells, ωb/c_S = 0.5, 1",
+    run,
+};
+
+const POISSON: f64 = 1.0 / 3.0;
+const NAMES: [&str; 4] = ["sideways", "vertical", "rocking", "torsion"];
+/// Static stiffness of a disc without friction over μR and μR³.
+const STATIC: [f64; 4] = [4.8, 6.0, 4.0, 16.0 / 3.0];
+/// `VP11_BEM` of SASSI-EDU (github.com/mohammedbala/sassi-edu, commit 70fae46): ωR/c_S, then spring and dashpot over the
+/// static stiffness of each motion. No formula of it is used here.
+const BOUNDARY_ELEMENTS: [(f64, [[f64; 2]; 4]); 3] = [
+    (0.5, [[0.9899, 0.5853], [0.9689, 0.7931], [0.9381, 0.0501], [0.9557, 0.0310]]),
+    (1.0, [[0.9652, 0.5991], [0.8826, 0.8239], [0.8253, 0.1353], [0.8667, 0.0913]]),
+    (1.5, [[0.9410, 0.6170], [0.7645, 0.8722], [0.7243, 0.2005], [0.7825, 0.1440]]),
+];
+
+/// Impedances over μb and μb³ at frequencies ωb/c_S: sideways along y and x, vertical, rocking about y, torsion.
+fn found(plan: &Plan, all: &[f64], contact: StripContact) -> Result<Vec<[Complex; 5]>, AnyError> {
+    let profile = SoilProfile::on_half_plane(Soil::new(1.0, POISSON, 1.0)?);
+    let frequencies: Vec<f64> = all.iter().map(|a0| a0 / TAU).collect();
+    let found = impedances_in_plan(&profile, plan, &frequencies, contact, &mut unobserved)?;
+    Ok(found.iter().map(|own| [1, 0, 2, 4, 5].map(|k| own.matrix[k][k])).collect())
+}
+
+/// Relative difference of two complex numbers.
+fn apart(found: Complex, wanted: Complex) -> f64 {
+    (found - wanted).abs() / wanted.abs()
+}
+
+/// Spring or dashpot of an impedance at ωR/c_S.
+type Part = fn(Complex, f64) -> f64;
+
+/// Checks and panels of the disc.
+fn disc(short: bool) -> Result<(Vec<Check>, Vec<Panel>), AnyError> {
+    let frequencies = BOUNDARY_ELEMENTS.map(|own| own.0);
+    let plan = Plan::disc([0.0; 2], 1.0, if short { 16 } else { 32 })?;
+    let found = found(&plan, &frequencies, StripContact::Relaxed)?;
+    let found: Vec<[Complex; 4]> = found.iter().map(|own| [0, 2, 3, 4].map(|k| own[k])).collect();
+    let mut checks = Vec::new();
+    for (k, name) in NAMES.into_iter().enumerate() {
+        let errors = found.iter().zip(BOUNDARY_ELEMENTS).map(|(own, (a0, all))| {
+            apart(own[k], Complex::new(all[k][0], a0 * all[k][1]) * STATIC[k])
+        });
+        let limit = if short { 2e-2 } else { [3e-3, 3e-3, 7e-3, 4e-3][k] };
+        let label = format!("disc, {name}: from SASSI-EDU's boundary elements, relative");
+        checks.push(Check::below(label, errors.fold(0.0, worse), limit));
+    }
+    // Fits: errors of 5 to 11 % are theirs.
+    for (k, limits) in [0.045..=0.075, 0.03..=0.06, 0.09..=0.13].into_iter().enumerate() {
+        let errors = found.iter().zip(frequencies);
+        let error = errors.map(|(own, a0)| apart(veletsos_verbic(a0)[k], own[k])).fold(0.0, worse);
+        let label = format!("disc, {}: Veletsos and Verbic, relative", NAMES[k]);
+        checks.push(Check::within(label, error, limits));
+    }
+    let dashpot = veletsos_verbic(0.5)[2].im / found[0][2].im;
+    let name = "disc, rocking, ωR/c_S = 0.5: dashpot of Veletsos and Verbic over basemat's";
+    checks.push(Check::within(name, dashpot, 0.44..=0.5));
+
+    let curve = |k: usize, part: Part| {
+        let all = (1..=60).map(|n| 0.025 * f64::from(n));
+        all.map(|a0| (a0, part(veletsos_verbic(a0)[k], a0) / STATIC[k])).collect::<Vec<_>>()
+    };
+    let parts: [(&str, Part); 2] = [
+        ("spring over the static one", |own, _| own.re),
+        ("dashpot × c_S/R over the static spring", |own, a0| own.im / a0),
+    ];
+    let panels = parts.into_iter().enumerate().map(|(part, (label, of))| {
+        let mut panel = Panel::new("ωR/c_S", label).room(0.05, 0.9);
+        for (k, color) in [BLUE, GREEN, RED].into_iter().enumerate() {
+            let own = frequencies.into_iter().zip(&found);
+            let own = own.map(|(a0, own)| (a0, of(own[k], a0) / STATIC[k])).collect();
+            let table = BOUNDARY_ELEMENTS.iter().map(|(a0, all)| (*a0, all[k][part])).collect();
+            panel = panel
+                .line(&format!("{}, Veletsos and Verbic", NAMES[k]), color, curve(k, of))
+                .crosses(if k == 0 { "boundary elements of SASSI-EDU" } else { "" }, GRAY, table)
+                .circles(&format!("{}, basemat", NAMES[k]), color, own);
+        }
+        panel
+    });
+    Ok((checks, panels.collect()))
+}
+
+/// Checks of welded rectangles beside Pais and Kausel, whose values are divided by those found.
+fn rectangles(short: bool) -> Result<Vec<Check>, AnyError> {
+    let frequencies = [0.5, 1.0];
+    let mut checks = Vec::new();
+    // Largest difference sideways along the shorter and the longer side and of rocking; dashpots at each frequency.
+    let limits = [
+        (
+            1.0,
+            "square",
+            [0.02..=0.04, 0.02..=0.04, 0.05..=0.08],
+            [[1.21..=1.26, 0.73..=0.78], [1.18..=1.23, 0.85..=0.9]],
+        ),
+        (
+            2.0,
+            "2 : 1",
+            [0.04..=0.065, 0.04..=0.065, 0.08..=0.11],
+            [[1.15..=1.2, 0.44..=0.49], [1.11..=1.16, 0.63..=0.68]],
+        ),
+    ];
+    for (aspect, name, limits, dashpots) in &limits[..if short { 1 } else { 2 }] {
+        let plan = Plan::rectangle(-1.0..1.0, -*aspect..*aspect, if short { 8 } else { 12 })?;
+        let found = found(&plan, &frequencies, StripContact::Bonded)?;
+        let formulas = frequencies.map(|a0| pais_kausel(POISSON, *aspect, a0));
+        // Along x is along the shorter side.
+        let motions =
+            ["sideways along the shorter side", "sideways along the longer side", "rocking"];
+        for ((motion, limits), [k, own]) in
+            motions.into_iter().zip(limits).zip([[0, 1], [1, 0], [3, 3]])
+        {
+            let error =
+                formulas.iter().zip(&found).map(|(formula, found)| apart(formula[k], found[own]));
+            let label = format!("{name}, {motion}: Pais and Kausel, relative");
+            checks.push(Check::within(label, error.fold(0.0, worse), limits.clone()));
+        }
+        for (n, a0) in frequencies.into_iter().enumerate() {
+            for (motion, k, limits) in
+                [("vertical", 2, &dashpots[n][0]), ("rocking", 3, &dashpots[n][1])]
+            {
+                let label = format!(
+                    "{name}, {motion}, ωb/c_S = {a0}: dashpot of Pais and Kausel over basemat's"
+                );
+                let ratio = formulas[n][k].im / found[n][k].im;
+                checks.push(Check::within(label, ratio, limits.clone()));
+            }
+        }
+    }
+    let plan = Plan::rectangle(-1.0..1.0, -1.0..1.0, if short { 8 } else { 12 })?;
+    let at_rest = found(&plan, &[0.0], StripContact::Bonded)?[0];
+    // A mat lifts at N L/4.4 (`cargo study uplift-law`), two springs at ±a at N a.
+    let place = (at_rest[3].re / at_rest[2].re).sqrt();
+    let name =
+        "square: distance a over b of two springs that have its vertical and its rocking stiffness";
+    checks.push(Check::within(name, place, 0.94..=0.97));
+    Ok(checks)
+}
+
+fn run(short: bool) -> Result<Outcome, AnyError> {
+    let (mut checks, panels) = disc(short)?;
+    checks.extend(rectangles(short)?);
+    let title = "Rigid disc without friction on the half-space, ν = 1/3";
+    Ok(Outcome { checks, figure: Figure::new(title, 2, panels) })
+}
