@@ -359,8 +359,17 @@ impl ContactSolver {
 
     /// Computes jumps and states from the tractions of the last trial.
     pub(crate) fn evaluate(&mut self, input: &ContactInput<'_>) {
+        self.evaluate_by(input, |traction, jump| input.delassus.multiply_add(traction, jump));
+    }
+
+    /// The same by another function for jump ← jump + W τ.
+    pub(super) fn evaluate_by(
+        &mut self,
+        input: &ContactInput<'_>,
+        multiply_add: impl FnOnce(&[f64], &mut [f64]),
+    ) {
         self.jump.copy_from_slice(input.free_jump);
-        input.delassus.multiply_add(&self.traction, &mut self.jump);
+        multiply_add(&self.traction, &mut self.jump);
         let (layout, plan) = (self.layout, self.is_plan());
         let Self { jump, traction, states, .. } = self;
         for (e, state) in states.iter_mut().enumerate() {

@@ -11,6 +11,7 @@
 
 mod artificial_motion;
 mod contact_chatter;
+mod contact_cost;
 mod contact_problems;
 mod containment;
 mod document;
@@ -58,6 +59,7 @@ enum Study {
     Opensees(opensees::Options),
     Passivity(passivity::Options),
     ContactChatter(contact_chatter::Options),
+    ContactCost(contact_cost::Options),
     ContactProblems(contact_problems::Options),
     HistoryCost(history::Cost),
     HistoryExponentials(history::Exponentials),
@@ -87,6 +89,7 @@ fn main() -> ExitCode {
             Ok(())
         }
         Study::ContactChatter(options) => contact_chatter::run(&options),
+        Study::ContactCost(options) => contact_cost::run(&options),
         Study::ContactProblems(options) => contact_problems::run(&options),
         Study::HistoryCost(options) => history::cost(&options),
         Study::HistoryExponentials(options) => history::exponentials(&options),

@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use crate::linalg::{Simd, WithSimd, vectorized};
+use crate::linalg::{Simd, WithSimd, largest, vectorized};
 
 /// Largest number of modes.
 const RANK: usize = 24;
@@ -14,20 +14,22 @@ const RANK: usize = 24;
 const ROUNDING: f64 = 1e-14;
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
 const NEAR: f64 = 3e-3;
+/// Force that a product leaves out, relative to the largest.
+const FINEST: f64 = 1e-16;
 /// Largest numbers of different blocks and of near links, relative to all.
 const DIFFERENT: f64 = 0.25;
 const MOST_NEAR: f64 = 0.3;
 
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
 type Block = [[f64; 4]; 3];
-/// L of an element, for each direction.
-type Modes = [[f64; RANK]; 3];
+/// L of an element, for each mode; the last number is zero.
+type Modes = [[f64; 4]; RANK];
 
 /// An element that another one moves, and the block by which it does.
 #[derive(Debug, Clone, Copy)]
 struct Link {
-    element: usize,
-    block: usize,
+    element: u32,
+    block: u32,
 }
 
 /// W = G + L Lᵀ: soil and structure.
@@ -35,7 +37,7 @@ pub(super) struct Blocks {
     /// Links of one element after the other, the strongest first.
     links: Vec<Link>,
     /// Force that each link adds, relative to the force that causes it.
-    strengths: Vec<f64>,
+    strengths: Vec<f32>,
     /// First link of each element, and the end.
     starts: Vec<usize>,
     /// End of the near links of each element.
@@ -47,6 +49,8 @@ pub(super) struct Blocks {
     /// Motions by the soil; amplitudes Lᵀ r of the modes.
     motions: Vec<[f64; 4]>,
     amplitudes: [f64; RANK],
+    /// Forces of the last product with W, and the product.
+    known: (Vec<f64>, Vec<[f64; 4]>, [f64; RANK]),
 }
 
 impl Blocks {
@@ -65,16 +69,21 @@ impl Blocks {
             starts: vec![0],
             near: Vec::with_capacity(count),
             kinds: vec![],
-            modes: vec![[[0.0; RANK]; 3]; count],
+            modes: vec![[[0.0; 4]; RANK]; count],
             rank: 0,
             motions: vec![[0.0; 4]; count],
             amplitudes: [0.0; RANK],
+            known: (vec![f64::NAN; 3 * count], vec![[0.0; 4]; count], [0.0; RANK]),
         };
         all.find_links(rho, &soil)?;
         all.find_modes(w, &soil)?;
         Some(all)
     }
 
+    #[allow(
+        clippy::cast_possible_truncation,
+        reason = "counts of elements; strengths need few digits"
+    )]
     fn find_links(&mut self, rho: &[[f64; 2]], soil: impl Fn(usize, usize) -> f64) -> Option<()> {
         let count = rho.len();
         let mut known = HashMap::new();
@@ -98,9 +107,9 @@ impl Blocks {
                 let number =
                     *known.entry(block.map(|c| c.map(f64::to_bits))).or_insert_with(|| {
                         kinds.push(block);
-                        kinds.len() - 1
+                        kinds.len() as u32 - 1
                     });
-                links.push((strength, Link { element, block: number }));
+                links.push((strength, Link { element: element as u32, block: number }));
             }
             if self.kinds.len() as f64 > DIFFERENT * (count * count) as f64 {
                 return None;
@@ -109,7 +118,7 @@ impl Blocks {
             let near = links.partition_point(|(strength, _)| *strength > NEAR);
             self.near.push(self.links.len() + near);
             self.links.extend(links.iter().map(|(_, link)| *link));
-            self.strengths.extend(links.iter().map(|(strength, _)| *strength));
+            self.strengths.extend(links.iter().map(|(strength, _)| *strength as f32));
             self.starts.push(self.links.len());
         }
         let near: usize = self.near.iter().zip(&self.starts).map(|(end, start)| end - start).sum();
@@ -133,96 +142,119 @@ impl Blocks {
                 return None;
             }
             let (k, root) = (self.rank, rest[pivot].sqrt());
-            let chosen = self.modes[pivot % count][pivot / count];
+            let chosen = self.modes[pivot % count].map(|mode| mode[pivot / count]);
             for (i, rest) in rest.iter_mut().enumerate() {
-                let own = &mut self.modes[i % count][i / count];
-                let known: f64 = own.iter().zip(&chosen).take(k).map(|(a, b)| a * b).sum();
-                own[k] = (w[i * size + pivot] - soil(i, pivot) - known) / root;
-                *rest -= own[k] * own[k];
+                let (own, direction) = (&mut self.modes[i % count], i / count);
+                let pairs = own.iter().zip(&chosen).take(k);
+                let known: f64 = pairs.map(|(a, b)| a[direction] * b).sum();
+                own[k][direction] = (w[i * size + pivot] - soil(i, pivot) - known) / root;
+                *rest -= own[k][direction] * own[k][direction];
             }
             rest[pivot] = 0.0;
             self.rank += 1;
         }
     }
 
-    /// Sets the motions to q, without forces.
-    pub(super) fn rest(&mut self, q: &[f64]) {
-        let count = self.motions.len();
-        for (e, motion) in self.motions.iter_mut().enumerate() {
-            *motion = [q[e], q[count + e], q[2 * count + e], 0.0];
+    /// Sets the motions to W r.
+    pub(super) fn respond(&mut self, forces: &[f64]) {
+        if self.known.0 == forces {
+            self.motions.copy_from_slice(&self.known.1);
+            self.amplitudes = self.known.2;
+            return;
         }
-        self.amplitudes.fill(0.0);
-    }
-
-    /// Adds the motion of all elements by a force on one element.
-    pub(super) fn push(&mut self, e: usize, force: [f64; 3]) {
-        self.push_near(e, force);
-        self.push_links(self.near[e], self.starts[e + 1], force);
+        vectorized(Respond { blocks: self, forces });
+        self.known.0.copy_from_slice(forces);
+        self.known.1.copy_from_slice(&self.motions);
+        self.known.2 = self.amplitudes;
     }
 
     /// Adds the motion of near elements, and of all by the structure, by a force on one element.
-    pub(super) fn push_near(&mut self, e: usize, force: [f64; 3]) {
-        self.push_links(self.starts[e], self.near[e], force);
-        for (modes, force) in self.modes[e].iter().zip(force) {
-            let amplitudes = self.amplitudes.iter_mut().zip(modes).take(self.rank);
-            amplitudes.for_each(|(amplitude, mode)| *amplitude += mode * force);
+    #[inline(always)]
+    pub(super) fn push_near<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
+        let Self { links, kinds, motions, .. } = self;
+        for link in &links[self.starts[e]..self.near[e]] {
+            add(simd, &kinds[link.block as usize], force, &mut motions[link.element as usize]);
+        }
+        let amplitudes = self.amplitudes[..self.rank].iter_mut();
+        for (amplitude, [p, x, y, _]) in amplitudes.zip(&self.modes[e]) {
+            *amplitude += p * force[0] + x * force[1] + y * force[2];
         }
     }
 
     /// Adds the motion of other elements by the soil, where it adds forces above `least`, N; returns whether any were.
-    pub(super) fn push_far(&mut self, e: usize, force: [f64; 3], least: f64) -> bool {
-        let largest = force.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-        if largest == 0.0 {
-            return false;
+    #[inline(always)]
+    pub(super) fn push_far<S: Simd>(
+        &mut self,
+        simd: S,
+        e: usize,
+        force: [f64; 3],
+        least: f64,
+    ) -> bool {
+        let Self { links, strengths, kinds, motions, .. } = self;
+        let far = self.near[e]..self.starts[e + 1];
+        let weakest = (least / largest(&force)) as f32;
+        let mut reached = false;
+        for (link, strength) in links[far.clone()].iter().zip(&strengths[far]) {
+            if *strength <= weakest {
+                break;
+            }
+            add(simd, &kinds[link.block as usize], force, &mut motions[link.element as usize]);
+            reached = true;
         }
-        let begin = self.near[e];
-        let strengths = &self.strengths[begin..self.starts[e + 1]];
-        let reached = strengths.partition_point(|strength| strength * largest > least);
-        self.push_links(begin, begin + reached, force);
-        reached > 0
-    }
-
-    fn push_links(&mut self, begin: usize, end: usize, force: [f64; 3]) {
-        let Self { links, kinds, motions, .. } = self;
-        vectorized(Push { links: &links[begin..end], blocks: kinds, force, motions });
+        reached
     }
 
     /// Motion of an element.
-    pub(super) fn motion(&self, e: usize) -> [f64; 3] {
-        std::array::from_fn(|i| {
-            let modes = self.modes[e][i].iter().zip(&self.amplitudes).take(self.rank);
-            self.motions[e][i] + modes.map(|(mode, amplitude)| mode * amplitude).sum::<f64>()
-        })
+    #[inline(always)]
+    pub(super) fn motion<S: Simd>(&self, simd: S, e: usize) -> [f64; 3] {
+        let mut motion = self.motions[e];
+        let (sums, tail) = S::as_mut_simd_f64s(&mut motion);
+        for (amplitude, mode) in self.amplitudes[..self.rank].iter().zip(&self.modes[e]) {
+            let (wide, modes) = (simd.splat_f64s(*amplitude), S::as_simd_f64s(mode));
+            for (sum, mode) in sums.iter_mut().zip(modes.0) {
+                *sum = simd.mul_add_e_f64s(*mode, wide, *sum);
+            }
+            tail.iter_mut().zip(modes.1).for_each(|(sum, mode)| *sum += mode * amplitude);
+        }
+        [motion[0], motion[1], motion[2]]
     }
 }
 
-/// Motions of the links' elements by a force.
-struct Push<'a> {
-    links: &'a [Link],
-    blocks: &'a [Block],
-    force: [f64; 3],
-    motions: &'a mut [[f64; 4]],
+/// Motions of all elements by all forces.
+struct Respond<'a> {
+    blocks: &'a mut Blocks,
+    forces: &'a [f64],
 }
 
-impl WithSimd for Push<'_> {
+impl WithSimd for Respond<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { links, blocks, force, motions } = self;
-        let [p, x, y] = force.map(|force| simd.splat_f64s(force));
-        for link in links {
-            let columns = &blocks[link.block];
-            let [a, b, c] = [0, 1, 2].map(|k| S::as_simd_f64s(&columns[k]));
-            let (sums, tail) = S::as_mut_simd_f64s(&mut motions[link.element]);
-            for (sum, (a, (b, c))) in sums.iter_mut().zip(a.0.iter().zip(b.0.iter().zip(c.0))) {
-                let first = simd.mul_add_e_f64s(*a, p, *sum);
-                *sum = simd.mul_add_e_f64s(*c, y, simd.mul_add_e_f64s(*b, x, first));
-            }
-            for (sum, (a, (b, c))) in tail.iter_mut().zip(a.1.iter().zip(b.1.iter().zip(c.1))) {
-                *sum += a * force[0] + b * force[1] + c * force[2];
-            }
+        let Self { blocks, forces } = self;
+        blocks.motions.fill([0.0; 4]);
+        blocks.amplitudes.fill(0.0);
+        let (count, least) = (blocks.motions.len(), FINEST * largest(forces));
+        for e in 0..count {
+            let force = [e, count + e, 2 * count + e].map(|i| forces[i]);
+            blocks.push_near(simd, e, force);
+            blocks.push_far(simd, e, force, least);
         }
+    }
+}
+
+/// Adds the motion by a force.
+#[inline(always)]
+fn add<S: Simd>(simd: S, block: &Block, force: [f64; 3], motion: &mut [f64; 4]) {
+    let [p, x, y] = force.map(|force| simd.splat_f64s(force));
+    let [a, b, c] = [0, 1, 2].map(|k| S::as_simd_f64s(&block[k]));
+    let (sums, tail) = S::as_mut_simd_f64s(motion);
+    for (sum, (a, (b, c))) in sums.iter_mut().zip(a.0.iter().zip(b.0.iter().zip(c.0))) {
+        let first = simd.mul_add_e_f64s(*a, p, *sum);
+        *sum = simd.mul_add_e_f64s(*c, y, simd.mul_add_e_f64s(*b, x, first));
+    }
+    for (sum, (a, (b, c))) in tail.iter_mut().zip(a.1.iter().zip(b.1.iter().zip(c.1))) {
+        *sum += a * force[0] + b * force[1] + c * force[2];
     }
 }
 

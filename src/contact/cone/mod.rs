@@ -132,8 +132,32 @@ impl Cone {
             };
         }
         StepError::check_finite("contact traction", &solver.traction)?;
-        solver.evaluate(input);
+        if self.problem.blocks.is_some() {
+            solver.evaluate_by(input, |traction, jump| self.multiply_add(input, traction, jump));
+        } else {
+            solver.evaluate(input);
+        }
         Ok((trials, method))
+    }
+
+    /// jump ← jump + W τ, by blocks.
+    ///
+    /// The forces are rounded as in the next step, which begins with the same product.
+    fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
+        let Self { problem, areas, layers, .. } = self;
+        for (e, area) in areas.iter().enumerate() {
+            for i in problem.places(e) {
+                problem.set(i, area * (input.static_traction[i] + traction[i]));
+            }
+        }
+        problem.respond();
+        for (e, layer) in layers.iter().enumerate() {
+            for (component, i) in problem.places(e).into_iter().enumerate() {
+                // The jump does not contain the layer.
+                let own = layer[component.min(1)] / areas[e] * problem.change[i];
+                jump[i] += problem.y[i] - problem.q[i] - own;
+            }
+        }
     }
 
     /// Reads W, q and the limits of the laws.

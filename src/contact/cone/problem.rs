@@ -15,7 +15,7 @@
 //! against the slip, which needs no pressure.
 
 use super::blocks::Blocks;
-use crate::linalg::dense_multiply_add;
+use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
 /// Residual at which a solution is accepted, relative to the largest force.
 const TOLERANCE: f64 = 1e-11;
@@ -88,9 +88,9 @@ impl Bounds {
         if self.bonded { p } else { p.max(self.interval[0]).min(self.interval[1]) }
     }
 
-    /// t of P(r − ρ y), with the projected p.
-    pub(super) fn shear(&self, p: f64, [x, y]: [f64; 2]) -> [f64; 2] {
-        let (radius, size) = (self.radius(p), x.hypot(y));
+    /// t of P(r − ρ y), with the projected p and the magnitude before.
+    pub(super) fn shear(&self, p: f64, [x, y]: [f64; 2], size: f64) -> [f64; 2] {
+        let radius = self.radius(p);
         if size <= radius {
             return [x, y];
         }
@@ -156,6 +156,7 @@ impl Problem {
     }
 
     /// Places of the components of an element.
+    #[inline]
     pub(super) fn places(&self, e: usize) -> [usize; 3] {
         [e, self.count + e, 2 * self.count + e]
     }
@@ -187,8 +188,8 @@ impl Problem {
 
     /// Computes y for the present r.
     pub(super) fn respond(&mut self) {
-        if self.blocks.is_some() {
-            self.move_blocks();
+        if let Some(blocks) = &mut self.blocks {
+            blocks.respond(&self.change);
             return self.read_blocks();
         }
         let Self { w, q, change, y, .. } = self;
@@ -196,32 +197,19 @@ impl Problem {
         dense_multiply_add(w, 1.0, change, y);
     }
 
-    /// Moves the blocks by the present r.
-    pub(super) fn move_blocks(&mut self) {
-        let Self { blocks: Some(blocks), count, q, change, .. } = self else { return };
-        blocks.rest(q);
-        for e in 0..*count {
-            let force = [e, *count + e, 2 * *count + e].map(|i| change[i]);
-            if force != [0.0; 3] {
-                blocks.push(e, force);
-            }
-        }
-    }
-
     /// Copies the motion of all blocks to y.
     fn read_blocks(&mut self) {
-        for e in 0..self.count {
-            let motion = self.motion(e);
-            self.places(e).into_iter().zip(motion).for_each(|(i, y)| self.y[i] = y);
-        }
+        vectorized(Read(self));
     }
 
-    /// Motion of an element in sweeps: by its block, or y.
-    pub(super) fn motion(&self, e: usize) -> [f64; 3] {
-        let places = self.places(e);
-        let Some(blocks) = &self.blocks else { return places.map(|i| self.y[i]) };
-        let mut motion = blocks.motion(e);
-        motion.iter_mut().zip(places).for_each(|(y, i)| *y += self.added * self.change[i]);
+    /// Motion of an element by its block.
+    #[inline(always)]
+    pub(super) fn motion<S: Simd>(&self, simd: S, e: usize) -> [f64; 3] {
+        let Some(blocks) = &self.blocks else { return [0.0; 3] };
+        let mut motion = blocks.motion(simd, e);
+        for (y, i) in motion.iter_mut().zip(self.places(e)) {
+            *y += self.q[i] + self.added * self.change[i];
+        }
         motion
     }
 
@@ -279,7 +267,7 @@ impl Problem {
         let (bounds, [p, tx, ty]) = (&self.bounds[e], self.trial(e));
         let [n, x, y] = self.places(e);
         let p = bounds.press(p);
-        let [tx, ty] = bounds.shear(p, [tx, ty]);
+        let [tx, ty] = bounds.shear(p, [tx, ty], tx.hypot(ty));
         let parts = [p - self.force(n), tx - self.force(x), ty - self.force(y)];
         // A sum of magnitudes preserves NaN.
         parts.iter().map(|part| part.abs()).sum()
@@ -331,5 +319,20 @@ impl Problem {
     /// Whether the present r is a solution of the problem.
     pub(super) fn is_solved(&mut self) -> bool {
         self.residual() <= self.tolerance()
+    }
+}
+
+struct Read<'a>(&'a mut Problem);
+
+impl WithSimd for Read<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let problem = self.0;
+        for e in 0..problem.count {
+            let motion = problem.motion(simd, e);
+            problem.places(e).into_iter().zip(motion).for_each(|(i, y)| problem.y[i] = y);
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Sweeps over the elements (Gauss–Seidel), each solved with the forces of all others fixed.
 
-use super::problem::Problem;
-use crate::linalg::transposed_multiply_add;
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+
+use super::problem::{Bounds, Problem};
+use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
 
 /// Largest number of projections of an element in a sweep.
 const LOCAL: usize = 40;
@@ -9,6 +11,8 @@ const LOCAL: usize = 40;
 const KNOWN: usize = 4;
 /// Change at which sweeps end, as a fraction of the residual of a solution.
 const GOAL: f64 = 1e-2;
+/// Change at which projections of an element end, as a fraction of a change at which sweeps end.
+const LEAST: f64 = 0.1;
 /// With blocks: change of an element's projections at which they end, as a fraction of the first.
 const LOCAL_SHARE: f64 = 0.3;
 /// With blocks: change in a sweep after which all elements move, as a fraction of the changes since they last did; and
@@ -30,7 +34,7 @@ impl Problem {
         let mut before = f64::INFINITY;
         for sweep in 1..=most {
             let tolerance = GOAL * self.tolerance();
-            let largest = self.relax_all(0.1 * tolerance, 0.0);
+            let largest = self.relax_all(LEAST * tolerance);
             if largest.is_nan() {
                 return (sweep, false);
             }
@@ -50,13 +54,13 @@ impl Problem {
 
     /// Sweeps that move near elements at once, and all others by the sum of several sweeps.
     fn sweep_blocks(&mut self, most: usize) -> (usize, bool) {
-        self.move_blocks();
+        self.respond();
         self.applied.copy_from_slice(&self.change);
         // Changes up to the last motion of all elements, and in the last sweep; number of sweeps since that motion.
         let (mut before, mut last, mut sweeps) = (f64::INFINITY, f64::INFINITY, 0);
         for sweep in 1..=most {
             let tolerance = GOAL * self.tolerance();
-            let largest = self.relax_all(0.1 * tolerance, LOCAL_SHARE);
+            let largest = vectorized(Sweep { problem: self, least: LEAST * tolerance });
             if largest.is_nan() {
                 return (sweep, false);
             }
@@ -70,7 +74,7 @@ impl Problem {
                 last = largest;
                 continue;
             }
-            let reached = self.move_far(0.1 * tolerance);
+            let reached = vectorized(Far { problem: self, least: LEAST * tolerance });
             if largest <= tolerance && (!reached || moved <= tolerance) && self.blocks_are_solved()
             {
                 return (sweep, true);
@@ -86,65 +90,17 @@ impl Problem {
         (most, self.is_solved())
     }
 
-    /// Moves elements by changes of force on others that are not near; returns whether any added more than `least`, N.
-    fn move_far(&mut self, least: f64) -> bool {
-        let Self { blocks: Some(blocks), count, change, applied, .. } = self else { return false };
-        let mut reached = false;
-        for e in 0..*count {
-            let moved = [e, *count + e, 2 * *count + e].map(|i| change[i] - applied[i]);
-            reached |= blocks.push_far(e, moved, least);
-        }
-        applied.copy_from_slice(change);
-        reached
-    }
-
     /// Solves all elements in turn, as [`Problem::relax`]; returns the largest change, N, or NaN.
-    fn relax_all(&mut self, least: f64, share: f64) -> f64 {
-        let larger = |most: f64, change: f64| if change <= most { most } else { change };
-        (0..self.count).map(|e| self.relax(e, least, share)).fold(0.0, larger)
+    fn relax_all(&mut self, least: f64) -> f64 {
+        (0..self.count).map(|e| self.relax(e, least)).fold(0.0, larger)
     }
 
-    /// Solves an element with the others fixed until its force changes by no more than `least`, or by no more than a
-    /// `share` of its first change; returns its change, N.
-    fn relax(&mut self, e: usize, least: f64, share: f64) -> f64 {
+    /// Solves an element with the others fixed until its force changes by no more than `least`; returns its change, N.
+    fn relax(&mut self, e: usize, least: f64) -> f64 {
         let places = self.places(e);
-        let bounds = self.bounds[e];
-        let [normal, tangential] = self.rho[e];
         let start = places.map(|i| self.force(i));
-        let (mut r, mut y, block) = (start, self.motion(e), self.own[e]);
-        let mut least = least;
-        for local in 0..LOCAL {
-            let p = bounds.press(r[0] - normal * (y[0] - bounds.offset));
-            let pressed = p - r[0];
-            if pressed != 0.0 {
-                (0..3).for_each(|k| y[k] += block[k][0] * pressed);
-            }
-            let [tx, ty] = bounds.shear(p, [r[1] - tangential * y[1], r[2] - tangential * y[2]]);
-            let sheared = [tx - r[1], ty - r[2]];
-            if sheared != [0.0; 2] {
-                for k in 0..3 {
-                    y[k] += block[k][1] * sheared[0] + block[k][2] * sheared[1];
-                }
-            }
-            r = [p, tx, ty];
-            let change = pressed.abs() + sheared[0].abs() + sheared[1].abs();
-            if change.is_nan() || change <= least {
-                break;
-            }
-            if local == 0 {
-                least = least.max(share * change);
-            }
-        }
-        if self.blocks.is_some() {
-            let moved: [f64; 3] = std::array::from_fn(|k| r[k] - start[k]);
-            if moved != [0.0; 3] {
-                places.into_iter().zip(r).for_each(|(i, r)| self.set(i, r));
-                if let Some(blocks) = &mut self.blocks {
-                    blocks.push_near(e, moved);
-                }
-            }
-            return moved.iter().map(|moved| moved.abs()).sum();
-        }
+        let (rho, y) = (self.rho[e], places.map(|i| self.y[i]));
+        let r = alone(&self.bounds[e], rho, &self.own[e], start, y, [least, 0.0], f64::hypot);
         let mut change = 0.0;
         for (k, &i) in places.iter().enumerate() {
             let moved = r[k] - start[k];
@@ -157,5 +113,106 @@ impl Problem {
             change += moved.abs();
         }
         change
+    }
+}
+
+/// Force of an element with the forces of others fixed, for its present force and motion.
+///
+/// It is projected until it changes by no more than `least`, or by no more than a `share` of its first change.
+#[inline(always)]
+fn alone(
+    bounds: &Bounds,
+    [normal, tangential]: [f64; 2],
+    block: &[[f64; 3]; 3],
+    start: [f64; 3],
+    mut y: [f64; 3],
+    [mut least, share]: [f64; 2],
+    magnitude: impl Fn(f64, f64) -> f64,
+) -> [f64; 3] {
+    let mut r = start;
+    for local in 0..LOCAL {
+        let p = bounds.press(r[0] - normal * (y[0] - bounds.offset));
+        let pressed = p - r[0];
+        if pressed != 0.0 {
+            (0..3).for_each(|k| y[k] += block[k][0] * pressed);
+        }
+        let trial = [r[1] - tangential * y[1], r[2] - tangential * y[2]];
+        let [tx, ty] = bounds.shear(p, trial, magnitude(trial[0], trial[1]));
+        let sheared = [tx - r[1], ty - r[2]];
+        if sheared != [0.0; 2] {
+            for k in 0..3 {
+                y[k] += block[k][1] * sheared[0] + block[k][2] * sheared[1];
+            }
+        }
+        r = [p, tx, ty];
+        let change = pressed.abs() + sheared[0].abs() + sheared[1].abs();
+        if change.is_nan() || change <= least {
+            break;
+        }
+        if local == 0 {
+            least = least.max(share * change);
+        }
+    }
+    r
+}
+
+/// The larger of two changes, or NaN.
+fn larger(most: f64, change: f64) -> f64 {
+    if change <= most { most } else { change }
+}
+
+/// A sweep over blocks that moves near elements, and all by the structure.
+struct Sweep<'a> {
+    problem: &'a mut Problem,
+    least: f64,
+}
+
+impl WithSimd for Sweep<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let Self { problem, least } = self;
+        let mut most = 0.0;
+        for e in 0..problem.count {
+            let places = problem.places(e);
+            let start = places.map(|i| problem.force(i));
+            let (y, bounds, rho) = (problem.motion(simd, e), &problem.bounds[e], problem.rho[e]);
+            let magnitude = |x: f64, y: f64| (x * x + y * y).sqrt();
+            let r = alone(bounds, rho, &problem.own[e], start, y, [least, LOCAL_SHARE], magnitude);
+            let moved: [f64; 3] = std::array::from_fn(|k| r[k] - start[k]);
+            if moved != [0.0; 3] {
+                places.into_iter().zip(r).for_each(|(i, r)| problem.set(i, r));
+                if let Some(blocks) = &mut problem.blocks {
+                    blocks.push_near(simd, e, moved);
+                }
+            }
+            most = larger(most, moved.iter().map(|moved| moved.abs()).sum());
+        }
+        most
+    }
+}
+
+/// Moves elements by changes of force on others that are not near; returns whether any added more than `least`, N.
+struct Far<'a> {
+    problem: &'a mut Problem,
+    least: f64,
+}
+
+impl WithSimd for Far<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> bool {
+        let Problem { blocks: Some(blocks), count, change, applied, .. } = self.problem else {
+            return false;
+        };
+        let mut reached = false;
+        for e in 0..*count {
+            let moved = [e, *count + e, 2 * *count + e].map(|i| change[i] - applied[i]);
+            reached |= blocks.push_far(simd, e, moved, self.least);
+        }
+        applied.copy_from_slice(change);
+        reached
     }
 }

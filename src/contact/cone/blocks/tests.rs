@@ -68,6 +68,16 @@ fn blocks_are_w() {
     for (a, b) in problem.y.iter().zip(&wanted) {
         assert!((a - b).abs() < 1e-13, "{a} {b}");
     }
+    // A known product has the bits of the same product anew.
+    let known = problem.y.clone();
+    let change = problem.change.clone();
+    problem.change.iter_mut().for_each(|change| *change *= 0.3);
+    problem.respond();
+    problem.change.copy_from_slice(&change);
+    problem.respond();
+    assert_eq!(known, problem.y);
+    problem.respond();
+    assert_eq!(known, problem.y);
     // With a number on the diagonal.
     problem.added = 0.1;
     problem.respond();
