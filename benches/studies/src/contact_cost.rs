@@ -35,6 +35,7 @@ fn measure(cells: usize, crossed: f64, bonded: bool, end: f64) -> Result<[f64; 4
     let ground = ElasticGround::under(soil, &body, cells)?;
     // Pressure waves are twice as fast as shear waves.
     let step = crossed * 10.0 / (cells as f64 - 0.21) / 400.0;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "thousands")]
     let steps = (end / step) as usize;
     let shake = |scale: f64| Ok::<_, AnyError>(Some(el_centro_1940().scaled(scale)?));
     let mut builder = Simulation::builder(step)

@@ -192,6 +192,7 @@ impl Blocks {
     ) -> bool {
         let Self { links, strengths, kinds, motions, .. } = self;
         let far = self.near[e]..self.starts[e + 1];
+        #[allow(clippy::cast_possible_truncation, reason = "a bound, infinite beyond f32")]
         let weakest = (least / largest(&force)) as f32;
         let mut reached = false;
         for (link, strength) in links[far.clone()].iter().zip(&strengths[far]) {

@@ -14,6 +14,8 @@
 //! Infinite friction is the limit: y = 0 where there is pressure; elsewhere no force, or a closed gap with a shear
 //! against the slip, which needs no pressure.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use super::blocks::Blocks;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
