@@ -32,7 +32,6 @@ mod paper_scheme;
 mod passivity;
 mod performance;
 mod precision;
-mod rafts;
 mod stability;
 mod uplift_law;
 mod validation;
@@ -66,7 +65,6 @@ enum Study {
     LayeredAccuracy(layered_accuracy::Options),
     LayeredCost(layered_cost::Options),
     Mats(mats::Options),
-    Rafts(rafts::Options),
     UpliftLaw(uplift_law::Options),
     Elements(elements::Options),
     Embedded(embedded::Options),
@@ -96,7 +94,6 @@ fn main() -> ExitCode {
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
         Study::Mats(options) => mats::run(&options),
-        Study::Rafts(options) => rafts::run(&options),
         Study::UpliftLaw(options) => uplift_law::run(&options),
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
