@@ -15,6 +15,7 @@ use basemat::soil::{Elastic, GeneralizedMaxwell, SoilProfile};
 use basemat::structure::{Bilinear, RigidBlock, ShearBuilding, Storey, Structure, WithWalls};
 use basemat::{Error, Result, Simulation, Soil, unobserved};
 
+use basemat_problems::heavy;
 use basemat_problems::random::Random;
 
 const SCENES_OF_A_TRENCH: u64 = 8;
@@ -192,8 +193,7 @@ fn run(site: &Site, random: &mut Random) -> Result<(f64, Seen)> {
 
 #[test]
 fn energy_balance_closes_around_random_trenches() {
-    let heavy = std::env::var_os("HEAVY_TESTS").is_some();
-    let (trenches, scenes) = if heavy { (25, SCENES_OF_A_TRENCH) } else { (2, 3) };
+    let (trenches, scenes) = if heavy() { (25, SCENES_OF_A_TRENCH) } else { (2, 3) };
     let (mut worst, mut errors) = ([0.0_f64; 4], vec![]);
     let mut counts = [0; 4];
     for trench in 0..trenches {

@@ -226,7 +226,7 @@ fn is_among(problem: &Problem, solutions: &[Vec<f64>]) -> bool {
 
 /// Fraction of this many random problems: a fifth, or all of them if `HEAVY_TESTS` is set.
 fn cases(all: usize) -> usize {
-    if std::env::var_os("HEAVY_TESTS").is_some() { all } else { all / 5 }
+    if basemat_problems::heavy() { all } else { all / 5 }
 }
 
 #[test]
