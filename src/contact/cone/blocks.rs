@@ -49,7 +49,7 @@ pub(super) struct Blocks {
     /// Motions by the soil; amplitudes Lᵀ r of the modes.
     motions: Vec<[f64; 4]>,
     amplitudes: [f64; RANK],
-    /// Forces of the last product with W, and the product.
+    /// Forces of the last product with W, and the product: motions and amplitudes.
     known: (Vec<f64>, Vec<[f64; 4]>, [f64; RANK]),
 }
 

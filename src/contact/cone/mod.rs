@@ -132,18 +132,17 @@ impl Cone {
             };
         }
         StepError::check_finite("contact traction", &solver.traction)?;
-        if self.problem.blocks.is_some() {
-            solver.evaluate_by(input, |traction, jump| self.multiply_add(input, traction, jump));
-        } else {
-            solver.evaluate(input);
-        }
+        solver.evaluate_by(input, |traction, jump| self.multiply_add(input, traction, jump));
         Ok((trials, method))
     }
 
-    /// jump ← jump + W τ, by blocks.
+    /// jump ← jump + W τ, by blocks where there are.
     ///
-    /// The forces are rounded as in the next step, which begins with the same product.
+    /// The forces are then rounded as in the next step, which begins with the same product.
     fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
+        if self.problem.blocks.is_none() {
+            return input.delassus.multiply_add(traction, jump);
+        }
         let Self { problem, areas, layers, .. } = self;
         for (e, area) in areas.iter().enumerate() {
             for i in problem.places(e) {

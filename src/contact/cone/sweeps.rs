@@ -204,15 +204,15 @@ impl WithSimd for Far<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Problem { blocks: Some(blocks), count, change, applied, .. } = self.problem else {
-            return false;
-        };
+        let Self { problem, least } = self;
         let mut reached = false;
-        for e in 0..*count {
-            let moved = [e, *count + e, 2 * *count + e].map(|i| change[i] - applied[i]);
-            reached |= blocks.push_far(simd, e, moved, self.least);
+        for e in 0..problem.count {
+            let moved = problem.places(e).map(|i| problem.change[i] - problem.applied[i]);
+            if let Some(blocks) = &mut problem.blocks {
+                reached |= blocks.push_far(simd, e, moved, least);
+            }
         }
-        applied.copy_from_slice(change);
+        problem.applied.copy_from_slice(&problem.change);
         reached
     }
 }
