@@ -699,7 +699,7 @@ class TrenchMotion(FreeField):
     """Free field of a trench: vertical waves below a surface that moves as recorded.
 
     ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
-    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component that is None is zero. Motion at
+    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component left out is zero. Motion at
     depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
     surface (`Record.padded`).
     """
@@ -3689,7 +3689,7 @@ def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     """
 def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
     """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-    same everywhere at once; a component that is None is zero.
+    same everywhere at once; a component left out is zero.
     """
 def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
     """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at

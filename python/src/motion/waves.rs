@@ -22,7 +22,7 @@ use crate::soil::PySoil;
 use crate::ticker::watched;
 
 /// Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-/// same everywhere at once; a component that is None is zero.
+/// same everywhere at once; a component left out is zero.
 #[pyfunction]
 #[pyo3(signature = (horizontal=None, vertical=None))]
 pub(crate) fn vertical_incidence(

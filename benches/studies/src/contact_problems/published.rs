@@ -17,9 +17,9 @@ use crate::figure::{BLUE, Figure, Panel, RED};
 
 /// Largest residual of a problem with a definite W, and of another one.
 const LIMITS: [f64; 2] = [1e-11, 1e-7];
-/// Least over greatest eigenvalue of W below which it is singular, and what is then added to its diagonal, over its largest
-/// entry: a soft layer. The residual is of the W without it.
+/// Least over greatest eigenvalue of W below which W is singular.
 const SINGULAR: f64 = 1e-12;
+/// Compliance of a layer that a singular W gets on its diagonal, over its largest entry. Residuals are without it.
 const LAYER: f64 = 1e-9;
 
 /// u = W r + q for some contacts: normal components first, then those along x, in space along y.
