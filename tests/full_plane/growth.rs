@@ -5,11 +5,12 @@
 use basemat::bem::Ground;
 use basemat::bem::full_plane::{
     Boundary, BoundaryCondition, BoundaryKernel, BoundaryMarch, ConvolutionQuadrature, CqMethod,
-    FullPlaneGround, Given, GroundStability, Segment, Stability, TimeKernel,
+    FullPlaneGround, Given, Segment, Stability, TimeKernel,
 };
 use basemat::{Result, Soil};
 
 use super::{flat, soil};
+use basemat_problems::boundary_passivity::boundary_passivity;
 use basemat_problems::{close, random};
 
 /// Which coefficients: by convolution quadrature, or else the time kernel.
@@ -52,14 +53,14 @@ impl Case {
         self.beta / soil(self.poisson).pressure_wave_speed()
     }
 
-    fn assess(self) -> GroundStability {
+    /// Growth with the base uplifted and bonded.
+    fn assess(self) -> [Stability; 2] {
         let range = 0.0..f64::from(u32::try_from(self.elements).unwrap());
-        let mut ground =
-            FullPlaneGround::strip(soil(self.poisson), range, self.elements, self.free)
-                .unwrap()
-                .with_kernel(move |segments, soil, step| kernel(self.method, segments, soil, step));
+        let ground = FullPlaneGround::strip(soil(self.poisson), range, self.elements, self.free)
+            .unwrap()
+            .with_kernel(move |segments, soil, step| kernel(self.method, segments, soil, step));
         assert!(ground.elements().len() == self.elements);
-        ground.assess(self.step()).unwrap().clone()
+        ground.assess(self.step(), 1e-4).unwrap()
     }
 
     /// Growth per step of a march from a random perturbation, over the second half of `steps`;
@@ -97,10 +98,9 @@ const BETAS: [f64; 6] = [0.1, 0.25, 0.5, 1.0, 2.0, 5.0];
 /// Growth, in percent of itself where several modes grow alike; `None` stands for bounded.
 #[track_caller]
 fn check_growth(name: &str, found: &Stability, wanted: Option<f64>) {
-    println!("{name}: {found}");
-    assert!(found.tail_error < 1e-9 && found.smallest_growth == 1e-4);
+    println!("{name}: {found:?}");
     match wanted {
-        None => assert!(found.is_bounded(), "{name}: {found}"),
+        None => assert!(found.is_bounded(), "{name}: {found:?}"),
         Some(growth) => close(name, found.growth_per_step, growth, 0.0, 0.015),
     }
 }
@@ -113,10 +113,12 @@ fn check_row(
     passivity: [f64; 6],
 ) {
     for (k, beta) in BETAS.into_iter().enumerate() {
-        let found = Case::table(method, beta).assess();
-        check_growth(&format!("{method:?} free {beta}"), &found.uplifted, free[k]);
-        check_growth(&format!("{method:?} bonded {beta}"), &found.bonded, bonded[k]);
-        let figure = found.bonded.passivity.unwrap();
+        let case = Case::table(method, beta);
+        let found = case.assess();
+        check_growth(&format!("{method:?} free {beta}"), &found[0], free[k]);
+        check_growth(&format!("{method:?} bonded {beta}"), &found[1], bonded[k]);
+        let kernel = kernel(method, &flat(20), soil(1.0 / 3.0), case.step()).unwrap();
+        let [figure, _] = boundary_passivity(kernel.as_ref());
         close(&format!("{method:?} passivity {beta}"), figure, passivity[k], 0.0, 0.03);
     }
 }
@@ -128,7 +130,7 @@ fn time_kernel_grows_for_short_steps() {
         TIME,
         [Some(1.02e-2), Some(2.86e-2), Some(6.78e-2), Some(9.95e-2), None, None],
         [Some(5.16e-2), Some(1.107e-1), Some(2.27e-2), None, None, None],
-        [-0.459, -0.584, -0.402, -1.0, -0.407, -0.0347],
+        [-0.420, -0.380, -0.384, -1.0, -0.403, -0.0319],
     );
 }
 
@@ -139,7 +141,7 @@ fn bdf2_is_bounded_from_one_half() {
         BDF2,
         [Some(7.18e-3), Some(8.27e-3), None, None, None, None],
         [Some(3.36e-2), None, None, None, None, None],
-        [-0.468, -1.0, -1.06e-3, -1.61e-3, -1.76e-3, -1.81e-3],
+        [-0.448, -1.0, -1.06e-3, -1.61e-3, -1.76e-3, -1.81e-3],
     );
 }
 
@@ -150,7 +152,7 @@ fn bdf1_is_bounded() {
         BDF1,
         [None; 6],
         [None; 6],
-        [-2.40e-2, -2.26e-3, -2.45e-3, -2.43e-3, -2.18e-3, -1.80e-3],
+        [-1.95e-2, -2.26e-3, -2.45e-3, -2.43e-3, -2.18e-3, -1.80e-3],
     );
 }
 
@@ -174,8 +176,8 @@ fn growth_depends_on_poissons_ratio() {
         (5.0, third, None, None),
     ] {
         let found = Case { method: TIME, poisson, elements: 10, free: 5, beta }.assess();
-        check_growth(&format!("uplifted {beta} {poisson}"), &found.uplifted, uplifted);
-        check_growth(&format!("bonded {beta} {poisson}"), &found.bonded, bonded);
+        check_growth(&format!("uplifted {beta} {poisson}"), &found[0], uplifted);
+        check_growth(&format!("bonded {beta} {poisson}"), &found[1], bonded);
     }
 }
 
@@ -184,8 +186,8 @@ fn growth_depends_on_poissons_ratio() {
 fn long_surfaces_grow_where_short_ones_do_not() {
     let case = |method, beta, elements| Case { elements, ..Case::table(method, beta) };
     for (method, beta) in [(BDF2, 0.1), (TIME, 0.5)] {
-        let [short, long] = [6, 20].map(|count| case(method, beta, count).assess().uplifted);
-        assert!(short.is_bounded() && !long.is_bounded(), "{method:?}: {short}; {long}");
+        let [[short, _], [long, _]] = [6, 20].map(|count| case(method, beta, count).assess());
+        assert!(short.is_bounded() && !long.is_bounded(), "{method:?}: {short:?}; {long:?}");
     }
     // Time kernel, ν = 1/4, β = 1, five and twenty free elements beside ten.
     let case = |free| Case { method: TIME, poisson: 0.25, elements: 10, free, beta: 1.0 };
@@ -222,8 +224,8 @@ fn trenches_need_convolution_quadrature() {
             let step = 0.5 * beta / soil(1.0 / 3.0).pressure_wave_speed();
             let kernel = kernel(method, &segments, soil(1.0 / 3.0), step).unwrap();
             let found = Stability::assess(kernel.as_ref(), &conditions, 1e-4).unwrap();
-            assert_eq!(found.is_bounded(), method != TIME, "{method:?} {beta}: {found}");
-            assert!(method != TIME || found.growth_per_step > 0.05, "{beta}: {found}");
+            assert_eq!(found.is_bounded(), method != TIME, "{method:?} {beta}: {found:?}");
+            assert!(method != TIME || found.growth_per_step > 0.05, "{beta}: {found:?}");
         }
     }
 }
@@ -241,9 +243,9 @@ fn marches_grow_as_predicted() {
     ] {
         let case = Case::table(method, beta);
         let found = case.assess();
-        let predicted = if held { &found.bonded } else { &found.uplifted };
+        let predicted = &found[usize::from(held)];
         let marched = case.march(held, steps);
-        println!("{case:?} held {held}: marched {marched:.4e}, {predicted}");
+        println!("{case:?} held {held}: marched {marched:.4e}, {predicted:?}");
         if predicted.is_bounded() {
             assert!(marched < 1e-4);
         } else {

@@ -106,7 +106,7 @@ pub(crate) fn waves() -> VerticalWaves {
 fn scattered(boundary: Boundary, time_step: f64, steps: usize) -> Vec<[f64; 3]> {
     let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves());
     // Too few steps for growth to show.
-    let mut ground = ground.skip_assessment();
+    let mut ground = ground.allow_growth();
     ground.prepare(time_step, None, &mut unobserved).unwrap();
     let count = ground.elements().len();
     let (mut history, mut free) = (vec![9.0; 2 * count], vec![9.0; 2 * count]);
@@ -157,7 +157,7 @@ fn excavated_half_plane_moves_as_its_own_surface() {
         let waves = VerticalWaves::new(soil(0.25), pulse(), 0.5).unwrap();
         let boundary = Boundary::new(Vec::clone(&segments), &[47, 48]).unwrap();
         let ground = FullPlaneGround::new(soil(0.25), boundary).with_incident_field(waves);
-        let mut ground = ground.skip_assessment();
+        let mut ground = ground.allow_growth();
         ground.prepare(step, None, &mut unobserved).unwrap();
         let (mut history, mut free) = ([0.0; 4], [0.0; 4]);
         let mut worst = 0.0_f64;

@@ -3,13 +3,19 @@
 use std::cell::Cell;
 
 use super::ground_state::Prepared;
+use super::stability_symbol::Symbol;
 use super::static_limit::static_compliance;
-use super::{Boundary, BoundaryKernel, GroundStability, IncidentField, Segment, TimeKernel};
+use super::{
+    Boundary, BoundaryCondition, BoundaryKernel, IncidentField, Segment, Stability, TimeKernel,
+};
 use crate::bem::{ContactElement, Ground, GroundDescription, NOT_PREPARED, StaticKernel, Strip};
-use crate::error::{Error, Observer, Result, same_length};
+use crate::error::{Error, GroundError, Observer, Result, same_length};
 use crate::geometry::{ContactLayout, PLANE};
 use crate::motion::FreeField;
 use crate::soil::Soil;
+
+/// Growth per step that ends a preparation.
+const GROWTH: f64 = 1e-4;
 
 /// Computes the kernel for a boundary and a time step.
 type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
@@ -29,11 +35,10 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 ///
 /// The scheme is not stable for every step: see [the module](super). The builder of a simulation calls
 /// [`Ground::prepare`], which assesses the discrete operator for this boundary, step and kernel, with the
-/// base uplifted and with the base bonded. It returns [`GroundError::Unstable`](crate::bem::GroundError::Unstable) if perturbations grow by more than
-/// 1e-4 per step. [`FullPlaneGround::stability`] has the figures. The assessment takes the time of a thousand
-/// factorisations of complex matrices of order 2E, and ten times that time if modes grow: with the 20
-/// elements of the paper 0.2 s, and up to 2 s (release build). It is computed once per step size.
-/// [`FullPlaneGround::skip_assessment`] skips it.
+/// base uplifted and with the base bonded. It returns [`GroundError::Unstable`](crate::bem::GroundError::Unstable) if
+/// perturbations grow by more than 1e-4 per step. [`FullPlaneGround::assess`] has the figures. The assessment takes the
+/// time of a thousand factorisations of complex matrices of order 2E, and ten times that time if modes grow: with the 20
+/// elements of the paper 0.2 s, and up to 2 s (release build). [`FullPlaneGround::allow_growth`] skips it.
 ///
 /// ```
 /// use basemat::{Soil, bem::{Ground, full_plane::FullPlaneGround}};
@@ -42,7 +47,7 @@ type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel
 /// // short to march for long.
 /// let mut ground = FullPlaneGround::strip(soil, -5.0..5.0, 10, 5)?.allow_growth();
 /// ground.prepare(1.0e-3, None, &mut basemat::unobserved)?;
-/// assert!(ground.stability().is_some_and(|found| !found.is_bounded()));
+/// assert!(ground.assess(1.0e-3, 1e-4)?.iter().any(|found| !found.is_bounded()));
 /// let mut matrix = vec![0.0; 20 * 20];
 /// ground.step_compliance(&mut matrix)?;
 /// // Waves have not reached the edges of the element: p·t/(ρ c₁).
@@ -55,11 +60,10 @@ pub struct FullPlaneGround {
     boundary: Boundary,
     make_kernel: Box<MakeKernel>,
     incident: Option<Box<dyn IncidentField>>,
-    assessment: Assessment,
-    /// Smallest growth per step that the assessment searches for.
-    smallest_growth: f64,
-    /// The last assessment, and its time step.
-    stability: Option<(f64, GroundStability)>,
+    /// Whether a run may begin although perturbations grow.
+    may_grow: bool,
+    /// Last time step for which no perturbation was found to grow.
+    bounded: Option<f64>,
     /// Whether the scene's motion is not at rest although there is an incident field.
     conflict: Cell<bool>,
     prepared: Option<Prepared>,
@@ -72,17 +76,6 @@ short_debug! {
     segments: self.boundary.segments().len(),
     elements: self.boundary.contact().len(),
     prepared: self.prepared.is_some(),
-}
-
-/// Treatment of stability before the run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Assessment {
-    /// Growth is an error.
-    Required,
-    /// Growth is stored in the assessment.
-    Reported,
-    /// Stability is not assessed.
-    Skipped,
 }
 
 impl FullPlaneGround {
@@ -117,9 +110,8 @@ impl FullPlaneGround {
             boundary,
             make_kernel,
             incident: None,
-            assessment: Assessment::Required,
-            smallest_growth: 1e-4,
-            stability: None,
+            may_grow: false,
+            bounded: None,
             conflict,
             prepared: None,
         }
@@ -136,37 +128,22 @@ impl FullPlaneGround {
         make: impl Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send + 'static,
     ) -> Self {
         self.make_kernel = Box::new(make);
-        self.stability = None;
+        self.bounded = None;
         self
     }
 
-    /// Permits runs in which perturbations grow; [`FullPlaneGround::stability`] still holds the growth.
+    /// Permits runs in which perturbations grow, and skips the assessment.
     #[must_use]
     pub fn allow_growth(mut self) -> Self {
-        self.assessment = Assessment::Reported;
+        self.may_grow = true;
         self
     }
 
-    /// Skips the assessment of stability, if its cost matters and its result is known.
-    #[must_use]
-    pub fn skip_assessment(mut self) -> Self {
-        self.assessment = Assessment::Skipped;
-        self
-    }
-
-    /// Searches for growth over so many steps: beyond 1/`steps` per step instead of 1e-4.
+    /// Growth for steps of `time_step` seconds: with the base uplifted, and with the base bonded.
     ///
-    /// Slower growth is less than e-fold in so many steps. `steps` is limited to the range 2 to 10⁷.
-    #[must_use]
-    pub fn with_growth_over(mut self, steps: usize) -> Self {
-        self.smallest_growth = 1.0 / steps.clamp(2, 10_000_000) as f64;
-        self.stability = None;
-        self
-    }
-
-    /// Assesses stability for steps of `time_step` seconds; growth is not an error here.
-    ///
-    /// [`Ground::prepare`] for the same step then does not assess again.
+    /// All elements are free of traction under an uplifted base; contact elements have prescribed displacements under
+    /// a base that sticks. A partly open base, and the structure on it, are not assessed. A structure stabilises the
+    /// elements in contact with it. `smallest_growth`: as for [`Stability::assess`].
     ///
     /// ```
     /// use basemat::{Error, Soil, bem::{Ground, GroundError, full_plane::FullPlaneGround}, unobserved};
@@ -174,41 +151,50 @@ impl FullPlaneGround {
     /// let step = |beta: f64| beta / soil.pressure_wave_speed();
     /// let mut ground = FullPlaneGround::strip(soil, -3.0..3.0, 6, 5)?;
     /// // The step of the paper, β = 1/2.
-    /// let found = ground.assess(step(0.5))?.clone();
-    /// assert!(found.uplifted.growth_per_step > 0.05 && !found.is_bounded());
+    /// let [uplifted, _] = ground.assess(step(0.5), 1e-4)?;
+    /// assert!(uplifted.growth_per_step > 0.05 && !uplifted.is_bounded());
     /// let refused = ground.prepare(step(0.5), None, &mut unobserved).unwrap_err();
     /// assert!(matches!(refused, Error::Ground(GroundError::Unstable { .. })));
-    /// let mut ground = ground.allow_growth();
-    /// ground.prepare(step(0.5), None, &mut unobserved)?;
-    /// assert_eq!(ground.stability(), Some(&found));
+    /// ground.allow_growth().prepare(step(0.5), None, &mut unobserved)?;
     /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
-    /// The errors of [`Stability::assess`](super::Stability::assess) and of the kernel.
-    pub fn assess(&mut self, time_step: f64) -> Result<&GroundStability> {
+    /// The errors of [`Stability::assess`] and of the kernel.
+    pub fn assess(&self, time_step: f64, smallest_growth: f64) -> Result<[Stability; 2]> {
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
-        self.assess_kernel(kernel.as_ref(), time_step)
-    }
-
-    /// Growth found by the last assessment, see [`Ground::prepare`].
-    ///
-    /// `None` before the assessment, and if it was skipped. From a simulation, use
-    /// [`Simulation::ground`](crate::Simulation::ground).
-    pub fn stability(&self) -> Option<&GroundStability> {
-        self.stability.as_ref().map(|(_, found)| found)
+        self.assess_kernel(kernel.as_ref(), smallest_growth)
     }
 
     fn assess_kernel(
-        &mut self,
+        &self,
         kernel: &dyn BoundaryKernel,
-        time_step: f64,
-    ) -> Result<&GroundStability> {
-        let found = match self.stability.take() {
-            Some((assessed, found)) if assessed == time_step => found,
-            _ => GroundStability::assess(kernel, &self.boundary, self.smallest_growth)?,
-        };
-        Ok(&self.stability.insert((time_step, found)).1)
+        smallest_growth: f64,
+    ) -> Result<[Stability; 2]> {
+        let mut conditions = vec![BoundaryCondition::TractionFree; self.boundary.segments().len()];
+        let mut symbol = Symbol::new(kernel, &conditions)?;
+        let uplifted = Stability::from_symbol(&symbol, smallest_growth)?;
+        for &element in self.boundary.contact() {
+            conditions[element] = BoundaryCondition::PrescribedDisplacement;
+        }
+        symbol.prescribe(&conditions)?;
+        Ok([uplifted, Stability::from_symbol(&symbol, smallest_growth)?])
+    }
+
+    /// Error if perturbations grow.
+    fn check_growth(&mut self, kernel: &dyn BoundaryKernel, time_step: f64) -> Result<()> {
+        if self.may_grow || self.bounded == Some(time_step) {
+            return Ok(());
+        }
+        let [uplifted, bonded] = self.assess_kernel(kernel, GROWTH)?;
+        let bonded_is_worse = bonded.growth_per_step > uplifted.growth_per_step;
+        let worst = if bonded_is_worse { bonded } else { uplifted };
+        if !worst.is_bounded() {
+            let Stability { growth_per_step, growing_modes } = worst;
+            return Err(GroundError::Unstable { growth_per_step, growing_modes }.into());
+        }
+        self.bounded = Some(time_step);
+        Ok(())
     }
 
     /// Adds waves from below, which the boundary scatters (eq. 21).
@@ -258,15 +244,7 @@ impl Ground for FullPlaneGround {
             });
         }
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
-        if self.assessment == Assessment::Skipped {
-            self.stability = None;
-        } else {
-            let required = self.assessment == Assessment::Required;
-            let found = self.assess_kernel(kernel.as_ref(), time_step)?;
-            if required {
-                found.require_bounded()?;
-            }
-        }
+        self.check_growth(kernel.as_ref(), time_step)?;
         let incident = self.incident.is_some();
         let mut prepared = Prepared::new(&self.boundary, kernel, time_step, incident)?;
         prepared.history.prepare(steps.unwrap_or(0))?;

@@ -30,8 +30,9 @@ const POWERS: usize = 10;
 const FIRST: usize = 64;
 const LAST: usize = 4096;
 
-/// Largest error of the interpolation at the lags checked.
+/// Error of the interpolation at the lags checked, above which more early lags are summed, and the largest one.
 const TAIL_TOLERANCE: f64 = 1e-9;
+const ROUGH: f64 = 1e-6;
 
 /// Symbols of G and H, and the operator that they form.
 pub(super) struct Symbol<'a> {
@@ -46,7 +47,6 @@ pub(super) struct Symbol<'a> {
     /// Coefficients of (N/n)^p, p = 1 …, in the same layout.
     late: Vec<f64>,
     lags: usize,
-    tail_error: f64,
 }
 
 impl<'a> Symbol<'a> {
@@ -67,7 +67,6 @@ impl<'a> Symbol<'a> {
             early: vec![],
             late: vec![],
             lags: FIRST,
-            tail_error: 0.0,
         };
         symbol.prescribe(conditions)?;
         let mut first = vec![0.0; 2 * size];
@@ -77,12 +76,16 @@ impl<'a> Symbol<'a> {
         if !symbol.scale.is_finite() {
             return Err(Error::Singular { matrix: "coefficients of lag 0", order: symbol.order() });
         }
-        loop {
-            symbol.fit_tail()?;
-            if symbol.tail_error < TAIL_TOLERANCE || symbol.lags >= LAST {
-                break;
-            }
+        let mut error = symbol.fit_tail()?;
+        while error > TAIL_TOLERANCE && symbol.lags < LAST {
             symbol.lags *= 2;
+            error = symbol.fit_tail()?;
+        }
+        if error > ROUGH {
+            let reason = format!(
+                "coefficients beyond lag {LAST} differ by {error:.0e} from smooth ones, which a search for growth needs"
+            );
+            return Err(Error::part("boundary kernel", reason));
         }
         symbol.classes = classes(&first, &symbol.late);
         if !symbol.read_early()? {
@@ -126,25 +129,6 @@ impl<'a> Symbol<'a> {
         self.prescribed.len()
     }
 
-    pub(super) fn summed_lags(&self) -> usize {
-        self.lags
-    }
-
-    pub(super) fn tail_error(&self) -> f64 {
-        self.tail_error
-    }
-
-    /// Whether the displacement is prescribed, for each of the 2E components.
-    pub(super) fn prescribed(&self) -> &[bool] {
-        &self.prescribed
-    }
-
-    /// Length of the element of each component.
-    pub(super) fn length(&self, component: usize) -> f64 {
-        let segments = self.kernel.segments();
-        segments[component % segments.len()].length()
-    }
-
     fn stride(&self) -> usize {
         2 * self.order() * self.order()
     }
@@ -169,8 +153,8 @@ impl<'a> Symbol<'a> {
         Ok(values)
     }
 
-    /// Interpolates n·(Gⁿ, Hⁿ) by a polynomial in N/n and checks it between its points.
-    fn fit_tail(&mut self) -> Result<()> {
+    /// Interpolates n·(Gⁿ, Hⁿ) by a polynomial in N/n; returns its relative error between its points.
+    fn fit_tail(&mut self) -> Result<f64> {
         let first = self.lags as f64;
         let point = |k: f64| 0.5 + 0.5 * (PI * (k + 0.5) / POWERS as f64).cos();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "n ≥ N")]
@@ -214,13 +198,12 @@ impl<'a> Symbol<'a> {
                 error = error.max((found - wanted).abs());
             }
         }
-        // A kernel without late lags needs no interpolation.
-        self.tail_error = if largest > 0.0 { error / largest } else { 0.0 };
         // Converts back to (Gⁿ, Hⁿ) = Σ c_p (N/n)^p /N, with G unscaled.
         for (index, value) in self.late.iter_mut().enumerate() {
             *value /= if index % stride < stride / 2 { first * self.scale } else { first };
         }
-        Ok(())
+        // A kernel without late lags needs no interpolation.
+        Ok(if largest > 0.0 { error / largest } else { 0.0 })
     }
 
     /// Adds the contribution of late lags to `sum`, which has one number per class.
@@ -233,19 +216,15 @@ impl<'a> Symbol<'a> {
         }
     }
 
-    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ; returns the kernel's s, if it has one.
-    pub(super) fn at(
-        &self,
-        zeta: Complex64,
-        sum: &mut Vec<Complex64>,
-    ) -> Result<Option<Complex64>> {
+    /// Overwrites `sum` with the symbols of G and H (2E × 2E each) at one ζ.
+    pub(super) fn at(&self, zeta: Complex64, sum: &mut Vec<Complex64>) -> Result<()> {
         let stride = self.stride();
         let mut exact = vec![0.0; 2 * stride];
         let (g, h) = exact.split_at_mut(stride);
-        if let Some([re, im]) = self.kernel.symbol([zeta.re, zeta.im], g, h)? {
+        if self.kernel.symbol([zeta.re, zeta.im], g, h)?.is_some() {
             sum.clear();
             sum.extend(exact.chunks_exact(2).map(|x| Complex64::new(x[0], x[1])));
-            return Ok(Some(Complex64::new(re, im)));
+            return Ok(());
         }
         let mut series = vec![Complex64::default(); self.classes.len()];
         let mut power = Complex64::new(1.0, 0.0);
@@ -262,7 +241,7 @@ impl<'a> Symbol<'a> {
                 sum[*place] = value * sign;
             }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// The operator F from the symbols of G and H, with columns in the order of the degrees of freedom.

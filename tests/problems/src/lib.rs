@@ -16,6 +16,7 @@ pub fn heavy() -> bool {
 }
 
 pub mod block_on_springs;
+pub mod boundary_passivity;
 pub mod bricks;
 pub mod chatter;
 pub mod check_sum;

@@ -34,7 +34,7 @@ impl Mesh {
     /// The ground, its growth not assessed.
     pub fn ground(&self, soil: Soil) -> FullPlaneGround {
         let ground = FullPlaneGround::strip(soil, -1.0..1.0, self.elements, self.free).unwrap();
-        let ground = ground.skip_assessment();
+        let ground = ground.allow_growth();
         let Some(method) = self.quadrature else { return ground };
         ground.with_kernel(move |segments, soil, step| {
             let kernel = ConvolutionQuadrature::new(soil, segments, step, method)?;

@@ -2,8 +2,6 @@
 
 use std::path::Path;
 
-use basemat::Error;
-use basemat::bem::GroundError;
 use basemat::bem::full_plane::Stability;
 use basemat::plot::{Curve, curves};
 
@@ -19,16 +17,10 @@ pub(crate) fn print_assessments(scene: &Scene, steps: usize) -> Result<(), AnyEr
         "\n| soil | base held, growth per step | base open | marched without leave |\n|---|---|---|---|"
     );
     for scheme in [Scheme::Paper, Scheme::Quadrature] {
-        let mut ground = scheme.full_plane(scene)?.with_growth_over(steps);
-        let found = ground.assess(scene.time_step)?;
-        let growth = [&found.bonded, &found.uplifted].map(growth_of);
-        let answer = match found.require_bounded() {
-            Ok(()) => "yes".to_owned(),
-            Err(Error::Ground(GroundError::Unstable { .. })) => {
-                "no: `GroundError::Unstable`".to_owned()
-            }
-            Err(error) => return Err(error.into()),
-        };
+        let [open, held] = scheme.full_plane(scene)?.assess(scene.time_step, 1.0 / steps as f64)?;
+        let growth = [&held, &open].map(growth_of);
+        let bounded = held.is_bounded() && open.is_bounded();
+        let answer = if bounded { "yes" } else { "no: `GroundError::Unstable`" };
         println!("| {} | {} | {} | {answer} |", scheme.name(), growth[0], growth[1]);
     }
     Ok(())

@@ -66,10 +66,10 @@ impl Scheme {
             .gravity(STANDARD_GRAVITY);
         let builder = match self {
             // Assessed once, for all rows, in the report.
-            Self::Paper => builder
-                .ground(self.full_plane(scene)?.skip_assessment())
-                .contact_search(scene.search),
-            Self::Quadrature => builder.ground(self.full_plane(scene)?.skip_assessment()),
+            Self::Paper => {
+                builder.ground(self.full_plane(scene)?.allow_growth()).contact_search(scene.search)
+            }
+            Self::Quadrature => builder.ground(self.full_plane(scene)?.allow_growth()),
             Self::HalfPlane | Self::Own => {
                 let Containment { elements, .. } = scene.containment;
                 let (soil, base) = (scene.containment.soil()?, scene.containment.base());

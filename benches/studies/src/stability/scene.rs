@@ -172,7 +172,7 @@ impl Scene {
             });
         }
         // Marched whatever is foretold: that is what the maps are to show.
-        let ground = self.full_plane(soil)?.skip_assessment();
+        let ground = self.full_plane(soil)?.allow_growth();
         Ok(builder.ground(ground).scheme(Newmark::default()))
     }
 
@@ -276,9 +276,9 @@ impl Scene {
 
     fn growth_of_boundary(&self) -> Result<[f64; 2]> {
         let soil = Soil::new(80.0e6, self.poisson, 1900.0)?;
-        let mut ground = self.full_plane(soil)?.with_growth_over(self.steps);
-        let found = ground.assess(self.time_step(&soil))?;
-        Ok([found.uplifted.growth_per_step, found.bonded.growth_per_step])
+        let smallest = 1.0 / self.steps as f64;
+        let states = self.full_plane(soil)?.assess(self.time_step(&soil), smallest)?;
+        Ok(states.map(|state| state.growth_per_step))
     }
 
     fn full_plane(&self, soil: Soil) -> Result<FullPlaneGround> {
