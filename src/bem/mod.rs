@@ -45,6 +45,7 @@ use std::sync::Arc;
 pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Error, Observer, Result};
+use crate::geometry::Patch;
 use crate::history::{ConvolutionWeights, HistoryChoice};
 use crate::motion::FreeField;
 use crate::soil::Soil;
@@ -164,6 +165,23 @@ pub trait Ground: Any + Send {
             places.zip(moved).for_each(|(value, moved)| *value = moved);
         }
     }
+}
+
+/// Overwrites displacements and impulses, both 2Q, as [`Ground::free_field`] or with walls [`FreeField::at_faces`].
+///
+/// Impulses are overwritten with walls only. Returns whether the motion is known.
+pub(crate) fn free_field(
+    ground: &dyn Ground,
+    motion: &dyn FreeField,
+    elements: &Patch,
+    time: f64,
+    [displacement, impulse]: [&mut [f64]; 2],
+) -> bool {
+    if elements.has_walls() {
+        return motion.at_faces(elements, time, displacement, impulse);
+    }
+    ground.free_field(motion, time, displacement);
+    true
 }
 
 /// Soil and history of a ground, for warnings and pages.

@@ -1,6 +1,7 @@
 //! Identity of a scene: numbers that distinguish checkpoints of different scenes.
 
 use crate::Simulation;
+use crate::bem::free_field;
 use crate::coupled::scene::Scene;
 use crate::error::{CheckpointError, Result};
 use crate::geometry::ContactElement;
@@ -229,19 +230,15 @@ impl Simulation {
         let Self { scene, structure, ground, motion, .. } = self;
         let count = steps.max(SAMPLES);
         let (mut moved, mut loaded) = (vec![0.0; SAMPLES], vec![0.0; SAMPLES]);
+        let elements = scene.base.elements();
         let mut displacement = vec![0.0; scene.layout().len()];
+        let mut impulse = displacement.clone();
         for (sample, moved) in moved.iter_mut().enumerate() {
             let step = (sample + 1) as f64 * (count as f64 / SAMPLES as f64);
             let time = step.round() * scene.time_step;
-            if scene.base.elements().has_walls() {
-                let elements = scene.base.elements();
-                let mut impulse = vec![0.0; displacement.len()];
-                motion.at_faces(elements, time, &mut displacement, &mut impulse);
-                *moved = mixed(&impulse);
-            } else {
-                ground.free_field(motion.as_ref(), time, &mut displacement);
-            }
-            *moved += mixed(&displacement);
+            let values = [&mut displacement[..], &mut impulse];
+            free_field(ground.as_ref(), motion.as_ref(), elements, time, values);
+            *moved = mixed(&impulse) + mixed(&displacement);
         }
         let rows = scene.loads.iter().enumerate();
         let rows: Vec<f64> = rows.map(|(k, load)| mixing_weight(k) * load.mixed_row()).collect();

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::bem::Ground;
+use crate::bem::{Ground, free_field};
 use crate::contact::ContactSearch;
 use crate::coupled::base::held::held;
 use crate::coupled::coordinates::Coordinates;
@@ -207,15 +207,13 @@ impl Parts {
 /// Displacement of the free field at t = 0.
 fn start_motion(ground: &dyn Ground, motion: &dyn FreeField, elements: &Patch) -> Result<Vec<f64>> {
     let mut displacement = vec![0.0; elements.layout().len()];
+    let mut impulse = displacement.clone();
+    let known = free_field(ground, motion, elements, 0.0, [&mut displacement, &mut impulse]);
     if elements.has_walls() {
-        let mut impulse = displacement.clone();
-        let known = motion.at_faces(elements, 0.0, &mut displacement, &mut impulse);
         let own = ground.description().identity;
         let fits = motion.soils().zip(own).is_none_or(|(soils, own)| *soils == own[..]);
         let needed = "one that is known at the walls of this ground: a `TrenchMotion` made for it";
         require_part("free field", known && fits, needed)?;
-    } else {
-        ground.free_field(motion, 0.0, &mut displacement);
     }
     for displacement in &displacement {
         finite("free field at t = 0", *displacement)?;

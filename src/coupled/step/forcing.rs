@@ -8,7 +8,7 @@
 //! | h | soil displacement by all earlier tractions, less the effect of tractions of the free field |
 //! | R | influence vectors |
 
-use crate::bem::Ground;
+use crate::bem::{Ground, free_field};
 use crate::coupled::model::kinematics::Translation;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::State;
@@ -142,14 +142,14 @@ impl Forcing {
         motion: &dyn FreeField,
         time: f64,
     ) {
-        if self.free_traction.is_empty() {
-            return ground.free_field(motion, time, &mut self.free_field);
-        }
-        let (elements, impulse) = (scene.base.elements(), &mut self.impulse);
+        let elements = scene.base.elements();
         // The motion is known at the faces: the build has checked it.
-        motion.at_faces(elements, state.time, &mut self.free_field, &mut self.free_traction);
-        motion.at_faces(elements, time, &mut self.free_field, impulse);
-        for (traction, impulse) in self.free_traction.iter_mut().zip(impulse) {
+        if elements.has_walls() {
+            let values = [&mut self.free_field[..], &mut self.free_traction];
+            free_field(ground, motion, elements, state.time, values);
+        }
+        free_field(ground, motion, elements, time, [&mut self.free_field, &mut self.impulse]);
+        for (traction, impulse) in self.free_traction.iter_mut().zip(&self.impulse) {
             *traction = (*impulse - *traction) / scene.time_step;
         }
     }
