@@ -203,8 +203,9 @@ pub struct GroundDescription {
     pub outline_error: f64,
     /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
     ///
-    /// It acts on the walls of a structure in the ground before the run, and is zero below its base. Walls
-    /// of a ground that leaves the list empty carry no pressure at rest.
+    /// It acts on the walls of a structure in the ground before the run. Pressures below its base count for
+    /// [`GravityStage::WishedInPlace`](crate::coupled::GravityStage::WishedInPlace) only. Walls of a ground that leaves
+    /// the list empty carry no pressure at rest.
     pub pressure_at_rest: Vec<f64>,
     /// Numbers of the soils around walls, equal only for equal soils; `None` if they are not known.
     ///

@@ -1,9 +1,9 @@
-//! Pressure of the soil at rest on the walls of a trench.
+//! Pressure of the soil at rest on the faces of a trench.
 
 use super::soil::TrenchSoil;
 use crate::soil::Soil;
 
-/// Pressure at rest on each element over gravity, kg/m², in the order of the outline; zero on the base.
+/// Pressure at rest on each element over gravity, kg/m², in the order of the outline.
 ///
 /// `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
 pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
@@ -31,9 +31,11 @@ pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
             sum / (ends[1] - ends[0])
         })
         .collect();
-    let base = 2 * (soil.elements().base().len() - 1);
-    let right = wall.iter().rev();
-    wall.iter().copied().chain(std::iter::repeat_n(0.0, base)).chain(right.copied()).collect()
+    let depth = soil.elements().trench().depth();
+    let above = soil.profile().above(depth);
+    let weight: f64 = above.layers().iter().map(|own| own.soil.density() * own.thickness).sum();
+    let base = std::iter::repeat_n(weight, 2 * (soil.elements().base().len() - 1));
+    wall.iter().copied().chain(base).chain(wall.iter().rev().copied()).collect()
 }
 
 #[cfg(test)]
@@ -55,7 +57,7 @@ mod tests {
         for (ratio, k) in [(None, 1.0 / 3.0), (Some(0.5), 0.5)] {
             let pressures = at_rest(&soil, ratio);
             assert_eq!(pressures.len(), 10);
-            assert_eq!(pressures[3..7], [0.0; 4]);
+            assert_eq!(pressures[3..7], [8000.0; 4]);
             for wall in [0..3, 7..10] {
                 let thrust: f64 = wall.map(|e| pressures[e] * lengths[e]).sum();
                 // 1000 · 2²/2 + 2000 · 3 + 2000 · 3²/2.

@@ -1,15 +1,17 @@
-//! The static state of a scene: in stages, with walls after backfilling.
+//! The static state of a scene: in stages, with walls after backfilling or in place of the soil.
 
 use super::backfilled;
 use super::static_stages::{loaded, placed};
 use crate::coupled::base::held::holds;
 use crate::coupled::base::influence::UP;
+use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, finite};
 use crate::interface::InterfaceLaw;
+use crate::linalg::dense_multiply_add;
 use crate::structure::nonlinear_state;
 
 /// The state under weight and the loads at t = 0; trivial without gravity.
@@ -68,9 +70,17 @@ pub(crate) fn under_loads(
     let (structure, frictionless) = (structure.as_ref(), false);
     let stage = Standing { assembled, structure, soil, frictionless, offset: &[] };
     let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
-    let mut state = if walls {
+    let mut state = if walls && given.gravity_stage != GravityStage::WishedInPlace {
         backfilled::state(parts, &stage, laws, [&weight, &load])?
     } else {
+        let mut offset = vec![];
+        if walls {
+            // Jumps are zero under the tractions of the soil at rest.
+            let traction = backfilled::at_rest(parts, assembled.base.elements(), true)?;
+            offset = vec![0.0; traction.len()];
+            dense_multiply_add(soil, -1.0, &traction, &mut offset);
+        }
+        let stage = Standing { offset: &offset, ..stage };
         let placed = placed(&stage, laws, given.gravity_stage, &weight)?;
         loaded(&stage, laws, placed, [&weight, &load])?
     };

@@ -36,7 +36,7 @@ pub(super) fn state(
     }
     let on_floor = Standing { assembled: &own, soil: &soil, ..*stage };
 
-    let mut traction = at_rest(parts, elements)?;
+    let mut traction = at_rest(parts, elements, false)?;
     let mut total = weight.to_vec();
     base.add_forces(-1.0, &traction, &mut total);
     let own_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
@@ -73,8 +73,8 @@ pub(super) fn state(
     loaded(&Standing { offset: &offset, ..*stage }, laws, (state, states), [weight, load])
 }
 
-/// Tractions of the soil at rest on the walls, on the ground's elements or on parts of them.
-fn at_rest(parts: &Parts, elements: &Patch) -> Result<Vec<f64>> {
+/// Tractions of the soil at rest on the ground's elements or on parts of them: on the walls, and on the `base`.
+pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec<f64>> {
     let layout = elements.layout();
     let mut traction = vec![0.0; layout.len()];
     let pressures = parts.ground.description().pressure_at_rest;
@@ -86,7 +86,7 @@ fn at_rest(parts: &Parts, elements: &Patch) -> Result<Vec<f64>> {
     }
     let (floor, each) = (elements.floor(), elements.len() / parts.elements.len());
     let pressures = pressures.iter().flat_map(|own| std::iter::repeat_n(own, each));
-    for (e, own) in pressures.enumerate().filter(|(e, _)| !floor.contains(e)) {
+    for (e, own) in pressures.enumerate().filter(|(e, _)| base || !floor.contains(e)) {
         traction[layout.place(0, e)] = parts.given.gravity * own;
     }
     Ok(traction)

@@ -35,7 +35,7 @@ pub(super) fn placed(
 ) -> Result<(StaticState, Vec<ContactState>)> {
     let layout = stage.assembled.base.layout();
     let count = layout.elements();
-    let is_placed = gravity_stage == GravityStage::Frictionless;
+    let is_placed = gravity_stage != GravityStage::Frictional;
     // Limits apply without friction and cohesion.
     let by_limits = is_placed && LawForm::of(layout) == LawForm::Limits;
     let smooth: Vec<_> = laws.iter().map(InterfaceLaw::frictionless).collect();

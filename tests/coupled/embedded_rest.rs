@@ -1,0 +1,134 @@
+//! GOAL: structures that replace the soil of a trench start from the soil's pressures at rest.
+//! SCENE: blocks in half-planes and layers, as heavy as the soil dug out, heavier and lighter; rigid, and bonded.
+//! REFERENCE: the soil itself; frictionless equilibrium on the ground's compliance, solved by elimination.
+
+use basemat::bem::Ground;
+use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
+use basemat::coupled::{Face, GravityStage};
+use basemat::interface::{Bonded, Coulomb};
+use basemat::motion::STANDARD_GRAVITY;
+use basemat::soil::SoilProfile;
+use basemat::structure::{RigidBlock, WithWalls};
+use basemat::{Simulation, Soil};
+use basemat_problems::dense::solve;
+
+use super::embedded::{DENSITY, DEPTH, WIDTH, soil};
+
+/// K₀.
+const AT_REST: f64 = 0.5;
+
+fn elements() -> TrenchElements {
+    Trench::new(-0.5 * WIDTH..0.5 * WIDTH, DEPTH).unwrap().elements(4, 2).unwrap()
+}
+
+fn ground(profile: impl Into<SoilProfile>) -> TrenchGround {
+    TrenchGround::new(profile, elements()).unwrap().with_pressure_at_rest(AT_REST).unwrap()
+}
+
+/// Block of the trench's size and this density, in place of the soil.
+fn simulation(profile: impl Into<SoilProfile>, density: f64, bonded: bool) -> Simulation {
+    let block = RigidBlock::new(WIDTH, DEPTH, density).unwrap();
+    let builder = Simulation::builder(0.01)
+        .structure(WithWalls::new(block, DEPTH).unwrap())
+        .ground(ground(profile))
+        .gravity_stage(GravityStage::WishedInPlace)
+        .expected_steps(4);
+    let friction = Coulomb::new(0.4).unwrap();
+    let builder = if bonded { builder.interface(Bonded) } else { builder.interface(friction) };
+    builder.build().unwrap()
+}
+
+/// Pressures and shear tractions at rest.
+fn tractions(simulation: &Simulation) -> [Vec<f64>; 2] {
+    let contact = &simulation.state().contact;
+    [
+        contact.iter().map(|own| own.pressure).collect(),
+        contact.iter().map(|own| own.shear).collect(),
+    ]
+}
+
+/// Soil put back into its trench: its own pressures, no shear, no displacement, for ever.
+#[test]
+fn a_block_of_soil_changes_nothing() {
+    let upper = Soil::from_shear_wave_speed(150.0, 0.35, 1600.0).unwrap();
+    let layered = SoilProfile::on_half_plane(soil()).with_layer(upper, 2.0).unwrap();
+    let heavy = DENSITY * DEPTH;
+    for (profile, mass) in
+        [(soil().into(), heavy), (layered, 2.0 * 1600.0 + (DEPTH - 2.0) * DENSITY)]
+    {
+        for bonded in [false, true] {
+            let mut simulation = simulation(profile.clone(), mass / DEPTH, bonded);
+            let [pressures, shear] = tractions(&simulation);
+            let description = ground(profile.clone()).description();
+            for (found, wanted) in pressures.iter().zip(description.pressure_at_rest) {
+                assert!(
+                    (found - STANDARD_GRAVITY * wanted).abs() < 1e-9 * STANDARD_GRAVITY * heavy
+                );
+            }
+            assert!(shear.iter().all(|own| own.abs() < 1e-9 * STANDARD_GRAVITY * heavy));
+            let thrust = simulation.state().face(Face::Base).thrust;
+            assert!((thrust / (STANDARD_GRAVITY * mass * WIDTH) - 1.0).abs() < 1e-9);
+            let at_rest = simulation.state().contact.clone();
+            for _ in 0..4 {
+                let state = simulation.step().unwrap();
+                for (found, own) in state.contact.iter().zip(&at_rest) {
+                    assert!(
+                        (found.pressure - own.pressure).abs() < 1e-9 * STANDARD_GRAVITY * heavy
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A heavy block, without friction: S_nn (p − p₀) = B u with Σ p = W, all closed.
+#[test]
+fn a_heavy_block_presses_its_walls() {
+    let density = 2.5 * DENSITY;
+    let [pressures, shear] = tractions(&simulation(soil(), density, false));
+    let ground = ground(soil());
+    let (list, count) = (ground.elements().to_vec(), pressures.len());
+    let mut soil = vec![0.0; 4 * count * count];
+    ground.static_compliance(&mut soil).unwrap();
+    let at_rest: Vec<f64> =
+        ground.description().pressure_at_rest.iter().map(|own| STANDARD_GRAVITY * own).collect();
+    // Motion into the soil by a settlement; a wall does not feel it, and by symmetry there is no other.
+    let down = |e: usize| f64::from(u8::from(list[e].heights()[0] == list[e].heights()[1]));
+    let mut matrix = vec![vec![0.0; count + 1]; count + 1];
+    let mut load = vec![0.0; count + 1];
+    for i in 0..count {
+        for j in 0..count {
+            matrix[i][j] = soil[i * 2 * count + j];
+            load[i] += soil[i * 2 * count + j] * at_rest[j];
+        }
+        matrix[i][count] = -down(i);
+        matrix[count][i] = down(i) * list[i].length();
+    }
+    load[count] = STANDARD_GRAVITY * density * WIDTH * DEPTH;
+    let wanted = solve(&matrix, &load);
+    let above = STANDARD_GRAVITY * DENSITY * DEPTH;
+    for e in 0..count {
+        assert!(wanted[e] > 0.0 && (pressures[e] - wanted[e]).abs() < 1e-6 * above, "{e}");
+        assert!(shear[e].abs() < 1e-9 * above);
+    }
+    // Walls keep the soil beside the base from moving in.
+    assert!(pressures[0] > 1.5 * at_rest[0], "{pressures:?} {at_rest:?}");
+}
+
+/// A light block opens its base; a bonded one hangs on its walls.
+#[test]
+fn a_light_block_opens_unless_it_is_bonded() {
+    let density = 0.2 * DENSITY;
+    let weight = STANDARD_GRAVITY * density * WIDTH * DEPTH;
+    let open = simulation(soil(), density, false);
+    let base = open.state().face(Face::Base);
+    assert!(base.open_fraction > 0.0 && (base.thrust / weight - 1.0).abs() < 1e-9, "{base:?}");
+    let bonded = simulation(soil(), density, true);
+    let state = bonded.state();
+    let [left, base, right] =
+        [Face::LeftWall, Face::Base, Face::RightWall].map(|face| state.face(face));
+    // Upwards on the soil.
+    let hung = right.shear - left.shear;
+    assert!(base.open_fraction == 0.0 && hung.abs() > 0.1 * weight, "{hung} {weight}");
+    assert!((base.thrust - hung - weight).abs() < 1e-9 * weight);
+}
