@@ -247,7 +247,7 @@ fn strutted(counts: [usize; 2], at_rest: f64) -> Result<(f64, Vec<Warning>)> {
     Ok((apart, warnings))
 }
 
-/// Walls that bend need enough elements: a run tells the number, by which the deflection is off by less than a tenth.
+/// Walls that bend need enough elements: a run tells the number, by which the deflection is off by 3 %.
 #[test]
 fn walls_on_too_few_elements_are_told() {
     let (exact, warnings) = strutted([8, 8], 0.0).unwrap();
@@ -255,13 +255,13 @@ fn walls_on_too_few_elements_are_told() {
     assert!(!warnings.iter().any(of_walls), "{warnings:?}");
     let (coarse, warnings) = strutted([8, 2], 0.0).unwrap();
     assert!((coarse / exact - 1.0).abs() > 0.15, "{coarse} {exact}");
-    let [Warning::CoarseBase { foundation: 0, elements: 2, needed: 4, axis: Some('z'), .. }] =
+    let [Warning::CoarseBase { foundation: 0, elements: 2, needed: 7, axis: Some('z'), .. }] =
         warnings[..]
     else {
         panic!("{warnings:?}")
     };
-    let (found, _) = strutted([8, 4], 0.0).unwrap();
-    assert!((found / exact - 1.0).abs() < 0.1, "{found} {exact}");
+    let (found, _) = strutted([8, 7], 0.0).unwrap();
+    assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
 }
 
 /// A motion made for another soil, another depth or a ground without backfill is refused.
