@@ -1,7 +1,8 @@
 """GOAL: structures with walls in the ground, in the plane, from Python: input motion, springs, runs, forces on each face.
-SCENE: rigid blocks and a shear building in trenches, in a half-plane and in layers, at rest and under El Centro.
-REFERENCE: the crate's table of kinematic motions (finite and boundary elements), K₀ρgd²/2 by hand, the Rust crate bit by
-bit, the states of the same run.
+SCENE: rigid blocks, a shear building and walls that bend in trenches, in a half-plane and in layers, at rest and under
+El Centro, vertically and along the surface.
+REFERENCE: the crate's table of kinematic motions (finite and boundary elements), K₀ρgd²/2 and cantilevers by hand, mirrored
+scenes, the Rust crate bit by bit, the states of the same run.
 """
 
 from __future__ import annotations
@@ -173,6 +174,80 @@ def test_pickling(history: str) -> None:
         for own, structure, motion in (parts[:3], copies)
     ]
     assert same_bits(*runs) and np.abs(runs[0]).max() > 1e3
+
+
+def test_walls_that_bend_are_cantilevers_at_rest() -> None:
+    thickness, young, count, depth = 0.4, 31.0e9, 20, 5.0
+    places = [(-6.0, -depth * k / count) for k in range(count)] + [(6.0 * (k / 3 - 1), -depth) for k in range(6)]
+    places += [(6.0, -depth * k / count) for k in range(count, -1, -1)]
+    mesh = bm.Mesh(places)
+    outline = list(range(len(places)))
+    stiffness = thickness**3 / 12.0
+    mesh.add_beams(np.transpose([outline[:-1], outline[1:]]), young, thickness, stiffness, 2500.0)
+    slab = outline[count : count + 7]
+    # The slab is rigid.
+    model = bm.FemModel(mesh, outline, in_trench=True, rigid_links=[(slab[3], slab[:3] + slab[4:])])
+    assert [node.z for node in model.base()[0]][:: count + 3] == [0.0, -depth, 0.0]
+    elements = bm.Trench(-6.0, 6.0, depth).elements(4, 8)
+    ground = bm.TrenchGround(SOIL, elements, pressure_at_rest=0.5)
+    laws = elements.interfaces(bm.Coulomb(0.5), bm.Coulomb(0.3))
+    simulation = bm.Simulation(0.02, model, ground, laws, motion=bm.TrenchMotion(ground, RECORD))
+    rows = [model.row(node, "x") for node in (outline[0], outline[-1], slab[3])]
+    left, right, base = (row.value(simulation.static_displacement) for row in rows)
+    # A load q at the height s bends the tip of a cantilever of height h by q s² (3h − s)/(6EI); K₀ ρ g (h − s) on all of it.
+    smooth = 0.5 * 1900.0 * bm.STANDARD_GRAVITY * depth**5 / (30.0 * young * stiffness)
+    assert left - base == pytest.approx(smooth, rel=0.03) and right - base == pytest.approx(base - left, rel=1e-9)
+    run = simulation.run(100)
+    assert run.energy_error < 1e-9 and run.extremes("base_shear").magnitude > 1e4
+    again = pickle.loads(pickle.dumps(model))
+    assert np.array_equal(again.stiffness(), model.stiffness())
+    for contact in (None, [outline], outline[::-1]):
+        with pytest.raises(bm.InputError, match="outline"):
+            bm.FemModel(mesh, contact, in_trench=True)
+
+
+def test_waves_along_the_surface() -> None:
+    ground = bm.TrenchGround(SOIL, ELEMENTS, pressure_at_rest=0.5)
+    # Rest on both sides: the fields of waves fade there.
+    record = bm.el_centro_1940().padded(1.0, 2.0)
+    steps = 300
+
+    def shaken(motion: bm.FreeField) -> bm.Run:
+        return scene(ground=ground, motion=motion).run(steps, contact_every=1)
+
+    # A vertical wave has no velocity along the surface.
+    plane = bm.PlaneWave.sv(SOIL, 0.0).field_from_horizontal(record, 0.0)
+    vertical = shaken(bm.TrenchMotion.travelling(ground, plane))["base_shear"]
+    wanted = shaken(bm.TrenchMotion(ground, record))["base_shear"]
+    np.testing.assert_allclose(vertical, wanted, rtol=0.0, atol=2e-3 * np.abs(wanted).max())
+    # A wave from the other side, that moves the other way, is the mirror image.
+    rayleigh = bm.PlaneWave.rayleigh(SOIL)
+    right = bm.TrenchMotion.travelling(ground, rayleigh.field_from_horizontal(record, -6.0))
+    left = bm.TrenchMotion.travelling(ground, rayleigh.reversed().field_from_horizontal(record.scaled(-1.0), 6.0))
+    one, other = shaken(right), shaken(left)
+    largest = np.abs(one["base_shear"]).max()
+    np.testing.assert_allclose(other["base_shear"], -one["base_shear"], rtol=0.0, atol=1e-6 * largest)
+    np.testing.assert_allclose(
+        other.faces["left_wall"]["thrust"], one.faces["right_wall"]["thrust"], rtol=0.0, atol=1e-6 * largest
+    )
+    # It comes later to places on its way, and rocks the block.
+    speed = rayleigh.apparent_velocity
+    assert right.displacement(4.0, 3.0)[0] == pytest.approx(right.displacement(-6.0, 3.0 - 10.0 / speed)[0], rel=1e-9)
+    assert np.abs(one["base_rotation"] - one["base_rotation"][0]).max() > 0.0
+    again = pickle.loads(pickle.dumps(right))
+    assert again.displacement(0.0, 3.0) == right.displacement(0.0, 3.0)
+    assert repr(right).startswith("TrenchMotion.travelling(")
+    layered = bm.SoilProfile([bm.SoilLayer(SOIL, 8.0)], bm.Soil.from_shear_wave_speed(600.0, 0.3, 2200.0))
+    inclined = bm.InclinedWave.sv(layered, 0.3).field(record, -6.0)
+    inside = bm.TrenchMotion.travelling(bm.TrenchGround(layered, ELEMENTS), inclined)
+    assert inside.displacement(0.0, 3.0)[1] != 0.0
+    for wave in (record, bm.ricker(0.1, 0.2, 1.0), bm.TrenchMotion(ground, record)):
+        with pytest.raises(bm.InputError, match="along the surface"):
+            bm.TrenchMotion.travelling(ground, wave)
+    with pytest.raises(bm.InputError, match="along y"):
+        bm.TrenchMotion.travelling(ground, bm.PlaneWave.sh(SOIL, 0.3).field_from_across(record, 0.0))
+    with pytest.raises(bm.InputError, match="slower|velocity"):
+        bm.TrenchMotion.travelling(ground, bm.travelling_wave(record, 50.0, 0.0))
 
 
 def test_a_checkpoint_resumes_to_the_same_bits() -> None:

@@ -44,7 +44,7 @@ _Wave: TypeAlias = Literal["shear", "pressure"]
 _ControlPoint: TypeAlias = Literal["outcrop", "within"]
 _InclinedControl: TypeAlias = Literal["outcrop_horizontal", "outcrop_vertical", "incident"]
 _Change: TypeAlias = Literal["interface_law", "ground_motion", "load", "gravity_stage", "initial_motion"]
-_GravityStage: TypeAlias = Literal["frictionless", "frictional", "unloaded"]
+_GravityStage: TypeAlias = Literal["frictionless", "frictional", "wished_in_place", "unloaded"]
 _Coordinates: TypeAlias = Literal["auto", "physical", "modes"]
 _SectionUnit: TypeAlias = Literal["N/m", "N·m/m", "N", "N·m"]
 _Face: TypeAlias = Literal["left_wall", "base", "right_wall"]
@@ -436,7 +436,7 @@ class TrenchGround(Ground):
     """Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
     ``elements`` (`TrenchElements`).
 
-    The structure in it is `WithWalls`, its motion a `TrenchMotion`.
+    The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 
     ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
     unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,
@@ -696,7 +696,7 @@ class FreeField:
 
 @final
 class TrenchMotion(FreeField):
-    """Free field of a trench: vertical waves below a surface that moves as recorded.
+    """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
 
     ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
     surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component left out is zero. Motion at
@@ -710,6 +710,14 @@ class TrenchMotion(FreeField):
         horizontal: Record | None = None,
         vertical: Record | None = None,
     ) -> Self: ...
+    @staticmethod
+    def travelling(ground: TrenchGround, wave: FreeField) -> TrenchMotion:
+        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of what a `PlaneWave` or an `InclinedWave` makes of
+        a record, or of a `travelling_wave`.
+
+        The wave must be one of the ground's profile, along x: the motion of the surface and its velocity along it determine
+        the field below. Motion before and after the wave's record fades within half of its length.
+        """
 
 @final
 class Record(FreeField):
@@ -1866,8 +1874,9 @@ class InitialConditions:
         gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
             state: the base begins without pressure, and nothing resists uplift and sliding.
         gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
-            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
-            there is no static state, weight and loads act from t = 0 on, as for a block let go.
+            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
+            "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
+            static state, weight and loads act from t = 0 on, as for a block let go.
         displacement: of the n degrees of freedom at t = 0 against the static state, array of
             shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
         velocity: the same for velocities, m/s and rad/s; zero unless given.
@@ -2847,7 +2856,9 @@ class FemModel(Structure):
 
     ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
     a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
-    corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
+    corner nodes, shells with their underside; all faces at the lowest height unless given. ``in_trench``: whether
+    ``contact`` is the outline of walls and base in a trench, down the left wall, along the base and up the right wall, in
+    a mesh whose y counts from the surface; False by default. ``rayleigh``:
     `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
     unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
@@ -2861,6 +2872,7 @@ class FemModel(Structure):
         mesh: Mesh,
         contact: Sequence[int] | Sequence[Sequence[int]] | None = None,
         *,
+        in_trench: bool = False,
         rayleigh: RayleighDamping | None = None,
         mass: _Mass = "consistent",
         rigid_links: Sequence[tuple[int, Sequence[int]]] | None = None,

@@ -60,7 +60,7 @@ extracts!(Backfill, object => {
 /// Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
 /// ``elements`` (`TrenchElements`).
 ///
-/// The structure in it is `WithWalls`, its motion a `TrenchMotion`.
+/// The structure in it is `WithWalls`, or a `FemModel` with ``in_trench``; its motion is a `TrenchMotion`.
 ///
 /// ``pressure_at_rest``: K₀, the pressure on the walls at rest over the pressure of the soil above; ν/(1 − ν) of each soil
 /// unless given. ``backfill``: soil beside the walls from the surface to the base, a tuple of its width (m), its `Soil` and,

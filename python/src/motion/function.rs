@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::sync::Arc;
 
-use basemat::motion::{FreeField, FreeFieldFn, Record, VerticalIncidence};
+use basemat::motion::{FreeField, FreeFieldFn, Record, TravellingWave, VerticalIncidence};
 use pyo3::prelude::*;
 
 use crate::array::real;
@@ -18,7 +18,11 @@ pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
     /// Time at which it ends (s), if that is known.
     pub(crate) duration: Option<f64>,
+    /// Makes it as a wave along the surface, if it is one.
+    pub(super) wave: Option<Arc<MakeWave>>,
 }
+
+pub(super) type MakeWave = dyn Fn() -> basemat::Result<TravellingWave> + Send + Sync;
 
 #[pymethods]
 impl PyFreeField {
@@ -43,7 +47,7 @@ pub(super) fn field<F: FreeField + 'static>(
     make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
     make().or_raise()?;
-    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None })
+    Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None, wave: None })
 }
 
 /// The free field that Python gives.

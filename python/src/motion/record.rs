@@ -30,6 +30,7 @@ extends!(PyRecord, own => {
     PyFreeField {
         duration: Some(record.duration()),
         make: Arc::new(move || Ok(Box::new(Record::clone(&record)))),
+        wave: None,
     }
 });
 

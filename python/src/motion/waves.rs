@@ -12,7 +12,7 @@ use basemat::site::{
 use numpy::Complex64;
 use pyo3::prelude::*;
 
-use super::function::field;
+use super::function::{MakeWave, field};
 use super::{PyFreeField, PyRecord, given};
 use crate::array::{Array, Numbers, complex};
 use crate::error::{OrRaise, refuse};
@@ -95,10 +95,12 @@ fn turned(
     azimuth: f64,
     make: impl Fn() -> basemat::Result<TravellingWave> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
-    field(move || {
+    let wave: Arc<MakeWave> = Arc::new(move || {
         // A wave along x has exact velocities.
         if azimuth == 0.0 { make() } else { make()?.with_azimuth(azimuth) }
-    })
+    });
+    let again = Arc::clone(&wave);
+    Ok(PyFreeField { wave: Some(wave), ..field(move || again())? })
 }
 
 /// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the

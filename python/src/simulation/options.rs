@@ -18,8 +18,9 @@ use crate::error::OrRaise;
 ///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
 ///         state: the base begins without pressure, and nothing resists uplift and sliding.
 ///     gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
-///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step; "unloaded":
-///         there is no static state, weight and loads act from t = 0 on, as for a block let go.
+///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
+///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
+///         static state, weight and loads act from t = 0 on, as for a block let go.
 ///     displacement: of the n degrees of freedom at t = 0 against the static state, array of
 ///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
 ///     velocity: the same for velocities, m/s and rad/s; zero unless given.

@@ -15,7 +15,7 @@ use super::composed::PyRayleighDamping;
 use super::material::{PyMaterial, formulation};
 use super::mesh::{PyMesh, direction};
 use crate::array::{Array, Count, whole};
-use crate::error::{OrRaise, WithGiven};
+use crate::error::{OrRaise, WithGiven, refuse};
 use crate::recipe::Shared;
 use crate::row::{PyDofCombination, PySectionRows, six};
 
@@ -23,7 +23,9 @@ use crate::row::{PyDofCombination, PySectionRows, six};
 ///
 /// ``mesh``: a `Mesh`. ``contact``: numbers of the nodes that touch the ground from left to right;
 /// a list of such lists for separate foundations; all lowest nodes unless given. In space: a list of faces, each by its
-/// corner nodes, shells with their underside; all faces at the lowest height unless given. ``rayleigh``:
+/// corner nodes, shells with their underside; all faces at the lowest height unless given. ``in_trench``: whether
+/// ``contact`` is the outline of walls and base in a trench, down the left wall, along the base and up the right wall, in
+/// a mesh whose y counts from the surface; False by default. ``rayleigh``:
 /// `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
 /// or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
 /// unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
@@ -47,10 +49,11 @@ extracts!(Contact, object => match object.extract() {
 #[pymethods]
 impl PyFemModel {
     #[new]
-    #[pyo3(signature = (mesh, contact=None, *, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, p_delta=None, active_damping=false, active_stiffness=false))]
+    #[pyo3(signature = (mesh, contact=None, *, in_trench=false, rayleigh=None, mass="consistent", rigid_links=None, diaphragms=None, p_delta=None, active_damping=false, active_stiffness=false))]
     fn new(
         mesh: &PyMesh,
         contact: Option<Contact>,
+        in_trench: bool,
         rayleigh: Option<&PyRayleighDamping>,
         mass: &str,
         #[pyo3(from_py_with = whole)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
@@ -61,6 +64,10 @@ impl PyFemModel {
     ) -> PyResult<PyClassInitializer<Self>> {
         let (has_depth, mesh) = (mesh.has_depth(), mesh.0.clone());
         let model = match contact {
+            Some(Contact::Nodes(outline)) if in_trench => FemModel::in_trench(mesh, &outline),
+            _ if in_trench => {
+                return Err(refuse("in a trench, contact is the list of the outline's nodes"));
+            }
             None => FemModel::on_base(mesh),
             // A single face may be given without a list.
             Some(Contact::Nodes(face)) if has_depth => FemModel::on_faces(mesh, &[face]),
