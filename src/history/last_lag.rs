@@ -14,8 +14,10 @@ const BEYOND: f64 = 1.0 / 3.0;
 pub(super) struct LastLag {
     /// Last lag that is not neglected, a power of two.
     pub(super) lag: usize,
-    /// Bound of the displacement neglected by dropping later lags, per pascal of traction, m/Pa.
-    pub(super) rest: f64,
+    /// Bound of the change in a step of the displacement neglected by dropping later lags, per pascal of traction, m/Pa.
+    ///
+    /// The sum of |Gⁿ − Gⁿ⁻¹| with zero at the last lag: late coefficients change slowly.
+    pub(super) change: f64,
 }
 
 impl LastLag {
@@ -43,7 +45,8 @@ impl LastLag {
                 let lags = done + (2 * lag - done) * parts / total.max(1);
                 observer(Progress { task, done: lags, total: most })
             })?;
-            let mut late = vec![[0.0; SERIES]; all.len()];
+            let [mut late, mut changes, mut before] =
+                [(); 3].map(|()| vec![[0.0; SERIES]; all.len()]);
             for begin in (done..2 * lag).step_by(SHORTEST) {
                 let sums = if begin < lag { &mut all } else { &mut late };
                 for (class, sums) in sums.iter_mut().enumerate() {
@@ -51,6 +54,16 @@ impl LastLag {
                     kernel.coefficients_in_plan(class, begin + 1, values)?;
                     for (sum, lags) in sums.iter_mut().zip(&lags) {
                         *sum += lags.iter().map(|value| value.abs()).sum::<f64>();
+                    }
+                    if begin < lag {
+                        continue;
+                    }
+                    let own = changes[class].iter_mut().zip(&mut before[class]);
+                    for ((change, before), lags) in own.zip(&lags) {
+                        for value in lags {
+                            *change += (value - *before).abs();
+                            *before = *value;
+                        }
                     }
                 }
             }
@@ -73,7 +86,8 @@ impl LastLag {
                 *all += late;
             }
             if rest <= tolerance * rows(&all) {
-                return Ok(Some(Self { lag, rest: rest / area }));
+                let change = (1.0 + BEYOND) * rows(&changes) / area;
+                return Ok(Some(Self { lag, change }));
             }
             done = 2 * lag;
             lag *= 2;

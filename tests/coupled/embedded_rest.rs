@@ -1,14 +1,15 @@
-//! GOAL: structures that replace the soil of a trench start from the soil's pressures at rest.
+//! GOAL: structures in a trench start from the soil's pressures at rest, and walls bear no more than yielding soil does.
 //! SCENE: blocks in half-planes and layers, as heavy as the soil dug out, heavier and lighter; rigid, and bonded.
-//! REFERENCE: the soil itself; frictionless equilibrium on the ground's compliance, solved by elimination.
+//! REFERENCE: the soil itself; frictionless equilibrium on the ground's compliance, solved by elimination; Rankine's
+//! passive thrust.
 
-use basemat::bem::Ground;
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
-use basemat::coupled::{Face, GravityStage};
-use basemat::interface::{Bonded, Coulomb};
+use basemat::bem::{ContactElement, Ground};
+use basemat::coupled::{Face, GravityStage, Load};
+use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Yielding};
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::soil::SoilProfile;
-use basemat::structure::{RigidBlock, WithWalls};
+use basemat::structure::{DofCombination, RigidBlock, WithWalls};
 use basemat::{Simulation, Soil};
 use basemat_problems::dense::solve;
 
@@ -79,6 +80,68 @@ fn a_block_of_soil_changes_nothing() {
             }
         }
     }
+}
+
+/// Weight on the base, K₀ on the walls: without motion nothing changes.
+#[test]
+fn a_block_in_its_trench_stays_at_rest() {
+    let block = RigidBlock::new(WIDTH, 3.0 * DEPTH, 0.5 * DENSITY).unwrap();
+    let mut simulation = Simulation::builder(0.01)
+        .structure(WithWalls::new(block, DEPTH).unwrap())
+        .ground(ground(soil()))
+        .interface(Coulomb::new(0.4).unwrap())
+        .expected_steps(200)
+        .build()
+        .unwrap();
+    let at_rest = tractions(&simulation);
+    let start = simulation.static_displacement().to_vec();
+    simulation.run(200, |_| {}).unwrap();
+    let most = at_rest[0].iter().fold(0.0_f64, |most, own| most.max(*own));
+    for (found, wanted) in tractions(&simulation).iter().flatten().zip(at_rest.iter().flatten()) {
+        assert!((found - wanted).abs() < 1e-12 * most, "{found} {wanted}");
+    }
+    let settled = start.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    for own in simulation.state().displacement() {
+        assert!(own.abs() < 1e-12 * settled, "{own}");
+    }
+}
+
+/// A wall pushed into soil that yields under K_p times its weight bears K_p γ d²/2 and no more.
+#[test]
+fn a_pushed_wall_bears_the_passive_thrust() {
+    let friction_angle = 30.0_f64.to_radians();
+    let passive = (0.25 * std::f64::consts::PI + 0.5 * friction_angle).tan().powi(2);
+    let unit_weight = DENSITY * STANDARD_GRAVITY;
+    let law = |own: &ContactElement| -> Box<dyn InterfaceLaw> {
+        if own.directions()[0][2] < -0.5 {
+            return Box::new(Coulomb::new(0.0).unwrap());
+        }
+        // The mean stress of the soil above over the element.
+        let strength = -passive * unit_weight * own.center()[2];
+        Box::new(Yielding::new(strength, 0.0).unwrap())
+    };
+    let block = RigidBlock::new(WIDTH, DEPTH, DENSITY).unwrap();
+    let block = WithWalls::new(block, DEPTH).unwrap();
+    let wanted = 0.5 * passive * unit_weight * DEPTH * DEPTH;
+    // Through the middle of the walls' thrust, so that all of the wall is pushed in.
+    let right = DofCombination::of_base(&block, [0.0, 0.0, DEPTH / 3.0]).unwrap()[0].clone();
+    let push = Load::table(right, &[0.0, 0.5, 10.0], &[0.0, 3.0 * wanted, 3.0 * wanted]).unwrap();
+    let mut simulation = Simulation::builder(0.01)
+        .structure(block)
+        .ground(ground(soil()))
+        .interfaces(elements().elements().iter().map(law).collect())
+        .load(push)
+        .expected_steps(100)
+        .build()
+        .unwrap();
+    let mut most = 0.0_f64;
+    let run =
+        simulation.run(100, |state| most = most.max(state.face(Face::RightWall).thrust)).unwrap();
+    assert!((most / wanted - 1.0).abs() < 1e-9, "{most} {wanted}");
+    let state = simulation.state();
+    assert!((state.face(Face::RightWall).thrust / wanted - 1.0).abs() < 1e-9);
+    assert_eq!(state.face(Face::LeftWall).open_fraction, 1.0);
+    assert!(run.energy_error < 1e-9 && state.energy_balance.contact > 0.0);
 }
 
 /// A heavy block, without friction: S_nn (p − p₀) = B u with Σ p = W, all closed.

@@ -1,7 +1,8 @@
 //! GOAL: impedances and kinematic motion of rigid bodies in a trench are right up to the mesh, which is of second
 //! order.
 //! SCENE: a block as deep as half its width in a half-plane, in a layer on rock and on rigid bedrock; strips.
-//! REFERENCE: tables of two methods (finite elements, boundary elements); strips on the surface; statics.
+//! REFERENCE: tables of two methods (finite elements, boundary elements) and of a spectral method for strips; strips on
+//! the surface; statics.
 
 use std::f64::consts::TAU;
 
@@ -110,6 +111,19 @@ fn a_trench_without_depth_is_a_strip_on_the_surface() {
         let errors = errors(&found, &wanted);
         println!("{errors:?}");
         assert!(errors.iter().all(|error| *error < 1e-3), "{errors:?}");
+    }
+}
+
+/// 32 elements, gathered at both ends, against a spectral method.
+#[test]
+fn a_trench_without_depth_matches_the_table_of_a_strip() {
+    let table = include_str!("../data/strip_bonded_nu0333_xi00.csv");
+    let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(32, 0).unwrap();
+    let ground = TrenchGround::new(soil(), elements).unwrap();
+    for a0 in [0.5, 2.0] {
+        let found = errors(&at(&ground, a0), &row(table, &[a0])[1..9]);
+        println!("{a0}: {found:?}");
+        assert!(found.iter().all(|error| *error < 2e-3), "{found:?}");
     }
 }
 

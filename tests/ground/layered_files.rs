@@ -18,10 +18,10 @@ use basemat_problems::heavy;
 use basemat_problems::profiles::{gmb, p1, p3, two_stages};
 
 /// A file of this test's own, removed at the end.
-struct Temporary(PathBuf);
+pub(super) struct Temporary(pub(super) PathBuf);
 
 impl Temporary {
-    fn new(name: &str) -> Self {
+    pub(super) fn new(name: &str) -> Self {
         let name = format!("basemat-{}-{name}.kernel", std::process::id());
         Self(std::env::temp_dir().join(name))
     }

@@ -103,8 +103,10 @@ pub(super) fn assert_moves_rigidly(
 }
 
 /// Waves from three sides: cells open and slide under a soft model, its `top` sways, and no energy is lost.
+///
+/// Another simulation resumes halfway, to the last bit.
 pub(super) fn assert_lifts_off_and_slides(
-    model: FemModel,
+    model: &FemModel,
     top: [f64; 3],
     sides: [f64; 2],
     friction: f64,
@@ -112,23 +114,33 @@ pub(super) fn assert_lifts_off_and_slides(
 ) {
     let top = model.mesh().node_at_point(top).unwrap();
     let drift = model.row(top, Direction::X).unwrap();
-    let mut simulation = Simulation::builder(2e-3)
-        .structure(model)
-        .ground(Cells::under(sides, [0.0; 2], [7, 5], BED))
-        .interface(Coulomb::new(friction).unwrap())
-        .motion(Waves { quarters: 0 })
-        .gravity(gravity)
-        .build()
-        .unwrap();
+    let simulation = || {
+        Simulation::builder(2e-3)
+            .structure(model.clone())
+            .ground(Cells::under(sides, [0.0; 2], [7, 5], BED))
+            .interface(Coulomb::new(friction).unwrap())
+            .motion(Waves { quarters: 0 })
+            .gravity(gravity)
+            .build()
+            .unwrap()
+    };
+    let [mut whole, mut resumed] = [simulation(), simulation()];
     let (mut open, mut sliding, mut sway) = (0, 0, 0.0_f64);
-    let run = simulation.run(600, |state| {
-        open = open.max(state.modes.iter().filter(|mode| **mode == Mode::Open).count());
-        sliding = sliding.max(state.modes.iter().filter(|mode| **mode == Mode::Slip).count());
-        sway = sway.max(drift.value(state.displacement()).abs());
-    });
-    let run = run.unwrap();
-    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+    for half in 0..2 {
+        let run = whole.run(300, |state| {
+            open = open.max(state.modes.iter().filter(|mode| **mode == Mode::Open).count());
+            sliding = sliding.max(state.modes.iter().filter(|mode| **mode == Mode::Slip).count());
+            sway = sway.max(drift.value(state.displacement()).abs());
+        });
+        let run = run.unwrap();
+        assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+        if half == 0 {
+            resumed.resume(&whole.checkpoint().unwrap()).unwrap();
+        }
+    }
     assert!(open > 3 && sliding > 3 && sway > 1e-4, "{open} {sliding} {sway}");
+    resumed.run(300, |_| {}).unwrap();
+    assert_eq!(resumed.state(), whole.state());
 }
 
 #[test]
@@ -144,5 +156,5 @@ fn a_stiff_block_is_the_rigid_body() {
 #[test]
 fn a_soft_block_lifts_off_and_slides() {
     let sides = [SIDES[0], SIDES[1]];
-    assert_lifts_off_and_slides(block(4.0e8), [3.0, 2.0, 4.0], sides, 0.4, 2.0);
+    assert_lifts_off_and_slides(&block(4.0e8), [3.0, 2.0, 4.0], sides, 0.4, 2.0);
 }

@@ -52,7 +52,9 @@ fn bases_of_another_dimension() {
 fn cells_that_no_face_covers() {
     let error = build(cube(), Cells::under([7.0, 4.0], [0.0; 2], [7, 4], BED), Bonded);
     let quantity = "distance of a contact element from the faces of the base, m";
-    let Error::Input { quantity: found, value, .. } = error else { panic!("{error}") };
+    let Error::Item { ref item, ref source } = error else { panic!("{error}") };
+    assert_eq!(item, "contact element 0");
+    let Error::Input { quantity: found, value, .. } = **source else { panic!("{error}") };
     // Gauss points of the outer cells, from the edge at 2 m.
     let pitch = 7.0 / 6.8;
     let expected = pitch * (3.0 + 0.5 / 3.0_f64.sqrt()) - 2.0;

@@ -78,7 +78,7 @@ fn a_stiff_building_of_shells_is_the_rigid_body() {
 
 #[test]
 fn a_soft_building_of_shells_lifts_off_and_slides() {
-    assert_lifts_off_and_slides(building(2.0e8), [1.0, 2.0, 13.0], SIDES, 1.0, 0.5);
+    assert_lifts_off_and_slides(&building(2.0e8), [1.0, 2.0, 13.0], SIDES, 1.0, 0.5);
 }
 
 /// A mat, a wall of 5 m and a dome on it, all of a radius of 10 m; quadrilaterals of the rows with `is_split` are two

@@ -13,6 +13,13 @@
 //! the right), then the E z-components (**down**). A [`BoundaryKernel`] computes G and H from the fundamental
 //! solution, in time or by convolution quadrature.
 //!
+//! # No proof
+//!
+//! Nothing proves that this soil never gives energy: the table below shows where it does. It is for boundaries of other
+//! shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
+#![cfg_attr(feature = "embedded", doc = "([`TrenchGround`](crate::bem::embedded::TrenchGround))")]
+//! are passive at every time step and mesh, by proof.
+//!
 //! # Growth of perturbations
 //!
 //! In time, the equation is not stable for every step. [`Stability`] assesses it before the run. The table

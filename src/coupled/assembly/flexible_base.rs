@@ -71,13 +71,16 @@ pub(crate) fn check(
         return Ok(None);
     }
     let own_soil = at_rest::compliance(parts)?;
-    let shape =
-        UnseenShape::softest(assembled, base, &own_soil).filter(|shape| shape.ratio < STIFF);
+    // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
+    let alone = faces(base).any(|(.., own)| own.len() == 1);
+    let halves = if alone { finer(parts, base) } else { None };
+    let shape = UnseenShape::softest(assembled, base, &own_soil, halves.as_ref())
+        .filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
-    if let Some((finer, soil)) = finer(parts, base) {
+    if let Some((finer, soil)) = halves.or_else(|| finer(parts, base)) {
         // If twice the elements leave no such shape, they are enough.
-        let next = UnseenShape::softest(assembled, &finer, &soil);
+        let next = UnseenShape::softest(assembled, &finer, &soil, None);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
             // With a law for each element, the first law is used in both states.
@@ -228,13 +231,18 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
 }
 
 impl UnseenShape {
-    /// The shape with the smallest ρ on elements of this static compliance.
+    /// The shape with the smallest ρ on elements of this static compliance; `halves`: as for [`moduli`].
     ///
     /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
-    fn softest(assembled: &Assembled, base: &PlacedBase, soil: &[f64]) -> Option<Self> {
+    fn softest(
+        assembled: &Assembled,
+        base: &PlacedBase,
+        soil: &[f64],
+        halves: Option<&(PlacedBase, Vec<f64>)>,
+    ) -> Option<Self> {
         let stiffness = assembled.stiffness_at_rest();
         let n = assembled.dofs();
-        let moduli = moduli(base, soil);
+        let moduli = moduli(base, soil, halves);
         let mut seen = SparseMatrix::weighted_sum(n, &[(1.0, stiffness)]);
         for (i, modulus) in moduli.iter().enumerate() {
             seen.add_outer(base.mean_row(i), HELD * modulus * base.area(i));
@@ -293,21 +301,32 @@ impl UnseenShape {
 
 /// Stiffness of the soil under each element in each component, Pa/m.
 ///
-/// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements.
-fn moduli(base: &PlacedBase, soil: &[f64]) -> Vec<f64> {
-    let (layout, size) = (base.layout(), base.layout().len());
-    let entry = |i: usize, j: usize| soil[i * size + j];
+/// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements; from one
+/// of its `halves`, a base and its compliance, to the other where a face has one element.
+fn moduli(base: &PlacedBase, soil: &[f64], halves: Option<&(PlacedBase, Vec<f64>)>) -> Vec<f64> {
+    let layout = base.layout();
     let faces: Vec<_> = faces(base).map(|(.., own)| own).collect();
     let modulus = |i: usize| {
         let [component, e] = layout.origin(i);
-        let own = faces.iter().find(|own| own.contains(&e)).cloned().unwrap_or(e..e + 1);
+        let face = faces.iter().position(|own| own.contains(&e));
+        let own = face.map_or(e..e + 1, |face| faces[face].clone());
         let around = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
-        let alternating = around.filter(|other| own.contains(other)).map(|other| {
-            let j = layout.place(component, other);
-            0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i))
-        });
-        let compliance = alternating.fold(entry(i, i), f64::min);
+        let mut compliance = around
+            .filter(|other| own.contains(other))
+            .map(|other| alternating(base, soil, component, [e, other]))
+            .fold(soil[i * layout.len() + i], f64::min);
+        if let (1, Some((base, soil)), Some(face)) = (own.len(), halves, face) {
+            let halves = self::faces(base).nth(face).map_or(0..1, |(.., own)| own);
+            compliance = alternating(base, soil, component, [halves.start, halves.end - 1]);
+        }
         if compliance > 0.0 { compliance.recip() } else { 0.0 }
     };
-    (0..size).map(modulus).collect()
+    (0..layout.len()).map(modulus).collect()
+}
+
+/// Compliance of the soil for equal and opposite tractions on two elements, m/Pa.
+fn alternating(base: &PlacedBase, soil: &[f64], component: usize, elements: [usize; 2]) -> f64 {
+    let [i, j] = elements.map(|e| base.layout().place(component, e));
+    let entry = |i: usize, j: usize| soil[i * base.layout().len() + j];
+    0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i))
 }

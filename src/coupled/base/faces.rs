@@ -118,7 +118,7 @@ impl<'a> Faces<'a> {
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points.
     ///
     /// A point outside all faces moves with the continued displacement of the nearest face. A point farther off
-    /// than `reach` (m) is an error.
+    /// than `reach` (m) is an error that names the element.
     fn mean_weights(&self, element: usize, patch: &Patch, reach: f64) -> Result<Vec<(usize, f64)>> {
         let mut weights = Vec::with_capacity(16);
         for point in gauss_points(element, patch) {
@@ -126,7 +126,8 @@ impl<'a> Faces<'a> {
             if value.is_nan() || value > reach {
                 let quantity = "distance of a contact element from the faces of the base, m";
                 let needed = "half an element or less: all lie under the structure's base";
-                return Err(Error::Input { quantity, value, needed });
+                let fault = Error::Input { quantity, value, needed };
+                return Err(fault.within(format!("contact element {element}")));
             }
             weights.extend(shares.into_iter().map(|(node, share)| (node, 0.25 * share)));
         }

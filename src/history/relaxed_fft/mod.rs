@@ -287,7 +287,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
     /// Bound of the displacements of two steps due to the dropped lags.
     fn increment_error_bound(&self) -> f64 {
         let ended = self.end.filter(|end| self.steps > end.lag);
-        ended.map_or(0.0, |end| 2.0 * end.rest * self.largest)
+        ended.map_or(0.0, |end| end.change * self.largest)
     }
 
     fn memory(&self) -> usize {

@@ -77,37 +77,45 @@ fn mobility_is_positive_at_random_places() {
     assert!(least > 0.0, "{least:e}");
 }
 
-/// Without depth, of degree 6, extrapolated from 16 and 32 elements as the table was.
+/// Without depth, of degree 6, extrapolated from 16 and 32 elements as the tables were.
 #[test]
-fn strips_on_a_damped_layer_match_the_table() {
-    let soil = Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap();
-    let profile = SoilProfile::on_rigid_bedrock()
-        .with_layer(soil, 2.0)
-        .unwrap()
-        .with_damping(Hysteretic::new(0.05).unwrap());
+fn strips_on_damped_layers_match_the_tables() {
+    let layer = Soil::new(1.0, 0.333_333_333_3, 1.0).unwrap();
+    let damping = |ratio: f64| Hysteretic::new(ratio).unwrap();
+    let above =
+        |profile: SoilProfile| profile.with_layer(layer, 2.0).unwrap().with_damping(damping(0.05));
+    let rock = Soil::from_shear_wave_speed(3.0, 0.3, 1.2).unwrap();
+    let on_rock = SoilProfile::on_half_plane(rock).with_bedrock_damping(damping(0.01));
     let names = ["re_khh", "im_khh", "re_kvv", "im_kvv", "re_krr", "im_krr", "re_khr", "im_khr"];
-    let table = basemat_problems::table("layered/impedance_P3_layer_on_rigid_base.csv");
-    for a0 in ["0.785398163", "2"] {
-        let row = table.row("a0", a0, names);
-        let s = Complex::new(0.0, a0.parse().unwrap());
-        let [coarse, fine] = [16, 32].map(|count| {
-            let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(count, 0).unwrap();
-            let ground = TrenchSoil::new(profile.clone(), elements).unwrap();
-            ground.response(s, &ground.mesh_of_depth(s, 24.0, 6)).unwrap()
-        });
-        let wanted: Vec<Complex> = row.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
-        for k in 0..4 {
-            let found = (fine[k].scale(4.0) - coarse[k]).scale(1.0 / 3.0);
-            let mean = (wanted[0].abs() * wanted[2].abs()).sqrt();
-            let size = if k == 3 { mean } else { wanted[k].abs() };
-            let error = (found - wanted[k]).abs() / size;
-            println!("{a0} {k}: {error:e}");
-            assert!(error < 1e-6, "{a0} {k}: {error:e}");
+    for (profile, file) in [
+        (above(SoilProfile::on_rigid_bedrock()), "impedance_P3_layer_on_rigid_base"),
+        (above(on_rock), "impedance_P1_layer_on_rock"),
+    ] {
+        let table = basemat_problems::table(&format!("layered/{file}.csv"));
+        for a0 in ["0.785398163", "2"] {
+            let row = table.row("a0", a0, names);
+            let s = Complex::new(0.0, a0.parse().unwrap());
+            let [coarse, fine] = [16, 32].map(|count| {
+                let elements = Trench::new(-1.0..1.0, 0.0).unwrap().elements(count, 0).unwrap();
+                let ground = TrenchSoil::new(profile.clone(), elements).unwrap();
+                ground.response(s, &ground.mesh_of_depth(s, 24.0, 6)).unwrap()
+            });
+            let wanted: Vec<Complex> = row.chunks(2).map(|k| Complex::new(k[0], k[1])).collect();
+            for k in 0..4 {
+                let found = (fine[k].scale(4.0) - coarse[k]).scale(1.0 / 3.0);
+                let mean = (wanted[0].abs() * wanted[2].abs()).sqrt();
+                let size = if k == 3 { mean } else { wanted[k].abs() };
+                let error = (found - wanted[k]).abs() / size;
+                println!("{file} {a0} {k}: {error:e}");
+                assert!(error < 1e-6, "{file} {a0} {k}: {error:e}");
+            }
         }
     }
 }
 
 /// An elastic layer on rock three times as fast: guided waves decay as Re s only, and need a deep bottom.
+///
+/// 48 frequencies around a cut-off, at which a shallow bottom is wrong in eleven.
 #[test]
 fn the_bottom_is_as_deep_as_guided_waves_need() {
     let profile = SoilProfile::on_half_plane(soil(3.0, 1.2))
@@ -116,11 +124,16 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         .unwrap();
     let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(8, 4).unwrap();
     let ground = TrenchSoil::new(profile, elements).unwrap();
-    let s = Complex::new(1e-3, 3.75);
-    let at = |depth: f64| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap();
-    let [shallow, deep, deeper] = [24.0, 48.0, 64.0].map(at);
-    assert!(shallow.difference(&deeper) > 1e-2, "{:e}", shallow.difference(&deeper));
-    assert!(deep.difference(&deeper) < 1e-8, "{:e}", deep.difference(&deeper));
-    let chosen = ground.compliances(s, &ground.mesh(s).unwrap().0).unwrap();
-    assert!(chosen.difference(&deeper) < 1e-6, "{:e}", chosen.difference(&deeper));
+    let mut wrong = 0;
+    for k in 0..48 {
+        let s = Complex::new(1e-3, 3.5 + 0.0125 * f64::from(k));
+        let at = |depth: f64| ground.compliances(s, &ground.mesh_of_depth(s, depth, 4)).unwrap();
+        let [shallow, deep, deeper] = [24.0, 48.0, 64.0].map(at);
+        wrong += usize::from(shallow.difference(&deeper) > 1e-3);
+        assert!(deep.difference(&deeper) < 1e-8, "{k}: {:e}", deep.difference(&deeper));
+        let chosen = ground.compliances(s, &ground.mesh(s).unwrap().0).unwrap();
+        assert!(chosen.difference(&deeper) < 1e-6, "{k}: {:e}", chosen.difference(&deeper));
+    }
+    println!("{wrong} points");
+    assert!((8..=16).contains(&wrong), "{wrong}");
 }

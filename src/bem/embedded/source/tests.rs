@@ -64,6 +64,33 @@ fn weights_are_the_coefficients_of_the_mobility() {
     assert!(worst[0] < 1e-5 * largest && worst[1] < 1e-6 * largest, "{worst:?}");
 }
 
+/// The work of any tractions is not negative where these eigenvalues are not.
+#[test]
+fn symbols_are_positive_at_short_and_long_steps() {
+    let half_plane = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+    for step in [0.05, 0.3, 2.0] {
+        let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(4, 3).unwrap();
+        let soil = TrenchSoil::new(half_plane.into(), elements).unwrap();
+        let weights = TrenchSource { soil, stages: None, file: None }.weights(step).unwrap();
+        let classes = &weights.classes;
+        let mut sums = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
+        let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), sums.clone());
+        let mut least = f64::INFINITY;
+        for k in 0..12 {
+            let place = [0.0, std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0];
+            weights.quadrature.mobility(place, &mut work, &mut scratch, &mut sums).unwrap();
+            let mut matrix = vec![Complex::default(); classes.layout().square()];
+            classes.scatter(&mut matrix, |_, pair| sums[pair.class]);
+            let matrix: Vec<_> = matrix.iter().map(|value| value.inner()).collect();
+            let [low, high] =
+                crate::linalg::hermitian_range(&matrix, classes.layout().len()).unwrap();
+            least = least.min(low / high);
+        }
+        println!("{step}: {least:e}");
+        assert!(least > -1e-8, "{step}: {least:e}");
+    }
+}
+
 /// A trench without depth is a strip, whose weights are integrals over wavenumbers; elements of degree 4.
 #[test]
 fn weights_without_depth_are_the_weights_of_a_strip() {
