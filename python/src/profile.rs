@@ -34,7 +34,7 @@ impl PyDampingLaw {
     /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
     /// frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
     /// default): the usual choice in time.
-    #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0))]
+    #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0), text_signature = "(ratio, band=(0.1, 30.0), reference=1.0)")]
     #[staticmethod]
     fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> PyResult<Self> {
         damping(GeneralizedMaxwell::constant_q(ratio, band, reference))

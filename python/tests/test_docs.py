@@ -71,6 +71,10 @@ def test_every_call_has_a_signature() -> None:
     assert "unit='m/s²'" in str(inspect.signature(bm.Record))
     made = {"DofCombination", "Soil", "Simulation", "Strip", "Load", "PreviousContact", "SolverOptions"}
     assert all(parameters(name) for name in made)
+    # Defaults are numbers, not ellipses.
+    assert "band=(0.1, 30.0)" in str(inspect.signature(bm.DampingLaw.constant_q))
+    assert "yield_displacement=0.0005" in str(inspect.signature(bm.FrictionPendulum))
+    assert not re.search(r"= \.\.\.[,)]", STUBS)
     # What static methods make alone has no constructor.
     assert parameters("PlaneWave") == [] != parameters("PlaneWave.sv")
     keywords = parameters("Simulation")
@@ -176,6 +180,10 @@ def simulation(**options: object) -> bm.Simulation:
     return bm.Simulation(0.01, BLOCK, ground, bm.Bonded(), **options)  # type: ignore[arg-type]
 
 
+MAT = bm.RigidBody.cuboid(2.0, 2.0, 1.0, 2e3)
+PLAN_RUN = bm.Simulation(0.01, MAT, bm.SpringGround.under(MAT, 2, 1e8, 5e7), bm.Bonded()).run(1)
+
+
 def read(word: str) -> object:
     """A file that is not there: a word that is known leads to it."""
     try:
@@ -212,13 +220,13 @@ CHOICES: dict[str, Callable[[str], object]] = {
     "_SectionUnit": lambda word: bm.SectionRows(0, 0, 0, unit=word),
     "_Face": lambda word: simulation().state.face(word),  # type: ignore[arg-type]
     "_PlanDirection": lambda word: bm.StoreyBuilding(
-        bm.RigidBody.cuboid(2.0, 2.0, 1.0, 2e3),
+        MAT,
         [bm.PlanStorey(3.0, 1e3, (2.0, 2.0), (1e6, 1e6, 1e6))],
         laws={(0, word): bm.Bilinear(1e6, 1e3, 0.1)},  # type: ignore[dict-item]
     ),
     "_Mass": lambda word: bm.FemModel(mesh(), mass=word),
     "_Formulation": lambda word: bm.Layer(1.0, 1, bm.Material(1e9, 0.2, 2e3), formulation=word),
-    "_Quantity": lambda word: simulation().run(1).extremes(word),  # type: ignore[arg-type]
+    "_Quantity": lambda word: PLAN_RUN.extremes(word),  # type: ignore[arg-type]
     "_Direction": lambda word: bm.FemModel(mesh()).dof_at(0, word),
     "_SpringDirection": lambda word: mesh(word).add_dashpots([[0, 1]], word, 1.0),
 }
@@ -258,6 +266,18 @@ def test_messages_are_pythons() -> None:
     with pytest.raises(bm.InputError, match="is not causal") as caught:
         bm.Simulation(1e-3, BLOCK, ground, bm.Bonded()).run(10)
     assert "::" not in str(caught.value) and "use DampingLaw.constant_q with" in str(caught.value)
+
+
+def test_names_of_the_core_in_messages_have_pythons_words() -> None:
+    """Texts in the core's sources that name a function of Rust, against the table of Python's words."""
+    table = (ROOT / "src" / "error.rs").read_text("utf-8")
+    named = set()
+    for path in (ROOT.parent / "src").rglob("*.rs"):
+        code = re.sub(r"^\s*(//|#!?\[(?!error)).*$", "", path.read_text("utf-8"), flags=re.M)
+        texts = re.findall(r'"((?:[^"\\\n]|\\.|\\\n)*)"', code, re.S)
+        found = (re.findall(r"\w+(?:::\w+)+", own) for own in texts if " " in own)
+        named.update(name for names in found for name in names)
+    assert len(named) > 5 and {name for name in named if name not in table} == set()
 
 
 def test_pages_have_every_name(tmp_path: Path) -> None:

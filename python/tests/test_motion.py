@@ -152,7 +152,7 @@ def test_there_and_back_through_a_site() -> None:
     pulse[150:180] = 1.0
     for samples in (random.uniform(-1.0, 1.0, 777), pulse, [1.0, 0.0]):
         bare = bm.Record(0.01, samples)
-        with pytest.warns(UserWarning, match="cut off before .* give the record quiet time"):
+        with pytest.warns(UserWarning, match="is cut off: up to .* % of its peak before .* give the record quiet time"):
             column.to_surface(bare)
         # Without damping the layer rings long.
         record = bare.padded(25.0, 120.0)

@@ -52,7 +52,7 @@ def column(kind: str) -> None:
     ops.patch("rect", 1, 12, 1, -0.3, -0.5, 0.3, 0.5)
     for y in (-0.25, 0.25):
         ops.layer("straight", 2, 1, 2.4e-3, y, 0.0, y, 0.0)
-    ops.geomTransf("Linear" if kind == "hinge" else "PDelta", 1)
+    ops.geomTransf("PDelta", 1)
     ops.beamIntegration("Lobatto", 1, 1, 3)
     for tag, mass in MASSES.items():
         ops.node(tag, 0.0, 2.0 * (tag - 1))
@@ -126,8 +126,10 @@ def expected() -> np.ndarray:
     for tag, mass in MASSES.items():
         ops.load(tag, 0.0, -bm.STANDARD_GRAVITY * mass, 0.0)
     ops.fix(1, 1, 0, 0)
-    analysis(("LoadControl", 0.1), "Static")
-    assert ops.analyze(10) == 0
+    # In several steps OpenSees moves a fixed node that others are tied to once more by all that it has moved so far:
+    # the hinge of a braced column with P-Delta would begin with a wrong rotation.
+    analysis(("LoadControl", 1.0), "Static")
+    assert ops.analyze(1) == 0
     ops.loadConst("-time", 0.0)
     ops.remove("sp", 1, 1)
     ops.timeSeries("Path", 2, "-dt", STEP, "-values", *RECORD.accelerations)
@@ -151,7 +153,7 @@ def test_a_column_yields_and_uplifts_as_in_opensees(of_page: Any, kind: str) -> 
     column(kind)
     reference = expected()
     for one, elastic, other in zip(own, linear, reference):
-        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-7 * np.abs(other).max())
+        np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-9 * np.abs(other).max())
         assert np.abs(elastic - other).max() > 0.2 * np.abs(other).max()
 
 

@@ -111,7 +111,10 @@ def test_the_site_has_no_warnings(tmp_path: Path) -> None:
     checked(["-m", "mkdocs", "build", "--quiet", "--site-dir", str(tmp_path)])
     names = {own.relative_to(tmp_path).as_posix() for own in tmp_path.rglob("*.html")}
     assert {"index.html", "tutorial.html", "gallery/cask.html", "api/basemat.html", "api/basemat/opensees.html"} <= names
-    assert "blob/main/docs/tutorial.md#warnings" in (tmp_path / "tutorial.html").read_text("utf-8")
+    for page in ("tutorial.html", "guide.html"):
+        assert 'href="warnings.html"' in (tmp_path / page).read_text("utf-8")
+    warnings = (tmp_path / "warnings.html").read_text("utf-8")
+    assert warnings.count("<tr>") > 20 and "TimeScheme.midpoint()" in warnings and ">Midpoint<" not in warnings
     assert 'src="../images/cask.png"' in (tmp_path / "gallery" / "cask.html").read_text("utf-8")
 
 

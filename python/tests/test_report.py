@@ -1,6 +1,6 @@
 """GOAL: the page of a run is whole by itself, and says what the run says.
 SCENE: five storeys under El Centro with uplift, their twin on a fixed base; a body in plan; a run alone.
-REFERENCE: the run, the interaction and the parts of the simulation themselves.
+REFERENCE: the run, the interaction and the parts of the simulation themselves; Chromium, where it is installed.
 """
 
 from __future__ import annotations
@@ -8,6 +8,8 @@ from __future__ import annotations
 import base64
 import json
 import re
+import shutil
+import subprocess
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -94,3 +96,45 @@ def test_pages_in_plan_and_of_a_run_alone(tmp_path: Path) -> None:
     alone.report(tmp_path / "alone.html")
     text = (tmp_path / "alone.html").read_text("utf-8")
     assert re.findall("<h2>(.*?)</h2>", text) == ["Ground motion", "Peaks", "All results"] and not Page(text).sources
+
+
+BROWSERS = ("chromium", "google-chrome", "google-chrome-stable", "chromium-browser")
+
+
+def opened(page: Path, profile: Path, milliseconds: int) -> tuple[str, list[str], list[str]]:
+    """A page after so long in a browser: its elements, addresses that it loads, texts on its console."""
+    browser = next((own for own in BROWSERS if shutil.which(own)), None)
+    if browser is None:
+        pytest.skip("no Chromium: pages were not opened in a browser")
+    log = profile / "requests.json"
+    options = ["--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--dump-dom"]
+    options += [f"--user-data-dir={profile}", f"--log-net-log={log}", f"--virtual-time-budget={milliseconds}"]
+    done = subprocess.run(
+        [browser, *options, page.as_uri()], capture_output=True, text=True, encoding="utf-8", timeout=120
+    )
+    assert done.returncode == 0, done.stderr
+    # The browser's own requests have "not an origin" as their initiator, or none.
+    requests = re.findall(r'"initiator":"(?!not an origin").*?"url":"(.*?)"', log.read_text("utf-8"))
+    outside = [own for own in requests if not own.startswith(("file:", "data:"))]
+    return done.stdout, outside, [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+
+
+def test_a_browser_plays_a_page_without_network(tmp_path: Path) -> None:
+    block = bm.RigidBlock(3.0, 9.0, 2000.0)
+    ground = bm.ElasticGround.under(SOIL, block, 8)
+    simulation = bm.Simulation(0.01, block, ground, bm.Coulomb(0.4), motion=bm.el_centro_1940())
+    run = simulation.run(300, contact_every=10, motion_every=10)
+    page = tmp_path / "run.html"
+    run.report(page, simulation, height=9.0)
+    film = re.compile(r'<img id="film"[^>]*src="(data:image/png;base64,[^"]+)"')
+    frames = []
+    for milliseconds in (100, 1500):
+        elements, outside, console = opened(page, tmp_path / str(milliseconds), milliseconds)
+        assert outside == [] and console == []
+        frames += film.findall(elements)
+    assert len(frames) == 2 and frames[0] != frames[1]
+    # What the test looks for is seen where it is.
+    bad = tmp_path / "bad.html"
+    bad.write_text('<img src="http://127.0.0.1:9/picture.png"><script>missing()</script>', "utf-8")
+    _, outside, console = opened(bad, tmp_path / "bad", 100)
+    assert outside == ["http://127.0.0.1:9/picture.png"] and "missing is not defined" in console[0]

@@ -140,6 +140,8 @@ def test_a_run_is_the_summary_of_its_base(rocking) -> None:
         assert own.slip_path == run.slip_path > 0.0
     with pytest.raises(bm.InputError, match="no quantity 'shear'"):
         run.extremes("shear")
+    with pytest.raises(bm.InputError, match="'twist' in this run, only base_shear, .*overturning_safety$"):
+        run.extremes("twist")  # of a run in plan
     for ask in (lambda: run.floor_spectrum("rof", [0.1]), lambda: run.acceleration_record("rof")):
         with pytest.raises(bm.InputError, match="no probe 'rof', only roof"):
             ask()

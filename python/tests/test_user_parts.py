@@ -283,3 +283,67 @@ def test_an_exception_of_a_run_is_not_taken_by_a_call_inside_it(rocking) -> None
         simulation.run(50)
     assert asked > 1, "no call came after the exception"
     assert caught and all(isinstance(error, KeyError) for error in caught)
+
+
+class TwoFibres:
+    """A mass on two fibres and a shear spring: base to the right, up, rotation; mass to the right, up, rotation."""
+
+    dofs = 6
+    rows = tuple(np.array([0.0, -1.0, -y, 0.0, 1.0, y]) for y in (1.0, -1.0))
+
+    def __init__(self, eccentricity: float) -> None:
+        self.eccentricity = eccentricity
+
+    def base(self) -> list[list[bm.BaseNode]]:
+        return bm.BaseNode.rigid_base(-1.0, 1.0, [0, 1, 2])
+
+    def mass(self) -> np.ndarray:
+        mass = np.diag([1e3] * 3 + [1e5] * 3)
+        mass[4, 5] = mass[5, 4] = 1e5 * self.eccentricity
+        return mass
+
+    def stiffness(self) -> np.ndarray:
+        spring = np.array([-1.0, 0.0, 2.0, 1.0, 0.0, 0.0])
+        return 1e9 * np.outer(spring, spring)
+
+    def force(self, u: np.ndarray) -> np.ndarray:
+        return sum(1e11 * ((u[4] + y * u[5]) - (u[1] + y * u[2])) * row for y, row in zip((1.0, -1.0), self.rows))
+
+    def tangent(self, u: np.ndarray) -> np.ndarray:
+        return sum(1e11 * np.outer(row, row) for row in self.rows)
+
+
+@pytest.mark.parametrize("eccentricity", [1e-7, 2e-7, 3e-7, 5e-7, 1e-6, 3e-6])
+def test_rounding_of_a_settled_structure_is_no_support(eccentricity: float) -> None:
+    """It has settled by 124.5 mm; moved by 1 mm its displacements round at another digit, beyond 1/8 m."""
+    own = TwoFibres(eccentricity)
+    stiffness = 101e3 * bm.STANDARD_GRAVITY / (2.0 * 0.1245)
+    at_rest = bm.Simulation(0.01, own, bm.SpringGround.under(own, 4, stiffness, stiffness), bm.Bonded())
+    assert at_rest.static_displacement[1] == pytest.approx(-0.1245, rel=1e-9)
+
+
+class Held(TwoFibres):
+    """The same with a support that takes 1e-8 of the fibres' stiffness."""
+
+    def force(self, u: np.ndarray) -> np.ndarray:
+        force = super().force(u)
+        force[4] += 1e3 * u[4]
+        return force
+
+    def tangent(self, u: np.ndarray) -> np.ndarray:
+        return super().tangent(u) + np.diag([0.0] * 4 + [1e3, 0.0])
+
+
+def test_a_weak_support_of_a_settled_structure_is_one() -> None:
+    own = Held(1e-6)
+    with pytest.raises(bm.InputError, match="must translate freely"):
+        bm.Simulation(0.01, own, bm.SpringGround.under(own, 4, 4e6, 4e6), bm.Bonded())
+
+
+def test_what_is_no_law_leads_to_one(rocking) -> None:
+    with pytest.raises(bm.InputError, match=r"float is no interface law .*: Coulomb\(0.4\) has this friction"):
+        rocking(interface=0.4)
+    with pytest.raises(bm.InputError, match=r"function is no interface law .*: VariableFriction\(function\)"):
+        rocking(interface=lambda start: 0.4)
+    with pytest.raises(bm.InputError, match="str is no interface law .* no method `conditions`"):
+        rocking(interface="friction")

@@ -20,6 +20,7 @@ def on_files(files: Any, config: Any) -> Any:
     readme = (ROOT / "python" / "README.md").read_text("utf-8")
     pages = f"{SOURCE}docs/python/"
     files.append(File.generated(config, "index.md", content=readme.replace(pages, "")))
+    files.append(File.generated(config, "warnings.md", content=warnings_of_runs()))
     import pdoc
 
     pdoc.render.configure(docformat="google", show_source=False)
@@ -31,9 +32,20 @@ def on_files(files: Any, config: Any) -> Any:
     return files
 
 
+def warnings_of_runs() -> str:
+    """The table of warnings in Rust's tutorial, with Python's names."""
+    tutorial = (ROOT / "docs" / "tutorial.md").read_text("utf-8")
+    section = tutorial.partition("\n## Warnings\n")[2].partition("\nErrors say")[0]
+    for name, own in {"Midpoint": "TimeScheme.midpoint()", "DissipativeMidpoint": "TimeScheme.dissipative_midpoint()"}.items():
+        section = section.replace(f"`{name}`", f"`{own}`")
+    return f"# Warnings\n{section}"
+
+
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     """Makes links out of the folder links to the repository."""
     own = posixpath.join("docs/python", page.file.src_uri)
+
+    markdown = markdown.replace("](../tutorial.md#warnings)", "](warnings.md)")
 
     def outside(found: re.Match[str]) -> str:
         target = posixpath.normpath(posixpath.join(posixpath.dirname(own), found[1]))

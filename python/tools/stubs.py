@@ -38,7 +38,7 @@ def literal(text: str | None, indent: int) -> list[str]:
 def shown(default: Any) -> str:
     """A default as code."""
     if default is ...:
-        return "..."
+        sys.exit("a default that is no literal: PyO3 shows it as an ellipsis")
     return f'"{default}"' if isinstance(default, str) else repr(default).replace("inf", "1e999")
 
 

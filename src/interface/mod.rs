@@ -274,7 +274,8 @@ pub trait InterfaceLaw: Send {
     /// The friction coefficient for the factor of safety against sliding.
     ///
     /// The resistance of the base is this coefficient times the pressure
-    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). Infinite for a law that never
+    /// ([`Quantity::SlidingSafety`](crate::results::Quantity::SlidingSafety)). Of a friction that varies take the
+    /// smallest coefficient: with a larger one, a base slides at a factor above one. Infinite for a law that never
     /// slides; `None` (the default) for a law without such a coefficient.
     fn friction_coefficient(&self) -> Option<f64> {
         None

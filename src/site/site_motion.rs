@@ -102,8 +102,8 @@ impl fmt::Display for SiteMotion {
         let peak = self.peak();
         write!(
             f,
-            "peak {peak:.3e}; of that cut off before {:.1e}, after {:.1e}, near the highest frequency \
-             {:.1e}, rounding {:.1e}",
+            "peak {peak:.3e}; relative to it: {:.1e} cut off before the first sample, {:.1e} after the last, \
+             {:.1e} near the highest frequency, {:.1e} by rounding",
             self.before / peak,
             self.after / peak,
             self.near_nyquist / peak,

@@ -174,8 +174,8 @@ fn each_body_has_its_own_forces_and_all_have_theirs_about_the_middle() {
     for text in [
         "over the left or the right edge",
         "over the front or the back edge",
-        "bear at 0.75 of the half width: a base stands on them at 1.33",
-        "16 elements a side, or graded ones",
+        "0.75 of the half width from the middle of the base at most:\n  a base on its edge has a factor of 1.33, not 1",
+        "(1.07 or less with 16 elements a side)",
     ] {
         assert!(page.contains(text), "{text}\n{page}");
     }

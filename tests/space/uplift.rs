@@ -326,7 +326,10 @@ fn blocks_stand_on_their_outermost_cells() {
             .map(|quantity| run.whole.peak(quantity).value);
         let [own, other] = if axis == 0 { [own, other] } else { [other, own] };
         assert!((own - (8.0 - 0.21) / 7.0).abs() < 1e-6 && other > 1e3, "{axis}: {own} {other}");
-        assert!(run.to_string().contains("bear at 0.90 of the half width"), "{run}");
+        assert!(
+            run.to_string().contains("0.90 of the half width from the middle of the base at most"),
+            "{run}"
+        );
         assert_eq!((run.whole.ends, run.whole.depth), ([-3.0, 3.0], [-3.0, 3.0]));
     }
     assert!(!tip(0, 16).to_string().contains("16 elements"));

@@ -699,7 +699,7 @@ class TrenchMotion(FreeField):
     """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
 
     ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
-    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component left out is zero. Motion at
+    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero unless given. Motion at
     depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
     surface (`Record.padded`).
     """
@@ -948,7 +948,7 @@ class SoilColumn:
     def to_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
         "within", as long. A `BasematWarning` gives the size, relative to the peak, of what comes before or after
-        and is cut off, from 1e-4 on: `Record.padded` makes room for it.
+        and is cut off, from 0.01 % on: `Record.padded` makes room for it.
         """
     def from_surface(self, record: Record, *, control: _ControlPoint = "outcrop") -> Record:
         """The record of the ``control`` point, "outcrop" (the default) or "within", from the ``record`` of the
@@ -1165,7 +1165,7 @@ class DampingLaw:
     def elastic() -> DampingLaw:
         """No damping."""
     @staticmethod
-    def constant_q(ratio: float, band: Sequence[float] = ..., reference: float = 1.0) -> DampingLaw:
+    def constant_q(ratio: float, band: Sequence[float] = (0.1, 30.0), reference: float = 1.0) -> DampingLaw:
         """Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
         frequency, Hz; 0.1 to 30 by default) and the soil's modulus at ``reference`` (Hz; 1 by
         default): the usual choice in time.
@@ -3091,9 +3091,9 @@ class FrictionPendulum(Hysteresis):
         radius: float,
         friction: float,
         *,
-        yield_displacement: float = ...,
+        yield_displacement: float = 0.0005,
     ) -> Self: ...
-    def sliding_period(self, gravity: float = ...) -> float:
+    def sliding_period(self, gravity: float = 9.80665) -> float:
         """Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default)."""
 
 @final
@@ -3113,7 +3113,7 @@ class PendulumBearing:
         friction: float,
         vertical_stiffness: float,
         *,
-        yield_displacement: float = ...,
+        yield_displacement: float = 0.0005,
     ) -> Self: ...
     def vertical_force(self, deformation: Sequence[float]) -> float:
         """Vertical force (N) on a new bearing at a ``deformation`` (along x, along y and up, m); 0 while it is lifted off."""
@@ -3134,10 +3134,10 @@ class LeadRubber(Hysteresis):
         rubber_thickness: float,
         lead_area: float,
         *,
-        stiffness_ratio: float = ...,
+        stiffness_ratio: float = 10.0,
     ) -> Self: ...
     @staticmethod
-    def from_strength(stiffness: float, strength: float, *, stiffness_ratio: float = ...) -> LeadRubber:
+    def from_strength(stiffness: float, strength: float, *, stiffness_ratio: float = 10.0) -> LeadRubber:
         """Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
         ``stiffness_ratio`` is as in the class.
         """
@@ -3701,7 +3701,7 @@ def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
     """
 def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
     """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-    same everywhere at once; a component left out is zero.
+    same everywhere at once; a component is zero unless given.
     """
 def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
     """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at

@@ -102,7 +102,8 @@ class UserLaw(Protocol):
     If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
     ``state_variables`` (count of the numbers that it remembers of each element),
     ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
-    ``friction_coefficient`` (for the factor of safety), ``check(gravity, time_step)`` (may refuse).
+    ``friction_coefficient`` (for the factor of safety: of a friction that varies the smallest, since with a larger one a
+    base slides at a factor above 1), ``check(gravity, time_step)`` (may refuse).
     On a ground in plan it is a `UserPlanLaw`.
 
     What they raise comes out of the run; the simulation stays at the last accepted step.

@@ -117,8 +117,9 @@ def sweep(
             the error. None unless given.
 
     Returns:
-        Frame with the columns of the parameters, of the results, ``warnings`` (None, or the texts of
-        `Run.warnings`) and ``error`` (None, or its text), rows in the order of the cases.
+        Frame with the columns of the parameters, of the results, ``warnings`` (missing, or the texts of
+        `Run.warnings`) and ``error`` (missing, or its text), rows in the order of the cases; ``isna()`` finds the
+        missing ones.
     """
     pandas()
     given = parameters_of(grid)

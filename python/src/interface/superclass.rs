@@ -80,11 +80,15 @@ fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn Inter
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
-    Err(refuse(format!(
-        "{} is no interface law for this ground: it has no method `{}`",
-        object.get_type().name()?,
-        if in_plan { "limits" } else { "conditions" }
-    )))
+    let hint = if let Ok(number) = object.extract::<f64>() {
+        format!("Coulomb({number}) has this friction coefficient")
+    } else if object.is_callable() {
+        "VariableFriction(function) has the friction coefficient that a function returns".into()
+    } else {
+        format!("it has no method `{}`", if in_plan { "limits" } else { "conditions" })
+    };
+    let found = object.get_type().name()?;
+    Err(refuse(format!("{found} is no interface law for this ground: {hint}")))
 }
 
 /// One law for all elements, or a sequence of one each.

@@ -15,7 +15,7 @@ use crate::ticker::watched;
 /// Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
 ///
 /// ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
-/// surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component left out is zero. Motion at
+/// surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero unless given. Motion at
 /// depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
 /// surface (`Record.padded`).
 #[pyclass(name = "TrenchMotion", module = "basemat", extends = PyFreeField, frozen)]

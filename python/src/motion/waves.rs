@@ -22,7 +22,7 @@ use crate::soil::PySoil;
 use crate::ticker::watched;
 
 /// Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-/// same everywhere at once; a component left out is zero.
+/// same everywhere at once; a component is zero unless given.
 #[pyfunction]
 #[pyo3(signature = (horizontal=None, vertical=None))]
 pub(crate) fn vertical_incidence(
@@ -223,8 +223,20 @@ fn through(
     let samples = record.0.accelerations();
     let motion =
         py.detach(|| watched(None, |observer| column(control, step, samples, observer)))?;
-    if motion.before.max(motion.after).max(motion.rounding) > UNSEEN * motion.peak() {
-        let text = format!("{motion}: give the record quiet time on both sides (padded)");
+    let lost = [motion.before, motion.after, motion.rounding].map(|part| part / motion.peak());
+    let [before, after, rounding] = lost.map(|part| format!("{:.2} %", 100.0 * part));
+    if lost[0].max(lost[1]) > UNSEEN {
+        let text = format!(
+            "the motion begins before the record or lasts longer, and is cut off: up to {before} of its peak \
+             before the first sample, up to {after} after the last; give the record quiet time on both sides (padded)"
+        );
+        crate::error::warn(py, text)?;
+    }
+    if lost[2] > UNSEEN {
+        let text = format!(
+            "rounding is {rounding} of the motion's peak, since layers amplify high frequencies on the way down; \
+             remove these from the record before (low_pass)"
+        );
         crate::error::warn(py, text)?;
     }
     if let Some(warning) = motion.warning() {
@@ -262,7 +274,7 @@ impl PyColumn {
 
     /// The record of the surface from the ``record`` of the ``control`` point, "outcrop" (the default) or
     /// "within", as long. A `BasematWarning` gives the size, relative to the peak, of what comes before or after
-    /// and is cut off, from 1e-4 on: `Record.padded` makes room for it.
+    /// and is cut off, from 0.01 % on: `Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
         through(py, record, control, |control, step, own, observer| {

@@ -1,10 +1,10 @@
 //! The base, foundations and limits of service after a run.
 
-use basemat::results::{ServiceCheck, Summary};
+use basemat::results::{Quantity, ServiceCheck, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
-use crate::error::OrRaise;
+use crate::error::{OrRaise, refuse};
 
 /// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 ///
@@ -124,6 +124,14 @@ impl PySummary {
     /// The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
     /// "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
+        let in_plan = self.0.depth != [0.0; 2];
+        let all = || Quantity::recorded(in_plan).map(|own| own.to_string());
+        if !all().any(|own| own == quantity) {
+            let known = all().collect::<Vec<_>>().join(", ");
+            return Err(refuse(format!(
+                "there is no quantity '{quantity}' in this run, only {known}"
+            )));
+        }
         Ok(PyExtremes(self.0.extremes(quantity.parse().or_raise()?)))
     }
 }

@@ -17,6 +17,13 @@ use crate::row::RowLike;
 use crate::several::no_such;
 use crate::user;
 
+// Signatures show numbers only.
+const _: () = assert!(
+    FrictionPendulum::YIELD_DISPLACEMENT == 5e-4
+        && LeadRubber::STIFFNESS_RATIO == 10.0
+        && basemat::motion::STANDARD_GRAVITY == 9.80665
+);
+
 /// A spring whose force depends on where it has been: a yield law of a storey, an isolator.
 /// Forces and stiffnesses are per metre of thickness.
 #[pyclass(name = "Hysteresis", module = "basemat", subclass, frozen, dict)]
@@ -119,7 +126,7 @@ extends!(PyFrictionPendulum, own => copied(own.0.clone(), |law| Ok(law.coupled()
 #[pymethods]
 impl PyFrictionPendulum {
     #[new]
-    #[pyo3(signature = (weight, radius, friction, *, yield_displacement=FrictionPendulum::YIELD_DISPLACEMENT))]
+    #[pyo3(signature = (weight, radius, friction, *, yield_displacement=5e-4))]
     fn new(
         weight: f64,
         radius: f64,
@@ -132,7 +139,7 @@ impl PyFrictionPendulum {
     }
 
     /// Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default).
-    #[pyo3(signature = (gravity=basemat::motion::STANDARD_GRAVITY))]
+    #[pyo3(signature = (gravity=9.80665))]
     fn sliding_period(&self, gravity: f64) -> PyResult<f64> {
         self.0.sliding_period(gravity).or_raise()
     }
@@ -150,7 +157,7 @@ pub(crate) struct PyPendulumBearing(PendulumBearing);
 #[pymethods]
 impl PyPendulumBearing {
     #[new]
-    #[pyo3(signature = (weight, radius, friction, vertical_stiffness, *, yield_displacement=FrictionPendulum::YIELD_DISPLACEMENT))]
+    #[pyo3(signature = (weight, radius, friction, vertical_stiffness, *, yield_displacement=5e-4))]
     fn new(
         weight: f64,
         radius: f64,
@@ -184,7 +191,7 @@ pub(crate) struct PyLeadRubber(LeadRubber);
 
 #[pymethods]
 impl PyLeadRubber {
-    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    #[pyo3(signature = (shear_modulus, rubber_area, rubber_thickness, lead_area, *, stiffness_ratio=10.0))]
     #[new]
     fn new(
         shear_modulus: f64,
@@ -199,7 +206,7 @@ impl PyLeadRubber {
 
     /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
     /// ``stiffness_ratio`` is as in the class.
-    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=LeadRubber::STIFFNESS_RATIO))]
+    #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=10.0))]
     #[staticmethod]
     fn from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) -> PyResult<Self> {
         bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio)

@@ -47,6 +47,9 @@ const BENT: f64 = 1e-9;
 /// Largest |r − s| at which r is replaced by s.
 const WHOLE: f64 = 0.25;
 
+/// Rounding of a nonlinear force at the static state, relative to ε, the largest stiffness and the displacement.
+const ROUNDED: f64 = 16.0;
+
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
 const EXACT: f64 = 1e-14;
 /// Translations (m) that no nonlinear force may resist.
@@ -131,6 +134,7 @@ pub(crate) fn joined_by_force(
     let n = displacement.len();
     let tangent = Tangent::at(structure, displacement)?;
     let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
+    let deformed = largest(displacement);
     let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
         let [_, around] = products(&tangent.matrix, translation);
         let mut force = vec![0.0; n];
@@ -142,7 +146,7 @@ pub(crate) fn joined_by_force(
             for (dof, (force, before)) in force.iter().zip(static_force).enumerate() {
                 let force = force - before;
                 let scale = distance.abs() * around[dof] + before.abs();
-                let rounding = f64::EPSILON * stiffest * distance.abs();
+                let rounding = f64::EPSILON * stiffest * (distance.abs() + ROUNDED * deformed);
                 if force.is_nan() || force.abs() > ROW * scale + rounding {
                     let ratio = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
                     return Ok(Some((force, dof, ratio)));

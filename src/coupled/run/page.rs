@@ -131,8 +131,8 @@ impl Run {
         if near < ENOUGH {
             writeln!(
                 f,
-                "  the outermost elements bear at {near:.2} of the half width: a base stands on them at {:.2}\n  \
-                 (16 elements a side, or graded ones, bear at 0.94 or more)",
+                "  pressure acts in the middle of elements, {near:.2} of the half width from the middle of the base at \
+                 most:\n  a base on its edge has a factor of {:.2}, not 1 (1.07 or less with 16 elements a side)",
                 1.0 / near
             )?;
         }

@@ -200,7 +200,7 @@ pub enum Warning {
     /// The error is estimated from the length of oblique edges, the area and the cells. The vertical stiffness has about
     /// a fourth of it.
     #[error(
-        "rocking stiffness off by about {:.1} %: outline oblique to the cells; take {factor:.1} times as many",
+        "rocking stiffness off by about {:.1} %: outline oblique to the cells; take {factor:.1} times as many cells",
         100.0 * error
     )]
     ObliqueOutline {
