@@ -150,15 +150,16 @@ impl<'a> Reduction<'a> {
         finite(NAME, tolerance)?;
         require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
-        if self.has_many() {
-            return self.modes_of_many(tolerance, matrices);
+        let many = || self.modes_of_many(tolerance, matrices);
+        let few = || self.modes_of_few(tolerance, matrices);
+        match (self.rows.counts[1] >= MANY, self.assembled.base.layout().is_plan()) {
+            (true, _) => many(),
+            (false, false) => few(),
+            (false, true) => few().or_else(|error| match error {
+                Error::Accuracy { .. } => many(),
+                _ => Err(error),
+            }),
         }
-        self.modes_of_few(tolerance, matrices).or_else(|error| match error {
-            Error::Accuracy { .. } if self.assembled.base.layout().is_plan() => {
-                self.modes_of_many(tolerance, matrices)
-            }
-            _ => Err(error),
-        })
     }
 
     /// The rigid motions, and the lowest frequency with the base held.
@@ -199,7 +200,9 @@ impl<'a> Reduction<'a> {
                     block.extend_from_slice(space.momenta(before));
                 }
             }
-            block.iter_mut().for_each(|momentum| *momentum *= c.acceleration[0]);
+            for momentum in &mut block {
+                *momentum *= c.acceleration[0];
+            }
             self.factor.solve_many(&mut block);
             let before = space.count();
             space.extend_by_length(std::mem::take(&mut block), 0.5 * tolerance.sqrt());
@@ -279,10 +282,6 @@ impl<'a> Reduction<'a> {
     fn responses(&self, modes: &Ritz, shares: Vec<f64>, smooth: usize) -> StepResponses {
         let steps = self.steps.clamp(1, LONGEST);
         StepResponses::new(modes, shares, &self.rows, self.coefficients, [steps, smooth])
-    }
-
-    fn has_many(&self) -> bool {
-        self.rows.counts[1] >= MANY
     }
 
     /// Mass, damping and stiffness; an error if they cannot be reduced.
