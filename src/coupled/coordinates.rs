@@ -2,17 +2,13 @@
 
 /// Coordinates in which a linear structure is stepped.
 ///
-/// Results are equal to rounding, except in reduced coordinates. [`Coordinates::Auto`] takes these for large structures in
-/// space alone:
+/// Results are equal to rounding, except for [`Coordinates::Reduced`]. [`Coordinates::Auto`] therefore never reduces. A
+/// rule for structures of finite elements in space on 64 cells and runs of some thousand steps:
 ///
-/// | base | degrees of freedom | coordinates of `Auto` |
-/// |---|---|---|
-/// | in the plane | any | all modes or degrees of freedom, whichever are faster |
-/// | in plan | up to 5 000 | the same |
-/// | in plan | more | `Reduced` at a tolerance of 1e-4, if its build takes less time than the steps without it |
-///
-/// Bricks of 33 075 degrees of freedom on 64 cells are reduced for runs of more than 400 steps. If the tolerance is not
-/// met, `Auto` steps the degrees of freedom. Give `Physical` for results without this error.
+/// | degrees of freedom | coordinates |
+/// |---|---|
+/// | up to 1 000 | `Auto`: all modes, or degrees of freedom if modes do not decouple the structure |
+/// | 5 000 and more | `Reduced` if errors of 1e-3 are small enough and runs are longer than 400 steps; otherwise `Auto` |
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
@@ -20,7 +16,7 @@
 pub enum Coordinates {
     /// The faster of degrees of freedom and modes, by an estimate.
     ///
-    /// Large structures in space are reduced (table above). The estimate includes the computation of the modes; see
+    /// The estimate includes the computation of the modes; see
     /// [`SimulationBuilder::expected_steps`](crate::coupled::SimulationBuilder::expected_steps). Nonlinear
     /// structures, and structures that modes do not decouple, keep their degrees of freedom.
     #[default]
@@ -62,8 +58,11 @@ pub enum Coordinates {
     ///
     /// On a block of 1 344 degrees of freedom on 36 cells that lifts off by 17 % and slides, base shear, displacements and
     /// pressures erred by at most 2e-4 with damping in proportion to stiffness, 6e-4 without, at a tolerance of 1e-3; at
-    /// 1e-4 by 2e-5 and 3e-4, and the roof's acceleration by 4e-3 and 4e-2. Bricks of 33 075 degrees of freedom on 64
-    /// cells took 332 vectors at 1e-4, 23 s and 1.1 GB to build, and 0.1 to 0.3 ms a step.
+    /// 1e-4 by 2e-5 and 3e-4, and the roof's acceleration by 4e-3 and 4e-2. On twelve harder blocks of 2 400 degrees of
+    /// freedom (parts 1e4 times as stiff as others, point masses, none or all of the damping in proportion to mass) base
+    /// shear and displacements erred by at most 9e-4 and pressures by 3.4e-3 at 1e-4: compare two tolerances.
+    /// Bricks of 33 075 degrees of freedom on 64 cells took 332 vectors at 1e-4, 23 s and 1.1 GB to build, and 0.1 to
+    /// 0.3 ms a step.
     ///
     /// They need a linear structure with symmetric matrices, a positive definite mass and proportional damping.
     /// An error names the missing property. A load of the structure's own is sampled

@@ -21,10 +21,6 @@ const STEPS: usize = 4_000;
 /// Largest number of degrees of freedom of which all modes may replace Ritz modes that are not accurate.
 const SMALL: usize = 1_000;
 
-/// Smallest number of degrees of freedom of which [`Coordinates::Auto`] takes reduced coordinates, and their tolerance.
-const LARGE: usize = 5_000;
-const TOLERANCE: f64 = 1e-4;
-
 /// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
@@ -39,8 +35,6 @@ mod cost {
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
     /// Per squared and per cubed number of modes, for computing them.
     pub(crate) const MODES: [f64; 2] = [60.0, 0.45];
-    /// Per entry of a sparse factor and contact component, for Ritz modes in space.
-    pub(crate) const RITZ: f64 = 4.0;
 }
 
 /// Matrices, base and operators of a structure, in the stepping coordinates.
@@ -75,11 +69,7 @@ impl Stepped {
             Coordinates::Auto => {
                 let factor = factored()?;
                 let modes = cheaper_modes(assembled, factor.stored(), steps);
-                let fewer = || cheaper_ritz(parts, assembled, [&factor, held], steps);
-                match modes.or_else(fewer) {
-                    Some(modes) => Chosen::Modes(modes),
-                    None => Chosen::Physical(factor),
-                }
+                modes.map_or(Chosen::Physical(factor), Chosen::Modes)
             }
             Coordinates::Modes => {
                 let Some(modes) = vibration_modes(assembled) else {
@@ -137,37 +127,14 @@ fn cause(
     found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
-/// Time of a step in degrees of freedom, ns; `factor`: number of entries of the sparse factor.
-fn sparse_step(assembled: &Assembled, factor: usize) -> f64 {
-    let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
-    cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64
-}
-
-/// Ritz modes of a large structure in space, if computing them takes less time than the steps without them.
-///
-/// `None` too if they are not accurate.
-fn cheaper_ritz(
-    parts: &Parts,
-    assembled: &Assembled,
-    factors: [&SparseFactor; 2],
-    steps: usize,
-) -> Option<ModalBasis> {
-    let (layout, entries) = (assembled.base.layout(), factors[0].stored());
-    let once = cost::RITZ * entries as f64 * layout.len() as f64;
-    let is_large = layout.is_plan() && assembled.linear && assembled.dofs() >= LARGE;
-    if !is_large || steps as f64 * sparse_step(assembled, entries) <= once {
-        return None;
-    }
-    Reduction::new(parts, assembled, factors, steps).ok()?.modes(TOLERANCE).ok()
-}
-
 /// The modes, if stepping in them takes less time, including their computation.
 ///
 /// `factor`: number of entries of the sparse factor.
 fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
     let (n, steps) = (assembled.dofs() as f64, steps as f64);
     let contact = assembled.base.layout().len();
-    let sparse = sparse_step(assembled, factor);
+    let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
+    let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
     let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
     let [squared, cubed] = cost::MODES;
     let once = squared * n.powi(2) + cubed * n.powi(3);
