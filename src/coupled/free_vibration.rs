@@ -73,7 +73,8 @@ impl FixedBaseMode {
         let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
-        let Some((squares, modes)) = lowest_modes(&factor, &mass, MODES) else { return Ok(None) };
+        let found = lowest_modes(&factor, &mass, MODES, f64::INFINITY);
+        let Some((squares, modes)) = found else { return Ok(None) };
         let mut momentum = vec![0.0; n];
         mass.multiply_add(1.0, &along, &mut momentum);
         let own = squares

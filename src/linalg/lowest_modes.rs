@@ -20,6 +20,9 @@ const BLOCK: usize = 8;
 /// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
 const TOLERANCE: f64 = 1e-9;
 
+/// The same for modes up to a limit: they span a space in which their errors are squared.
+const LOOSE: f64 = 1e-5;
+
 /// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
 const DEPENDENT: f64 = 1e-10;
 
@@ -28,6 +31,8 @@ type Pairs = (Vec<f64>, Vec<f64>);
 
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
+/// The search ends at the first eigenvalue above `limit`, which is the last one returned.
+///
 /// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
 /// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
 /// fails.
@@ -35,9 +40,11 @@ pub(crate) fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
     count: usize,
+    limit: f64,
 ) -> Option<Pairs> {
     let mut space = Space { stiffness, mass, basis: Vec::new(), columns: Vec::new(), seed: 1 };
     let count = count.min(space.order());
+    let tolerance = if limit.is_finite() { LOOSE } else { TOLERANCE };
     loop {
         let applied = space.columns.len();
         if applied == space.vectors() {
@@ -45,13 +52,14 @@ pub(crate) fn lowest_modes(
             // frequency has more modes than a block has vectors.
             space.extend_at_random();
             if applied == space.vectors() {
-                return space.modes(&space.approximations(count)?);
+                return space.modes(&space.approximations(count, limit)?);
             }
         }
         space.step();
-        if space.columns.len() >= count {
-            let found = space.approximations(count)?;
-            if found.residual <= TOLERANCE {
+        if space.columns.len() >= count || limit.is_finite() {
+            let found = space.approximations(count, limit)?;
+            let ends = found.theta.last().is_some_and(|theta| theta * limit < 1.0);
+            if (ends || space.columns.len() >= count) && found.residual <= tolerance {
                 return space.modes(&found);
             }
         }
@@ -143,8 +151,8 @@ impl Space<'_> {
         }
     }
 
-    /// The best approximations of the lowest `count` modes in this space.
-    fn approximations(&self, count: usize) -> Option<Approximations> {
+    /// The best approximations of the lowest `count` modes in this space, up to the first one above `limit`.
+    fn approximations(&self, count: usize, limit: f64) -> Option<Approximations> {
         let m = self.columns.len();
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
         let square = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
@@ -163,6 +171,9 @@ impl Space<'_> {
             found.residual = found.residual.max(square.sqrt() / theta);
             found.theta.push(theta);
             found.shares.push(y);
+            if theta * limit < 1.0 {
+                break;
+            }
         }
         Some(found)
     }
@@ -227,7 +238,7 @@ mod tests {
         for (length, copies, count) in [(300, 1, 20), (100, 2, 12), (60, 5, 23), (40, 12, 30)] {
             let [stiffness, mass] = chains(length, copies, 0);
             let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
-            let (values, modes) = lowest_modes(&factor, &mass, count).unwrap();
+            let (values, modes) = lowest_modes(&factor, &mass, count, f64::INFINITY).unwrap();
             assert_eq!(values.len(), count);
             let n = mass.order();
             for (k, value) in values.iter().enumerate() {
@@ -246,13 +257,27 @@ mod tests {
         }
     }
 
+    /// With a limit, all modes below it and one above.
+    #[test]
+    fn a_limit_ends_the_search() {
+        let [stiffness, mass] = chains(100, 2, 0);
+        let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
+        for (limit, below) in [(0.5 * exact(100, 1), 0), (1.01 * exact(100, 7), 14)] {
+            let (values, _) = lowest_modes(&factor, &mass, 200, limit).unwrap();
+            assert_eq!(values.len(), below + 1);
+            for (k, value) in values.iter().enumerate() {
+                assert!((value / exact(100, k / 2 + 1) - 1.0).abs() < 1e-9, "mode {k}");
+            }
+        }
+    }
+
     #[test]
     fn what_has_no_mass_has_no_mode() {
         let [stiffness, mass] = chains(5, 1, 4);
         let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
-        let (values, _) = lowest_modes(&factor, &mass, 9).unwrap();
+        let (values, _) = lowest_modes(&factor, &mass, 9, f64::INFINITY).unwrap();
         assert_eq!(values.len(), 5);
-        let (none, _) = lowest_modes(&factor, &mass, 0).unwrap();
+        let (none, _) = lowest_modes(&factor, &mass, 0, f64::INFINITY).unwrap();
         assert!(none.is_empty());
     }
 }

@@ -8,26 +8,37 @@
 //!
 //! The space holds rigid motions and Z⁻¹Fᵀ, Z⁻¹M Z⁻¹Fᵀ and so on: each round adds one power of every shift (Ruhe
 //! 1984; Grimme 1997). Each power of K_eff makes two more steps after a change of traction exact. Lower shifts
-//! represent modes at lower frequencies, of which few are soon complete. With few forces one higher shift represents
-//! motion that a step cannot follow.
+//! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
+//! step cannot follow.
+//!
+//! With many forces the space holds vibration modes up to a frequency, the static responses to all forces, and powers
+//! of K_eff of what they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance.
 
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
-use crate::coupled::assembly::subspace::{REDUCED, Subspace};
+use crate::coupled::assembly::subspace::{REDUCED, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, dot};
+use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
-/// Number of forces from which no shift above the scheme's is used.
-///
-/// It adds a vector for each force in every round. With the responses to many forces, the rest converges without it.
+/// Number of forces from which vibration modes and static responses replace shifts.
 const MANY: usize = 100;
+/// Growth of the limit of frequency of vibration modes, from a round to the next.
+const GROWTH: f64 = std::f64::consts::SQRT_2;
+/// Largest number of vibration modes.
+const MODES: usize = 600;
+/// Largest number of rounds with vibration modes.
+const ROUNDS_OF_MODES: usize = 5;
+/// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
+const STATIC: [f64; 2] = [1e-2, 0.5];
+/// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
+const SMOOTH: usize = 32;
 /// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
 /// tolerance.
 ///
@@ -139,17 +150,94 @@ impl<'a> Reduction<'a> {
         finite(NAME, tolerance)?;
         require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
+        let many = || self.modes_of_many(tolerance, matrices);
+        let few = || self.modes_of_few(tolerance, matrices);
+        match (self.rows.counts[1] >= MANY, self.assembled.base.layout().is_plan()) {
+            (true, _) => many(),
+            (false, false) => few(),
+            (false, true) => few().or_else(|error| match error {
+                Error::Accuracy { .. } => many(),
+                _ => Err(error),
+            }),
+        }
+    }
+
+    /// The rigid motions, and the lowest frequency with the base held.
+    fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> (Subspace<'m>, f64) {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
         let (rotations, lowest) = self.held(&translations, matrices);
         let mut space = Subspace::new(matrices, translations);
         space.extend(rotations, LEAST_NEW);
-        let rows = &self.rows.all;
-        let forces = if self.has_many() { space.balanced(rows.clone()) } else { rows.clone() };
+        (space, lowest)
+    }
+
+    /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
+    fn modes_of_many(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
+        let (mut space, lowest) = self.rigid(matrices);
+        let (rows, c) = (&self.rows.all, self.coefficients);
+        let count = (rows.len() / self.assembled.dofs()).max(1);
+        let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), LEAST_NEW);
+        let own = (c.acceleration[0] / c.displacement[0]).sqrt();
+        let shift = lowest.clamp(STATIC[0] * own, STATIC[1] * own);
+        // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
+        let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
+        let mut products = Vec::new();
+        let mut last: Option<(Ritz, StepResponses)> = None;
+        let mut change = f64::INFINITY;
+        for round in 0..ROUNDS_OF_MODES {
+            // One more power alone is the comparison.
+            if round != 1 {
+                let factor = self.shifted(shift, matrices)?;
+                let whole = limit * limit + shift * shift;
+                let found = lowest_modes(&factor, matrices[0], MODES, whole);
+                space.extend(found.map_or_else(Vec::new, |(_, modes)| modes), LEAST_NEW);
+                limit *= GROWTH;
+                if round == 0 {
+                    factor.solve_many(&mut block);
+                    let before = space.count();
+                    space.extend(std::mem::take(&mut block), LEAST_NEW);
+                    block.extend_from_slice(space.momenta(before));
+                }
+            }
+            for momentum in &mut block {
+                *momentum *= c.acceleration[0];
+            }
+            self.factor.solve_many(&mut block);
+            let before = space.count();
+            space.extend_by_length(std::mem::take(&mut block), 0.5 * tolerance.sqrt());
+            block.extend_from_slice(space.momenta(before));
+            let modes = space.ritz()?;
+            products.extend(space.products(products.len() / count, rows));
+            let shares = Subspace::shares(&modes, &products);
+            let responses = self.responses(&modes, shares, SMOOTH);
+            if space.count() == self.assembled.dofs() {
+                return Ok(space.basis(&modes));
+            }
+            if let Some((fewer, last)) = &last {
+                let by = responses.difference(last, tolerance);
+                if by <= tolerance {
+                    return Ok(space.basis(fewer));
+                }
+                if change.is_finite() && by * (by / change).clamp(FASTEST, 1.0) <= tolerance {
+                    return Ok(space.basis(&modes));
+                }
+                change = by;
+            }
+            last = Some((modes, responses));
+        }
+        Err(inaccurate(change, tolerance, space.count()))
+    }
+
+    /// Ritz modes for few forces: powers of several shifts.
+    fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
+        let (mut space, lowest) = self.rigid(matrices);
+        space.extend(self.motions.clone(), LEAST_NEW);
+        let rows = &self.rows.all;
         let count = (rows.len() / self.assembled.dofs()).max(1);
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
-        let mut blocks = vec![forces.clone(); factors.len()];
+        let mut blocks = vec![rows.clone(); factors.len()];
         // Rows in terms of the vectors.
         let mut products = Vec::new();
         let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
@@ -162,15 +250,13 @@ impl<'a> Reduction<'a> {
                 }
                 // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
-                blocks.fill(forces.clone());
+                blocks.fill(rows.clone());
                 continue;
             }
             let modes = space.ritz()?;
             products.extend(space.products(products.len() / count, rows));
             let shares = Subspace::shares(&modes, &products);
-            let steps = self.steps.clamp(1, LONGEST);
-            let responses =
-                StepResponses::new(&modes, shares, &self.rows, self.coefficients, steps);
+            let responses = self.responses(&modes, shares, 0);
             let mut rate = 1.0;
             if let Some(last) = &last {
                 let by = responses.difference(last, tolerance);
@@ -192,8 +278,10 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(reached, tolerance, space.count()))
     }
 
-    fn has_many(&self) -> bool {
-        self.rows.counts[1] >= MANY
+    /// Responses over the steps of the run to forces that grow over `smooth` steps.
+    fn responses(&self, modes: &Ritz, shares: Vec<f64>, smooth: usize) -> StepResponses {
+        let steps = self.steps.clamp(1, LONGEST);
+        StepResponses::new(modes, shares, &self.rows, self.coefficients, [steps, smooth])
     }
 
     /// Mass, damping and stiffness; an error if they cannot be reduced.
@@ -217,25 +305,30 @@ impl<'a> Reduction<'a> {
         Ok(matrices)
     }
 
-    /// Factors at the shifts below the scheme's, and at one above it unless there are many forces.
-    fn shifts(
-        &self,
+    /// Factors at the shifts below the scheme's, and at one above it.
+    fn shifts<'m>(
+        &'m self,
         lowest: f64,
-        [mass, _, stiffness]: [&SparseMatrix; 3],
-    ) -> impl Iterator<Item = Result<SparseFactor>> {
+        matrices: [&'m SparseMatrix; 3],
+    ) -> impl Iterator<Item = Result<SparseFactor>> + 'm {
+        let [mass, _, stiffness] = matrices;
         let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
         let stiffest = pairs.fold(0.0, |most: f64, (k, m)| most.max(k / m)).sqrt();
         let c = self.coefficients;
         let own = (c.acceleration[0] / c.displacement[0]).sqrt().min(RATIO * stiffest);
         let lowest = lowest.max(LOWEST * own);
         let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
-        let above = (!self.has_many()).then_some(RATIO * own);
-        let shifts = above.into_iter().chain(below.take_while(move |s| *s > lowest));
-        shifts.filter(move |shift| *shift < stiffest).map(move |shift| {
-            let terms = [(shift * shift, mass), (1.0, stiffness)];
-            let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
-            SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
-        })
+        let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
+        let shifts = shifts.filter(move |shift| *shift < stiffest);
+        shifts.map(move |shift| self.shifted(shift, matrices))
+    }
+
+    /// Factor at a shift.
+    fn shifted(&self, shift: f64, matrices: [&SparseMatrix; 3]) -> Result<SparseFactor> {
+        let [mass, _, stiffness] = matrices;
+        let terms = [(shift * shift, mass), (1.0, stiffness)];
+        let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
+        SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
     }
 
     /// Responses to a rotation of each part's base, and an estimate of the lowest frequency with the base held.
@@ -299,8 +392,6 @@ fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
 /// Error for reduced coordinates that do not reach a tolerance.
 fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
     let quantity = "response of reduced coordinates to sudden tractions";
-    let remedy = format!(
-        "with {vectors} vectors; undamped structures cannot be reduced: damping in proportion to stiffness helps"
-    );
+    let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
     Error::Accuracy { quantity, reached, tolerance, remedy }
 }

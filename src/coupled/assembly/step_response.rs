@@ -42,12 +42,14 @@ pub(crate) struct StepResponses {
 
 impl StepResponses {
     /// Responses over `steps` steps of `rows`; `shares`: the rows in terms of the modes.
+    ///
+    /// Forces grow over `smooth` steps by binomial weights.
     pub(crate) fn new(
         modes: &Ritz,
         mut shares: Vec<f64>,
         rows: &ResponseRows,
         coefficients: &SchemeCoefficients,
-        steps: usize,
+        [steps, smooth]: [usize; 2],
     ) -> Self {
         let [loads, forces, accelerations] = rows.counts;
         let (count, c) = (modes.stiffness.len().max(1), coefficients);
@@ -67,7 +69,7 @@ impl StepResponses {
         let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
             .take_while(|s| *s <= steps)
             .collect();
-        let states = mode_states(modes, c, &effective, &times);
+        let states = mode_states(modes, c, &effective, (&times, &binomial(smooth)));
         let (mut values, mut read) = ([Vec::new(), Vec::new()], Vec::new());
         let mut weighted = vec![0.0; forces * count];
         for states in states.chunks_exact(3 * count) {
@@ -139,12 +141,22 @@ impl StepResponses {
     }
 }
 
-/// u, v and a of each mode under a constant unit force, at these steps: steps × 3 × modes.
+/// Weights of a force at each of `count` steps and the one before: k of `count`, over 2 to the power of `count`.
+fn binomial(count: usize) -> Vec<f64> {
+    let first = 0.5_f64.powi(i32::try_from(count).unwrap_or(i32::MAX));
+    let next = |(weight, k): &(f64, usize)| {
+        let ratio = (count - k) as f64 / (k + 1) as f64;
+        (*k < count).then_some((weight * ratio, k + 1))
+    };
+    std::iter::successors(Some((first, 0)), next).map(|(weight, _)| weight).collect()
+}
+
+/// u, v and a of each mode under a unit force that grows by `weights`, at these steps: steps × 3 × modes.
 fn mode_states(
     modes: &Ritz,
     coefficients: &SchemeCoefficients,
     effective: &[f64],
-    times: &[usize],
+    (times, weights): (&[usize], &[f64]),
 ) -> Vec<f64> {
     let count = effective.len().max(1);
     let mut states = vec![0.0; times.len() * 3 * count];
@@ -154,8 +166,13 @@ fn mode_states(
             continue;
         }
         let step = Step::new(coefficients, [effective[j], *d, *k]);
-        for (at, state) in step.states(times).enumerate() {
-            for (kind, value) in state.into_iter().enumerate() {
+        for (at, mut state) in step.states(times).enumerate() {
+            let mut sums = [0.0; 3];
+            for weight in weights {
+                sums.iter_mut().zip(state).for_each(|(sum, value)| *sum += weight * value);
+                state = step.apply(state);
+            }
+            for (kind, value) in sums.into_iter().enumerate() {
                 states[(3 * at + kind) * count + j] = value;
             }
         }

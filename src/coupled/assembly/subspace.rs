@@ -73,7 +73,16 @@ impl<'a> Subspace<'a> {
     /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
     ///
     /// Rows are scaled to a length of one.
-    pub(crate) fn extend(&mut self, mut block: Vec<f64>, least: f64) {
+    pub(crate) fn extend(&mut self, block: Vec<f64>, least: f64) {
+        self.extend_by(block, least, true);
+    }
+
+    /// Adds the directions of `block` with a length of more than `least` outside the subspace.
+    pub(crate) fn extend_by_length(&mut self, block: Vec<f64>, least: f64) {
+        self.extend_by(block, least, false);
+    }
+
+    fn extend_by(&mut self, mut block: Vec<f64>, least: f64, by_fraction: bool) {
         let (n, before) = (self.order(), self.count());
         let mut momenta = Vec::new();
         // Two passes remove rounding.
@@ -87,7 +96,7 @@ impl<'a> Subspace<'a> {
             let mut products = row_products(&images, &block, n);
             let scales: Vec<f64> = (0..count)
                 .map(|i| match pass {
-                    0 => {
+                    0 if by_fraction => {
                         let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
                         let length = (inside + products[i * (count + 1)]).sqrt();
                         if length > 0.0 { length.recip() } else { 0.0 }
@@ -217,11 +226,12 @@ impl<'a> Subspace<'a> {
         shares
     }
 
-    /// The modes in degrees of freedom.
+    /// The modes in degrees of freedom; of the first vectors, if some were added later.
     pub(crate) fn basis(&self, modes: &Ritz) -> ModalBasis {
-        let mut vectors = vec![0.0; self.vectors.len()];
         let count = modes.stiffness.len();
-        add_combined_rows(&self.vectors, &modes.combinations, count, 1.0, &mut vectors);
+        let own = &self.vectors[..count * self.order()];
+        let mut vectors = vec![0.0; own.len()];
+        add_combined_rows(own, &modes.combinations, count, 1.0, &mut vectors);
         ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), vectors)
     }
 }
