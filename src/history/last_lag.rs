@@ -2,7 +2,7 @@
 
 use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
-use crate::geometry::SERIES;
+use crate::geometry::{Lattice, SERIES};
 
 /// Smallest number of lags that are kept.
 const SHORTEST: usize = 64;
@@ -33,8 +33,6 @@ impl LastLag {
     ) -> Result<Option<Self>> {
         let Some((lattice, _)) = kernel.classes().plan() else { return Ok(None) };
         let area = lattice.pitch[0] * lattice.pitch[1];
-        let offsets =
-            || (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
         // Σ |G| for each class and kind.
         let mut all = vec![[0.0; SERIES]; kernel.classes().count()];
         let mut lags = [(); SERIES].map(|()| vec![0.0; SHORTEST]);
@@ -67,26 +65,12 @@ impl LastLag {
                     }
                 }
             }
-            // Largest sum over a matrix row, over the displacement components.
-            let rows = |sums: &[[f64; SERIES]]| {
-                let mut rows = [0.0; 3];
-                for offset in offsets() {
-                    let images: f64 =
-                        offset.map(|n| if n == 0 { 1.0 } else { 2.0 }).iter().product();
-                    for (row, values) in
-                        rows.iter_mut().zip(lattice.block(sums, offset.map(usize::cast_signed)))
-                    {
-                        *row += images * values.map(f64::abs).iter().sum::<f64>();
-                    }
-                }
-                rows.into_iter().fold(0.0, f64::max)
-            };
-            let rest = (1.0 + BEYOND) * rows(&late);
+            let rest = (1.0 + BEYOND) * largest_row(lattice, &late);
             for (all, late) in all.as_flattened_mut().iter_mut().zip(late.as_flattened()) {
                 *all += late;
             }
-            if rest <= tolerance * rows(&all) {
-                let change = (1.0 + BEYOND) * rows(&changes) / area;
+            if rest <= tolerance * largest_row(lattice, &all) {
+                let change = (1.0 + BEYOND) * largest_row(lattice, &changes) / area;
                 return Ok(Some(Self { lag, change }));
             }
             done = 2 * lag;
@@ -94,4 +78,18 @@ impl LastLag {
         }
         Ok(None)
     }
+}
+
+/// Largest sum of a displacement component over a row of the matrix, from sums for each class and kind.
+fn largest_row(lattice: &Lattice, sums: &[[f64; SERIES]]) -> f64 {
+    let offsets = (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
+    let mut rows = [0.0; 3];
+    for offset in offsets {
+        let images: f64 = offset.map(|n| if n == 0 { 1.0 } else { 2.0 }).iter().product();
+        let block = lattice.block(sums, offset.map(usize::cast_signed));
+        for (row, values) in rows.iter_mut().zip(block) {
+            *row += images * values.map(f64::abs).iter().sum::<f64>();
+        }
+    }
+    rows.into_iter().fold(0.0, f64::max)
 }

@@ -261,8 +261,7 @@ impl UnseenShape {
         let springs = SparseMatrix::new(NAME, &springs).ok()?;
         let seen = SparseMatrix::new(NAME, &seen).ok()?;
         let mut factor = SparseFactor::of(NAME, &seen, &assembled.elimination).ok()?;
-        // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the
-        // smallest.
+        // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the smallest.
         let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut ratio = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -272,9 +271,7 @@ impl UnseenShape {
             if !(whole.is_finite() && whole > 0.0) {
                 return None;
             }
-            for f in &mut force {
-                *f /= whole;
-            }
+            force.iter_mut().for_each(|f| *f /= whole);
             shape.copy_from_slice(&force);
             factor.solve(&mut shape);
             let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());
