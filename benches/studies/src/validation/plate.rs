@@ -19,7 +19,7 @@ use crate::figure::{BLUE, Figure, GRAY, GREEN, Panel, RED};
 pub(crate) const CASE: Case = Case {
     name: "plate",
     title: "Flexible plates on springs and on a half-space",
-    reference: "Hertz's infinite plate on springs under a force, P/(8√(kD)); Boussinesq's settlement under an even load; discs: Ritz solution in Legendre polynomials on the exact half-space (tests/data/plan/disc_on_half_space.py)",
+    reference: "Hertz's infinite plate on springs under a force, P/(8√(kD)); Boussinesq's settlement under an even load; discs: Ritz solution in Legendre polynomials on the exact half-space",
     settings: "square plates of 8 × 8, 16 × 16 and 24 × 24 shells, each on its own cell; discs of 8 rings of 24 shells, 16 cells across, ν = 1/3, without friction or mass",
     run,
 };
