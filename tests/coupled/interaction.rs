@@ -180,7 +180,8 @@ fn forces_over_fixed_base_forces_are_those_of_two_oscillators() {
     let ([along, turning], duration) = (bed(), 6.0);
     let record = el_centro_1940().trimmed(0.0, duration).unwrap();
     for period in [0.6, 1.0] {
-        let found = interaction(duration, || on_springs(period, 0.0, [0.0; 2])).unwrap();
+        let scene = || Ok(on_springs(period, 0.0, [0.0; 2])?.interface(Bonded));
+        let found = interaction(duration, scene).unwrap();
         let stiffness = MASS * (TAU / period).powi(2);
         let softened = 1.0 + stiffness / along + stiffness * HEIGHT.powi(2) / turning;
         let peak = |period: f64| {
