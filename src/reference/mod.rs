@@ -5,6 +5,7 @@
 
 mod elliptic_integral;
 mod line_load;
+mod loaded_plate;
 mod loaded_rectangle;
 mod rigid_strip;
 mod rocking_block;
@@ -13,12 +14,14 @@ mod sliding_estimate;
 mod sliding_history;
 mod strip;
 mod uplift_law;
+mod welded_rectangle;
 mod winkler_strip;
 
 pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
+pub use loaded_plate::hertz_plate_settlement;
 pub use loaded_rectangle::loaded_rectangle_settlement;
 pub use rigid_strip::RigidStrip;
 pub use rocking_block::RockingBlock;
@@ -27,4 +30,5 @@ pub use sliding_estimate::SlidingEstimate;
 pub use sliding_history::{SlidingEvent, SlidingHistory};
 pub use strip::{NoTensionStrip, StripContact};
 pub use uplift_law::UpliftLaw;
+pub use welded_rectangle::pais_kausel_impedances;
 pub use winkler_strip::WinklerStrip;

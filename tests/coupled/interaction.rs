@@ -174,6 +174,32 @@ fn periods_on_springs_are_those_of_springs_in_series() {
     }
 }
 
+/// Base shears are two oscillators', of the periods T̃ and T; the moment of a mass is h times its shear.
+#[test]
+fn forces_over_fixed_base_forces_are_those_of_two_oscillators() {
+    let ([along, turning], duration) = (bed(), 6.0);
+    let record = el_centro_1940().trimmed(0.0, duration).unwrap();
+    for period in [0.6, 1.0] {
+        let scene = || Ok(on_springs(period, 0.0, [0.0; 2])?.interface(Bonded));
+        let found = interaction(duration, scene).unwrap();
+        let stiffness = MASS * (TAU / period).powi(2);
+        let softened = 1.0 + stiffness / along + stiffness * HEIGHT.powi(2) / turning;
+        let peak = |period: f64| {
+            exact(&record, period, 0.0).iter().fold(0.0_f64, |most, x| most.max(x.abs()))
+        };
+        let known = peak(period * softened.sqrt()) / (softened * peak(period));
+        let [shear, moment] =
+            [Quantity::BaseShear, Quantity::BaseMoment].map(|own| found.ratio(own));
+        println!("T {period} s: shear {shear:.4}, moment {moment:.4} for {known:.4}");
+        assert!((shear / known - 1.0).abs() < 0.02 && (moment / known - 1.0).abs() < 0.02);
+        for run in [&found.on_ground, &found.on_fixed_base] {
+            let [shear, moment] =
+                [&run.whole.base_shear, &run.whole.base_moment].map(|own| own.magnitude());
+            assert!((moment / (HEIGHT * shear) - 1.0).abs() < 1e-3, "{moment} {shear}");
+        }
+    }
+}
+
 /// Root of m s² + 1/(1/k + 1/(k_x + s c_x) + h²/(k_θ + s c_θ)) = 0, k with the damping of the columns.
 #[test]
 fn damping_on_dashpots_is_that_of_the_characteristic_equation() {

@@ -7,7 +7,8 @@ use basemat::motion::{Record, SpectralOrdinate, el_centro_1940};
 use basemat::reference::{
     NoTensionStrip, RigidStrip, RockingBlock, SlidingBlock, SlidingEstimate, UpliftLaw,
     WinklerStrip, flamant_horizontal_displacement, flamant_radial_stress,
-    flamant_relative_settlement, kelvin_relative_displacement, loaded_rectangle_settlement,
+    flamant_relative_settlement, hertz_plate_settlement, kelvin_relative_displacement,
+    loaded_rectangle_settlement, pais_kausel_impedances,
 };
 use basemat::{Error, Soil};
 use proptest::prelude::*;
@@ -376,4 +377,63 @@ proptest! {
             prop_assert!(slip >= history.minimum() - 1e-9 && slip <= history.maximum() + 1e-9);
         }
     }
+}
+
+/// Waves on an infinite plate on springs, summed: ∫ P κ dκ/(2π (D κ⁴ + k)), with κ = l⁻¹ tan φ, l⁴ = D/k.
+#[test]
+fn hertz_plates_settle_as_their_waves_do() {
+    for (force, rigidity, bed) in [(3.0, 2.0, 5.0), (-1.0, 1e9, 2e7)] {
+        let per_length = f64::powf(bed / rigidity, 0.25);
+        let count = 20_000;
+        let sum: f64 = (0..count)
+            .map(|n| {
+                let angle = 0.5 * std::f64::consts::PI * (f64::from(n) + 0.5) / f64::from(count);
+                let wave = per_length * angle.tan();
+                wave / (rigidity * wave.powi(4) + bed) * per_length / angle.cos().powi(2)
+            })
+            .sum();
+        let known = force * sum / (4.0 * f64::from(count));
+        close("plate", hertz_plate_settlement(force, rigidity, bed).unwrap(), known, 0.0, 1e-7);
+    }
+    for bad in BAD {
+        refused(hertz_plate_settlement(1.0, bad, 1.0));
+        refused(hertz_plate_settlement(1.0, 1.0, bad));
+    }
+    refused(hertz_plate_settlement(f64::NAN, 1.0, 1.0));
+}
+
+/// At high frequency a rigid base sends plane waves down: dashpots ρ c per area; rocking springs fall, all grow with the sides.
+#[test]
+fn rectangles_of_pais_and_kausel_send_plane_waves_at_high_frequency() {
+    let frequency = 1e4;
+    for ([width, length], poisson) in [([2.0, 2.0], 0.25), ([3.0, 7.5], 0.1), ([1.0, 4.0], 0.45)] {
+        let soil = Soil::new(3.0, poisson, 1.7).unwrap();
+        let found = pais_kausel_impedances(soil, [width, length], frequency).unwrap();
+        let at_rest = pais_kausel_impedances(soil, [width, length], 0.0).unwrap();
+        let waves = std::f64::consts::TAU * frequency * soil.density();
+        let [shear, pressure] = [soil.shear_wave_speed(), soil.pressure_wave_speed()];
+        // Lysmer's and Gazetas' limit for nearly incompressible soil.
+        let pressure = pressure.min(2.5 * shear);
+        let known = [width * length * shear, width * length * shear, width * length * pressure];
+        for (own, known) in found.iter().zip(known) {
+            close("dashpot", own.im, waves * known, 0.0, 1e-12);
+        }
+        let second = length * width.powi(3) / 12.0;
+        close("rocking", found[3].im, waves * second * pressure, 0.0, 1e-6);
+        assert!(found[3].re < 0.5 * at_rest[3].re && at_rest.iter().all(|own| own.im == 0.0));
+        // Stiffer along the shorter side, and less than n squares beside each other.
+        let square = pais_kausel_impedances(soil, [width, width], 0.0).unwrap();
+        let count = length / width;
+        assert!(at_rest[0].re >= at_rest[1].re);
+        for (own, square) in at_rest.iter().zip(square) {
+            assert!((square.re..=count * square.re).contains(&own.re), "{own:?} {square:?}");
+        }
+    }
+    for bad in BAD {
+        refused(pais_kausel_impedances(soil(), [bad, 1.0], 1.0));
+        refused(pais_kausel_impedances(soil(), [1.0, bad], 1.0));
+    }
+    refused(pais_kausel_impedances(soil(), [2.0, 1.9], 1.0));
+    refused(pais_kausel_impedances(soil(), [1.0, 2.0], -1.0));
+    refused(pais_kausel_impedances(soil(), [1.0, 2.0], f64::NAN));
 }

@@ -5,7 +5,7 @@
 #![cfg(feature = "plot")]
 
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::Probe;
+use basemat::coupled::{Probe, interaction};
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};
@@ -13,7 +13,7 @@ use basemat::results::Run;
 use basemat::results::{DeformedShape, Quantity, Recorder, ShapePoint, TimeSeries};
 use basemat::site::{EquivalentLinearOptions, SoilColumn, VerticalWave};
 use basemat::soil::{SoilProfile, StrainCurves};
-use basemat::structure::{DofCombination, RigidBlock, StructureGroup};
+use basemat::structure::{DofCombination, RigidBlock, ShearBuilding, Storey, StructureGroup};
 use basemat::{Error, Simulation, Soil, unobserved};
 use basemat_problems::faults::is_unwritable;
 
@@ -395,5 +395,62 @@ fn control_characters_leave_a_picture_valid() {
         });
         assert_eq!(unknown, None);
         assert!(text.contains("\u{fffd}") && text.contains("&lt;b&gt;"));
+    }
+}
+
+/// A page of one run: motion, model, peaks beside the fixed base, first mode and pictures, all inside one file.
+#[test]
+fn a_page_holds_motion_model_peaks_and_pictures() {
+    let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
+    let scene = || {
+        let building = ShearBuilding::new(8.0, 20.0e3, 1.0e5, &[Storey::new(9.0, 80.0e3, 8.0e6)])?;
+        Ok(Simulation::builder(0.01)
+            .ground(ElasticGround::under(soil, &building, 8)?)
+            .probe(Probe::displacement("drift <1>", building.drift(0)?))
+            .structure(building.with_stiffness_damping(0.05)?)
+            .interface(Coulomb::new(0.5)?)
+            .motion(el_centro_1940()))
+    };
+    let found = interaction(3.0, scene).unwrap();
+    let mut simulation = scene().unwrap().build().unwrap();
+    let mut series = Recorder::new().start(&simulation).unwrap();
+    simulation.run(300, |state| series.record(state)).unwrap();
+    let text = format!("{}\n{}\n{found}", SoilProfile::on_half_plane(soil), found.on_ground);
+    let runs = [("on the ground", &series)];
+    let pictures = [Quantity::BaseShear, Quantity::BaseMoment]
+        .map(|quantity| plot::time_series("Run 7", &runs, quantity).unwrap());
+    let page = plot::page("Run 7 & its \"fixed base\"", &text, &pictures);
+
+    assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
+    assert!(page.contains("<title>Run 7 &amp; its"), "{page}");
+    let shown = page.split_once("<pre>").unwrap().1.split_once("</pre>").unwrap().0;
+    for line in text.lines().filter(|line| !line.contains(['<', '>', '&', '"', '\''])) {
+        assert!(shown.contains(line), "{line}");
+    }
+    // Motion, model, fixed base.
+    let peak = format!("Ground motion: peak {:.3}", found.on_ground.ground_motion.peak);
+    for words in [&peak, "Weight on the base: 980", "fixed base", "T̃/T = ", "drift &lt;1&gt;"] {
+        assert!(shown.contains(words), "{words} in {shown}");
+    }
+    // The last table has each peak on the ground, on the fixed base, and their ratio.
+    let table = shown.split_once("fixed base").unwrap().1;
+    for (name, quantity) in
+        [("base shear", Quantity::BaseShear), ("base moment", Quantity::BaseMoment)]
+    {
+        let line = table.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        let mut numbers = line.split_whitespace().rev();
+        let mut next = || numbers.next().unwrap().parse::<f64>().unwrap();
+        let (ratio, fixed, ground) = (next(), next(), next());
+        let known = 1e-3 * found.on_fixed_base.whole.extremes(quantity).magnitude();
+        assert!((fixed / known - 1.0).abs() < 2e-3, "{line}");
+        assert!((ground / fixed / found.ratio(quantity) - 1.0).abs() < 4e-3, "{line}");
+        assert!((ratio - found.ratio(quantity)).abs() < 1e-3, "{line}");
+    }
+    // Pictures stand in the page, whole, and nothing is loaded from elsewhere.
+    for picture in &pictures {
+        assert!(page.contains(picture.as_str()));
+    }
+    for word in ["<img", "<script", "<link", "href=", "src=", "url("] {
+        assert!(!page.contains(word), "{word}");
     }
 }

@@ -18,7 +18,6 @@ mod document;
 mod elements;
 mod embedded;
 mod figure;
-mod footing_formulas;
 mod fragility;
 mod full_plane;
 mod history;
@@ -33,7 +32,6 @@ mod passivity;
 mod performance;
 mod precision;
 mod stability;
-mod uplift_law;
 mod validation;
 
 use std::process::ExitCode;
@@ -65,7 +63,6 @@ enum Study {
     LayeredAccuracy(layered_accuracy::Options),
     LayeredCost(layered_cost::Options),
     Mats(mats::Options),
-    UpliftLaw(uplift_law::Options),
     Elements(elements::Options),
     Embedded(embedded::Options),
 }
@@ -94,7 +91,6 @@ fn main() -> ExitCode {
         Study::LayeredAccuracy(options) => layered_accuracy::run(&options),
         Study::LayeredCost(options) => layered_cost::run(&options),
         Study::Mats(options) => mats::run(&options),
-        Study::UpliftLaw(options) => uplift_law::run(&options),
         Study::Elements(options) => elements::run(&options),
         Study::Embedded(options) => embedded::run(&options),
     };

@@ -17,6 +17,7 @@ use basemat::bem::{Grading, Strip};
 use basemat::coupled::{Refinement, refine};
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
+use basemat::reference::pais_kausel_impedances;
 use basemat::soil::SoilProfile;
 use basemat::structure::RigidBody;
 use basemat::unobserved;
@@ -25,7 +26,6 @@ use plotters::prelude::SeriesLabelPosition;
 use crate::AnyError;
 use crate::document::splice;
 use crate::figure::{BLUE, Figure, GREEN, Panel, RED};
-use crate::footing_formulas::pais_kausel;
 
 /// Mats in plan beside plane strain, and their error against run time.
 #[derive(Debug, clap::Args)]
@@ -82,11 +82,11 @@ fn stiffness(short: bool) -> Result<String, AnyError> {
         let mat = Plan::rectangle(-HALF..HALF, -HALF * aspect..HALF * aspect, cells)?;
         let all = [0.0, frequencies[0], frequencies[1]];
         let mats = impedances_in_plan(&profile, &mat, &all, StripContact::Bonded, &mut unobserved)?;
-        let formulas = pais_kausel(soil.poisson(), aspect, 0.0);
-        let arms = [1.0, 1.0, HALF * HALF].map(|arm| soil.shear_modulus() * HALF * arm);
+        let sides = [2.0 * HALF, 2.0 * HALF * aspect];
+        let formulas = pais_kausel_impedances(soil, sides, 0.0)?;
         for (k, name) in ["sway", "heave", "rocking"].into_iter().enumerate() {
             let axis = [0, 2, 4][k];
-            let known = mats[0].matrix[axis][axis].re / (arms[k] * formulas[[0, 2, 3][k]].re);
+            let known = mats[0].matrix[axis][axis].re / formulas[[0, 2, 3][k]].re;
             for ((mat, strip), a0) in mats[1..].iter().zip(&strips).zip(FREQUENCIES) {
                 let mat = mat.matrix[axis][axis];
                 let strip = [strip.horizontal, strip.vertical, strip.rocking][k];

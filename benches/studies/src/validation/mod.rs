@@ -26,6 +26,7 @@ mod sliding_estimate;
 mod strip_impedance;
 mod transient;
 mod two_springs;
+mod uplift_law;
 mod yim_chopra;
 
 use std::path::PathBuf;
@@ -62,7 +63,7 @@ impl Options {
     }
 }
 
-const CASES: [Case; 20] = [
+const CASES: [Case; 21] = [
     lamb::CASE,
     strip_impedance::CASE,
     embedded::CASE,
@@ -71,6 +72,7 @@ const CASES: [Case; 20] = [
     transient::CANTILEVER,
     transient::THREE_STOREYS,
     punch::CASE,
+    uplift_law::CASE,
     newmark_block::CASE,
     sliding_estimate::CASE,
     rocking_block::CASE,

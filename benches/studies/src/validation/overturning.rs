@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use basemat::bem::{ElasticGround, Grading, Ground, SpringGround, Strip};
 use basemat::interface::Coulomb;
 use basemat::motion::{Record, STANDARD_GRAVITY};
+use basemat::reference::RockingBlock;
 use basemat::structure::RigidBlock;
 use basemat::{Simulation, Soil};
 use plotters::prelude::SeriesLabelPosition;
@@ -17,7 +18,7 @@ use basemat_problems::series::whole;
 pub(crate) const CASE: Case = Case {
     name: "overturning",
     title: "Pulses that overturn a block",
-    reference: "own integration from event to event, exact between events; double impulse in closed form",
+    reference: "rectangular and double pulse in closed form (Housner; Nabeshima et al.); sine by own integration from event to event, exact between events",
     settings: "block 1 m × 4 m, small tilts with P–Δ; two stiff elements, Δt = 0.1 ms, under impulses 0.02 ms; half-plane, 16 cosine-graded elements, Δt = 2.5 ms",
     run,
 };
@@ -225,8 +226,50 @@ fn jumps(velocity: f64, after: f64) -> Result<Record, AnyError> {
     Ok(Record::new(step, samples)?)
 }
 
-fn run(short: bool) -> Result<Outcome, AnyError> {
+/// Housner's rectangular pulse of `amplitude` (over g b/h), rising and falling within a sample, and `duration`, s.
+fn rectangle(amplitude: f64, duration: f64) -> basemat::Result<Record> {
+    const SAMPLES: usize = 800;
+    let mut samples = vec![amplitude * STANDARD_GRAVITY * LIMIT; SAMPLES + 2];
+    [samples[0], samples[SAMPLES + 1]] = [0.0; 2];
+    Record::new(duration / SAMPLES as f64, samples)
+}
+
+/// Least durations of rectangular pulses, on stiff ground and on soil, over Housner's.
+fn rectangles(short: bool) -> Result<Vec<Check>, AnyError> {
+    let block = RockingBlock::new(B, H, STANDARD_GRAVITY)?;
     let mut checks = Vec::new();
+    // Accelerations over g b/h, and limits on 200 and 50 m/s.
+    let all = [
+        (1.2, [0.75..=0.85, 0.48..=0.56]),
+        (2.0, [0.87..=0.93, 0.66..=0.75]),
+        (5.0, [0.91..=0.97, 0.77..=0.85]),
+    ];
+    for (x, limits) in all {
+        // Housner's slender block has p and α where the block of small tilts has q and b/h.
+        let slender = x * STANDARD_GRAVITY * block.slenderness_angle();
+        let wanted = block.overturning_pulse(slender)? * block.frequency_parameter() / rate();
+        let over = |ground: &dyn Fn(Record) -> Result<bool, AnyError>, from: f64| {
+            let found =
+                boundary(from * wanted, [0.03, 2e-4], |duration| ground(rectangle(x, duration)?))?;
+            Ok::<_, AnyError>(found / wanted)
+        };
+        let name = format!("rectangle of {x} g b/h");
+        let stiff = over(&|record| on_corners(1e-4, record), 0.9)?;
+        let label = format!("{name}, stiff ground: least duration, relative");
+        checks.push(Check::below(label, (stiff - 1.0).abs(), 2e-3));
+        for (speed, limits) in [200.0, 50.0].into_iter().zip(limits) {
+            if !short {
+                let found = over(&|record| on_soil(speed, record), 0.4)?;
+                let label = format!("{name}, {speed} m/s: over that on rigid ground");
+                checks.push(Check::within(label, found, limits));
+            }
+        }
+    }
+    Ok(checks)
+}
+
+fn run(short: bool) -> Result<Outcome, AnyError> {
+    let mut checks = rectangles(short)?;
     let [mut exact, mut stiff, mut firm, mut soft] = [const { Vec::new() }; 4];
     let frequencies = if short { &FREQUENCIES[1..4] } else { &FREQUENCIES[..] };
     for &frequency in frequencies {
