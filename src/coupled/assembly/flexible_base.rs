@@ -240,15 +240,13 @@ impl UnseenShape {
         soil: &[f64],
         halves: Option<&(PlacedBase, Vec<f64>)>,
     ) -> Option<Self> {
-        let stiffness = assembled.stiffness_at_rest();
-        let n = assembled.dofs();
+        let (stiffness, n) = (assembled.stiffness_at_rest(), assembled.dofs());
         let moduli = moduli(base, soil, halves);
         let mut seen = SparseMatrix::weighted_sum(n, &[(1.0, stiffness)]);
         for (i, modulus) in moduli.iter().enumerate() {
             seen.add_outer(base.mean_row(i), HELD * modulus * base.area(i));
         }
-        let layout = base.layout();
-        let mut springs = Triplets::new(n);
+        let (layout, mut springs) = (base.layout(), Triplets::new(n));
         for (point, rows) in base.deviations() {
             for (component, row) in rows.iter().enumerate() {
                 let modulus = moduli[layout.place(component, point.element)];
@@ -271,7 +269,9 @@ impl UnseenShape {
             if !(whole.is_finite() && whole > 0.0) {
                 return None;
             }
-            force.iter_mut().for_each(|f| *f /= whole);
+            for f in &mut force {
+                *f /= whole;
+            }
             shape.copy_from_slice(&force);
             factor.solve(&mut shape);
             let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());

@@ -186,7 +186,7 @@ fn loops(base: Base, count: usize, friction: f64, alpha: f64) -> Result<Vec<[f64
 }
 
 /// M/(N L) of the law at a rotation θ/θ₀ of either sign.
-fn law_at(law: &UpliftLaw, alpha: f64, rotation: f64) -> basemat::Result<f64> {
+fn law_at(law: UpliftLaw, alpha: f64, rotation: f64) -> basemat::Result<f64> {
     Ok(law.moment_ratio(rotation.abs())?.copysign(rotation) / alpha)
 }
 
@@ -200,9 +200,9 @@ fn shaken(
 ) -> Result<Vec<Check>, AnyError> {
     let (mut squares, mut count, mut largest, mut top) = ([0.0; 2], 0.0, 0.0, [0.0_f64; 2]);
     for &[rotation, moment, force] in points.iter().filter(|point| point[0].abs() > 1.0) {
-        let error = (moment - law_at(law, alpha, rotation)?).abs();
+        let error = (moment - law_at(*law, alpha, rotation)?).abs();
         // Both M₀ and θ₀ are proportional to the force.
-        let own = if force > 1e-6 { force * law_at(law, alpha, rotation / force)? } else { 0.0 };
+        let own = if force > 1e-6 { force * law_at(*law, alpha, rotation / force)? } else { 0.0 };
         squares[0] += error * error;
         squares[1] += (moment - own).powi(2);
         count += 1.0;
@@ -278,7 +278,7 @@ fn run(short: bool) -> Result<Outcome, AnyError> {
             panel = panel.line(friction_of(friction), color, points);
         }
         let curve = (-200..=200).map(|k| widest * f64::from(k) / 200.0);
-        let curve = curve.map(|at| Ok((at, law_at(&law, alpha, at)?)));
+        let curve = curve.map(|at| Ok((at, law_at(law, alpha, at)?)));
         panels.push(panel.reference("the law", RED, curve.collect::<basemat::Result<_>>()?));
     }
     let title = "Base moment and rotation of a body of 10 m × 20 m under El Centro";
