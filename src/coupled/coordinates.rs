@@ -54,7 +54,7 @@ pub enum Coordinates {
     /// 20 steps a period keeps 67 % of its amplitude, of 10 steps 20 %, of 4 steps 2e-5. Structures without damping, or
     /// with damping in proportion to mass alone, can therefore be reduced. Motion at fewer steps a period, such as
     /// accelerations after a collision, has no bound. With fewer forces, structures that do not converge without damping
-    /// are reduced in the same way in plan, and are an error in the plane.
+    /// are an error.
     ///
     /// On a block of 1 344 degrees of freedom on 36 cells that lifts off by 17 % and slides, base shear, displacements and
     /// pressures erred by at most 2e-4 with damping in proportion to stiffness, 6e-4 without, at a tolerance of 1e-3; at

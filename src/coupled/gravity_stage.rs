@@ -14,12 +14,12 @@ pub enum GravityStage {
     Frictionless,
     /// The interface law acts while the weight comes on, in one step.
     Frictional,
-    /// Walls in the ground: the structure replaces soil at rest, without friction and without an open cut.
+    /// The structure replaces soil at rest, for comparisons.
     ///
-    /// Pressures of the soil at rest act on base and walls, and the difference of the weights strains the soil. A
+    /// It has walls in the ground, which begin without friction and without an open cut. Pressures of the soil at rest act on base and walls, and the difference of the weights strains the soil. A
     /// structure as heavy as the soil that it replaces changes nothing. Below a lighter one part of the base opens; a
     /// heavier one presses its walls harder than the soil at rest does. Elements under laws that never open are bonded
-    /// from the start. Nobody places buildings so: it is for comparisons. On the surface it is
+    /// from the start. On the surface it is
     /// [`Frictionless`](Self::Frictionless).
     WishedInPlace,
     /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.

@@ -5,7 +5,7 @@ use crate::soil::Soil;
 
 /// Pressure at rest on each element over gravity, kg/m², in the order of the outline.
 ///
-/// `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
+/// The base has all of the soil above it. `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
 pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
     let layers: Vec<(Soil, f64)> = match soil.fill() {
         Some(fill) => vec![(fill, f64::INFINITY)],

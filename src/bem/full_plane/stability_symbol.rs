@@ -30,8 +30,9 @@ const POWERS: usize = 10;
 const FIRST: usize = 64;
 const LAST: usize = 4096;
 
-/// Error of the interpolation at the lags checked, above which more early lags are summed, and the largest one.
+/// Error of the interpolation at the lags checked, above which more early lags are summed.
 const TAIL_TOLERANCE: f64 = 1e-9;
+/// Largest error of the interpolation.
 const ROUGH: f64 = 1e-6;
 
 /// Symbols of G and H, and the operator that they form.
@@ -81,7 +82,7 @@ impl<'a> Symbol<'a> {
             symbol.lags *= 2;
             error = symbol.fit_tail()?;
         }
-        if error > ROUGH {
+        if error.is_nan() || error > ROUGH {
             let reason = format!(
                 "coefficients beyond lag {LAST} differ by {error:.0e} from smooth ones, which a search for growth needs"
             );

@@ -29,8 +29,9 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Triplets};
 
 const NAME: &str = "stiffness matrix with its contact elements held";
-/// Smallest ρ at which elements are short enough, and the one at which the number named for a wall aims.
+/// Smallest ρ at which elements are short enough.
 const STIFF: f64 = 6.0;
+/// ρ at which the number named for a wall aims.
 const OF_WALLS: f64 = 28.0;
 /// Relative difference of static shapes with as many and with twice as many elements: limits of a warning for
 /// solids, and of an error.
@@ -78,7 +79,7 @@ pub(crate) fn check(
         .filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
-    if let Some((finer, soil)) = halves.or_else(|| finer(parts, base)) {
+    if let Some((finer, soil)) = if alone { halves } else { finer(parts, base) } {
         // If twice the elements leave no such shape, they are enough.
         let next = UnseenShape::softest(assembled, &finer, &soil, None);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
@@ -314,7 +315,9 @@ fn moduli(base: &PlacedBase, soil: &[f64], halves: Option<&(PlacedBase, Vec<f64>
             .fold(soil[i * layout.len() + i], f64::min);
         if let (1, Some((base, soil)), Some(face)) = (own.len(), halves, face) {
             let halves = self::faces(base).nth(face).map_or(0..1, |(.., own)| own);
-            compliance = alternating(base, soil, component, [halves.start, halves.end - 1]);
+            let others = (halves.start + 1..halves.end)
+                .map(|other| alternating(base, soil, component, [halves.start, other]));
+            compliance = others.fold(compliance, f64::min);
         }
         if compliance > 0.0 { compliance.recip() } else { 0.0 }
     };

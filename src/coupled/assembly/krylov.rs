@@ -144,22 +144,16 @@ impl<'a> Reduction<'a> {
         Ok(Self { assembled, coefficients, factor, held, steps, rows, motions })
     }
 
-    /// The Ritz modes whose responses to suddenly applied forces are within `tolerance`.
+    /// The Ritz modes whose responses to forces are within `tolerance`.
     pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
         const NAME: &str = "tolerance of reduced coordinates";
         finite(NAME, tolerance)?;
         require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
-        let many = || self.modes_of_many(tolerance, matrices);
-        let few = || self.modes_of_few(tolerance, matrices);
-        match (self.rows.counts[1] >= MANY, self.assembled.base.layout().is_plan()) {
-            (true, _) => many(),
-            (false, false) => few(),
-            (false, true) => few().or_else(|error| match error {
-                Error::Accuracy { .. } => many(),
-                _ => Err(error),
-            }),
+        if self.rows.counts[1] >= MANY {
+            return self.modes_of_many(tolerance, matrices);
         }
+        self.modes_of_few(tolerance, matrices)
     }
 
     /// The rigid motions, and the lowest frequency with the base held.
@@ -178,7 +172,7 @@ impl<'a> Reduction<'a> {
         let count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), LEAST_NEW);
-        let own = (c.acceleration[0] / c.displacement[0]).sqrt();
+        let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
         let shift = lowest.clamp(STATIC[0] * own, STATIC[1] * own);
         // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
         let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
@@ -191,7 +185,11 @@ impl<'a> Reduction<'a> {
                 let factor = self.shifted(shift, matrices)?;
                 let whole = limit * limit + shift * shift;
                 let found = lowest_modes(&factor, matrices[0], MODES, whole);
-                space.extend(found.map_or_else(Vec::new, |(_, modes)| modes), LEAST_NEW);
+                let found = found.filter(|(squares, _)| squares.len() < MODES);
+                let Some((_, modes)) = found else {
+                    return Err(inaccurate(change, tolerance, space.count()));
+                };
+                space.extend(modes, LEAST_NEW);
                 limit *= GROWTH;
                 if round == 0 {
                     factor.solve_many(&mut block);
@@ -391,7 +389,7 @@ fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
 
 /// Error for reduced coordinates that do not reach a tolerance.
 fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
-    let quantity = "response of reduced coordinates to sudden tractions";
+    let quantity = "response of reduced coordinates to tractions";
     let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
     Error::Accuracy { quantity, reached, tolerance, remedy }
 }

@@ -284,7 +284,7 @@ impl ConvolutionHistory for RelaxedFftHistory {
         Ok(())
     }
 
-    /// Bound of the displacements of two steps due to the dropped lags.
+    /// Bound of the change in a step of the displacement that the dropped lags would add.
     fn increment_error_bound(&self) -> f64 {
         let ended = self.end.filter(|end| self.steps > end.lag);
         ended.map_or(0.0, |end| end.change * self.largest)
