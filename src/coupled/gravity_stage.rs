@@ -16,11 +16,11 @@ pub enum GravityStage {
     Frictional,
     /// The structure replaces soil at rest, for comparisons.
     ///
-    /// It has walls in the ground, which begin without friction and without an open cut. Pressures of the soil at rest act on base and walls, and the difference of the weights strains the soil. A
-    /// structure as heavy as the soil that it replaces changes nothing. Below a lighter one part of the base opens; a
-    /// heavier one presses its walls harder than the soil at rest does. Elements under laws that never open are bonded
-    /// from the start. On the surface it is
-    /// [`Frictionless`](Self::Frictionless).
+    /// It has walls in the ground, which begin without friction and without an open cut. Pressures of the soil at rest
+    /// act on base and walls, and the difference of the weights strains the soil. A structure as heavy as the soil that
+    /// it replaces changes nothing. Below a lighter structure part of the base opens; a heavier structure presses its
+    /// walls harder than the soil at rest does. Elements under laws that never open are bonded from the start. On the
+    /// surface it is [`Frictionless`](Self::Frictionless).
     WishedInPlace,
     /// There is no static state: the base starts without pressure, and weight and loads act from t = 0 on.
     ///

@@ -178,7 +178,7 @@ fn a_heavy_block_presses_its_walls() {
     assert!(pressures[0] > 1.5 * at_rest[0], "{pressures:?} {at_rest:?}");
 }
 
-/// A light block opens its base; a bonded one hangs on its walls.
+/// A light block opens its base; a bonded block hangs on its walls.
 #[test]
 fn a_light_block_opens_unless_it_is_bonded() {
     let density = 0.2 * DENSITY;

@@ -11,7 +11,7 @@ use basemat_problems::passivity::least_work;
 use basemat_problems::profiles::{gmb, p3};
 use basemat_problems::welded_block::{Cause, errors, march};
 
-use super::layered_files::Temporary;
+use super::layered_files::{self, Temporary};
 
 fn ground() -> TrenchGround {
     let elements = Trench::new(-1.0..1.0, 1.0).unwrap().elements(4, 3).unwrap();
@@ -55,23 +55,12 @@ fn a_ground_with_a_trench_steps_as_by_fourier_synthesis_and_gives_no_work() {
 /// Weights in a file are those that were computed, to the last bit; another trench replaces them.
 #[test]
 fn weights_are_taken_from_a_file() {
-    const LAGS: usize = 64;
     let file = Temporary::new("trench");
     let ground = |depth: f64| {
         let elements = Trench::new(-1.0..1.0, depth).unwrap().elements(2, 2).unwrap();
         TrenchGround::new(p3(gmb(5)), elements).unwrap()
     };
-    let run = |mut ground: TrenchGround| -> Result<Vec<u64>, Error> {
-        ground.prepare(0.4, Some(LAGS), &mut unobserved)?;
-        let (mut field, mut bits) = ([0.0; 12], vec![]);
-        for step in 0..LAGS {
-            ground.history(&mut field)?;
-            bits.extend(field.iter().map(|value| value.to_bits()));
-            let traction = |n: usize| ((7 * n + 3 * step) % 11) as f64 - 5.0;
-            ground.commit(&std::array::from_fn::<_, 12, _>(traction));
-        }
-        Ok(bits)
-    };
+    let run = |mut ground: TrenchGround| layered_files::march(&mut ground, 0.4, 64);
     let wanted = run(ground(1.0)).unwrap();
     assert!(run(ground(1.0).with_kernel_file(&file.0)).unwrap() == wanted);
     let written = std::fs::read(&file.0).unwrap();

@@ -63,6 +63,24 @@ fn with(path: &Path) -> Result<Vec<u64>, Error> {
     bits(&ground().with_kernel_file(path), TIME_STEP)
 }
 
+/// Bits of the displacements by all earlier tractions, over `lags` steps of `time_step` under made-up tractions.
+pub(super) fn march(
+    ground: &mut dyn Ground,
+    time_step: f64,
+    lags: usize,
+) -> Result<Vec<u64>, Error> {
+    ground.prepare(time_step, Some(lags), &mut unobserved)?;
+    let size = ground.elements().iter().map(|element| element.directions().len()).sum();
+    let (mut field, mut bits) = (vec![0.0; size], vec![]);
+    for step in 0..lags {
+        ground.history(&mut field)?;
+        bits.extend(field.iter().map(|value| value.to_bits()));
+        let traction = |n: usize| ((7 * n + 3 * step) % 11) as f64 - 5.0;
+        ground.commit(&(0..size).map(traction).collect::<Vec<_>>());
+    }
+    Ok(bits)
+}
+
 /// Coefficients of a ground in plan: the same from a file, of which only its own cells take them.
 #[test]
 fn files_in_plan_are_taken_to_the_last_bit() {
@@ -72,18 +90,7 @@ fn files_in_plan_are_taken_to_the_last_bit() {
         let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan).unwrap();
         ground.with_kernel_file(&file.0)
     };
-    let march = |mut ground: ElasticGround| -> Result<Vec<u64>, Error> {
-        ground.prepare(0.2, Some(LAGS), &mut unobserved)?;
-        let size = 3 * ground.elements().len();
-        let (mut field, mut bits) = (vec![0.0; size], vec![]);
-        for step in 0..LAGS {
-            ground.history(&mut field)?;
-            bits.extend(field.iter().map(|value| value.to_bits()));
-            let traction = |n: usize| ((7 * n + 3 * step) % 11) as f64 - 5.0;
-            ground.commit(&(0..size).map(traction).collect::<Vec<_>>());
-        }
-        Ok(bits)
-    };
+    let march = |mut ground: ElasticGround| march(&mut ground, 0.2, LAGS);
     let wanted = march(ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan(3)).unwrap()).unwrap();
     assert!(march(ground(plan(3))).unwrap() == wanted);
     let written = std::fs::read(&file.0).unwrap();

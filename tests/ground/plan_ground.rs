@@ -43,6 +43,16 @@ fn largest_difference(one: &[Vec<f64>], two: &[Vec<f64>]) -> f64 {
     pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest
 }
 
+/// Largest difference of the changes from step to step, m.
+fn largest_change(one: &[Vec<f64>], two: &[Vec<f64>]) -> f64 {
+    let changes = |all: &[Vec<f64>]| -> Vec<f64> {
+        let pairs = all.windows(2).flat_map(|pair| pair[1].iter().zip(&pair[0]));
+        pairs.map(|(now, before)| now - before).collect()
+    };
+    let pairs = changes(one).into_iter().zip(changes(two));
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
 /// Transforms along the surface and in time are the direct sum; on a square, oblong cells and an L, both stages.
 #[test]
 fn histories_are_the_direct_sum() {
@@ -147,14 +157,7 @@ fn what_memory_forgets_is_bounded() {
     }
     let [wanted, found, grown] = [&mut whole, &mut ended, &mut late].map(|g| marched(g, steps, 3));
     let bound = ended.increment_error_bound();
-    let worst = (1..steps).map(|step| {
-        let change = |all: &[Vec<f64>]| -> Vec<f64> {
-            all[step].iter().zip(&all[step - 1]).map(|(now, before)| now - before).collect()
-        };
-        let pairs = change(&wanted).into_iter().zip(change(&found));
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-    });
-    let worst = worst.fold(0.0, f64::max);
+    let worst = largest_change(&wanted, &found);
     println!("{worst:e} of {bound:e}");
     assert!(1e-3 * bound < worst && worst < bound, "{worst:e} {bound:e}");
     assert_eq!(whole.increment_error_bound(), 0.0);
@@ -293,12 +296,7 @@ fn memory_ends_by_itself() {
     let mut whole = ground(1e-13).with_history(HistoryMethod::RelaxedFft).unwrap();
     whole.prepare(0.4, None, &mut unobserved).unwrap();
     let wanted = marched(&mut whole, steps, 7);
-    let changes = |all: &[Vec<f64>]| -> Vec<f64> {
-        let pairs = all.windows(2).flat_map(|pair| pair[1].iter().zip(&pair[0]));
-        pairs.map(|(now, before)| now - before).collect()
-    };
-    let pairs = changes(&found).into_iter().zip(changes(&wanted));
-    let error = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let error = largest_change(&found, &wanted);
     println!("{error:e} of {bound:e}, {choice}");
     assert!(0.0 < error && error < bound, "{error:e} {bound:e}");
 }

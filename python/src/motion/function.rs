@@ -18,7 +18,7 @@ pub(crate) struct PyFreeField {
     pub(crate) make: Recipe<dyn FreeField>,
     /// Time at which it ends (s), if that is known.
     pub(crate) duration: Option<f64>,
-    /// Makes it as a wave along the surface, if it is one.
+    /// Makes the wave along the surface; `None` for a motion of another kind.
     pub(super) wave: Option<Arc<MakeWave>>,
 }
 

@@ -19,7 +19,7 @@ use crate::error::{Result, require};
 pub struct Stability {
     /// Growth factor of the worst perturbation per step, minus one; 0 if nothing grows.
     ///
-    /// Growth slower than the smallest growth that was searched for counts as 0. The error is one percent if
+    /// Growth below the smallest growth of the search counts as 0. The error is one percent if
     /// several modes grow alike.
     pub growth_per_step: f64,
     /// Number of growing modes.

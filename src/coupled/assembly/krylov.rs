@@ -166,6 +166,8 @@ impl<'a> Reduction<'a> {
     }
 
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
+    ///
+    /// Few reductions need a third round, which makes the factor again: kept, it would add to the peak of memory of all.
     fn modes_of_many(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
         let (mut space, lowest) = self.rigid(matrices);
         let (rows, c) = (&self.rows.all, self.coefficients);
