@@ -5,7 +5,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 
-pub(crate) use pulp::{Simd, WithSimd};
+pub(crate) use pulp::{Scalar, Simd, WithSimd};
 
 /// Number of rows read together.
 pub(super) const ROWS: usize = 4;

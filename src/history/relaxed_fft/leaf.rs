@@ -2,14 +2,10 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::wave_level::kinds;
 use super::wave_numbers::WaveNumbers;
-use crate::geometry::SPACE;
+use crate::geometry::{SERIES, SPACE};
 use crate::history::pair_classes::KINDS;
-use crate::linalg::{Simd, WithSimd};
-
-/// Number of wavenumbers multiplied together.
-const LANES: usize = 4;
+use crate::linalg::{Scalar, Simd, WithSimd};
 
 /// Sum over the inputs of a strip's leaf so far, for its next output.
 pub(super) struct StripLeaf<'a> {
@@ -80,79 +76,132 @@ pub(super) struct PlanLeaf<'a> {
     pub(super) waves: WaveNumbers,
 }
 
+/// Number of inputs multiplied while a sum is held.
+const TOGETHER: usize = 4;
+/// Real and imaginary parts of three components.
+const PARTS: usize = 2 * SPACE;
+
 impl WithSimd for PlanLeaf<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let place = self.inputs.len() / self.sum.len();
+        let whole = place - place % TOGETHER;
+        for m in (0..whole).step_by(TOGETHER) {
+            self.add::<S, TOGETHER>(simd, place, m);
+        }
+        for m in whole..place {
+            self.add::<S, 1>(simd, place, m);
+        }
+    }
+}
+
+impl PlanLeaf<'_> {
+    /// Adds the products of M inputs from the `m`-th on to the output at `place`.
+    #[inline(always)]
+    fn add<S: Simd, const M: usize>(&mut self, simd: S, place: usize, m: usize) {
         let Self { sum, inputs, near, waves } = self;
         let size = sum.len();
-        let place = inputs.len() / size;
-        let mut parts = sum.chunks_exact_mut(waves.all);
-        let mut sums: [[&mut [f64]; 2]; SPACE] =
-            std::array::from_fn(|_| std::array::from_fn(|_| parts.next().unwrap_or_default()));
-        for (m, input) in inputs.chunks_exact(size).enumerate() {
-            let d = place - m;
-            let mut parts = input.chunks_exact(waves.all);
-            let inputs: [[&[f64]; 2]; SPACE] =
-                std::array::from_fn(|_| std::array::from_fn(|_| parts.next().unwrap_or_default()));
-            for (run, first) in waves.runs() {
-                let of = |kind: usize| &near[kind][d * waves.own + first..][..run.len()];
-                let mut sums =
-                    sums.each_mut().map(|parts| parts.each_mut().map(|sum| &mut sum[run.clone()]));
-                let inputs = inputs.map(|parts| parts.map(|input| &input[run.clone()]));
-                let coefficients = kinds::<SPACE>().map(|row| row.map(of));
-                let whole = run.len() - run.len() % LANES;
-                for k in (0..whole).step_by(LANES) {
-                    add_all::<LANES>(k, &mut sums, &inputs, &coefficients);
+        for (run, first) in waves.runs() {
+            let length = run.len();
+            let mut parts = sum.chunks_exact_mut(waves.all);
+            let sums: [_; PARTS] = std::array::from_fn(|_| {
+                S::as_mut_simd_f64s(&mut parts.next().unwrap_or_default()[run.clone()])
+            });
+            let inputs: [[_; PARTS]; M] = std::array::from_fn(|n| {
+                std::array::from_fn(|part| {
+                    let begin = (m + n) * size + part * waves.all + run.start;
+                    S::as_simd_f64s(&inputs[begin..begin + length])
+                })
+            });
+            let coefficients: [[_; SERIES]; M] = std::array::from_fn(|n| {
+                std::array::from_fn(|kind| {
+                    let begin = (place - m - n) * waves.own + first;
+                    S::as_simd_f64s(&near[kind][begin..begin + length])
+                })
+            });
+            let [a, b, c, d, e, f] = sums;
+            let (wide, mut tails) =
+                ([a.0, b.0, c.0, d.0, e.0, f.0], [a.1, b.1, c.1, d.1, e.1, f.1]);
+            for k in 0..wide[0].len() {
+                let mut total = [wide[0][k]; PARTS];
+                for part in 1..PARTS {
+                    total[part] = wide[part][k];
                 }
-                for k in whole..run.len() {
-                    add_all::<1>(k, &mut sums, &inputs, &coefficients);
+                for n in 0..M {
+                    let (mut x, mut g) = ([total[0]; PARTS], [total[0]; SERIES]);
+                    for part in 0..PARTS {
+                        x[part] = inputs[n][part].0[k];
+                    }
+                    for kind in 0..SERIES {
+                        g[kind] = coefficients[n][kind].0[k];
+                    }
+                    total = times(simd, total, g, x);
+                }
+                for part in 0..PARTS {
+                    wide[part][k] = total[part];
+                }
+            }
+            for k in 0..tails[0].len() {
+                for n in 0..M {
+                    let total = std::array::from_fn(|part| tails[part][k]);
+                    let x = std::array::from_fn(|part| inputs[n][part].1[k]);
+                    let g = std::array::from_fn(|kind| coefficients[n][kind].1[k]);
+                    let total = times(Scalar::new(), total, g, x);
+                    tails.iter_mut().zip(total).for_each(|(tail, total)| tail[k] = total);
                 }
             }
         }
     }
 }
 
-/// sum ← sum + ĝ · input for L wavenumbers from the `k`-th on, real and imaginary parts of each component.
+/// total + ĝ x, for real and imaginary parts of each component.
 ///
 /// The coupling of pressure and shear is a real number times i, in the other direction times −i.
 #[inline(always)]
-fn add_all<const L: usize>(
-    k: usize,
-    sums: &mut [[&mut [f64]; 2]; SPACE],
-    inputs: &[[&[f64]; 2]; SPACE],
-    coefficients: &[[&[f64]; SPACE]; SPACE],
-) {
-    let load = |values: &[f64]| -> [f64; L] {
-        let values = &values[k..k + L];
-        std::array::from_fn(|lane| values[lane])
-    };
-    let inputs = inputs.map(|parts| parts.map(load));
-    let mut add = |n: usize, part: usize, values: [f64; L]| {
-        for (sum, value) in sums[n][part][k..k + L].iter_mut().zip(values) {
-            *sum += value;
-        }
-    };
-    let times = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] * b[i]) };
-    let plus = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] + b[i]) };
-    let minus = |a: [f64; L], b: [f64; L]| -> [f64; L] { std::array::from_fn(|i| a[i] - b[i]) };
-    let own = load(coefficients[0][0]);
-    let mut down = inputs[0].map(|input| times(own, input));
-    for m in 1..SPACE {
-        let g = load(coefficients[0][m]);
-        down = [minus(down[0], times(g, inputs[m][1])), plus(down[1], times(g, inputs[m][0]))];
-    }
-    down.into_iter().enumerate().for_each(|(part, values)| add(0, part, values));
-    for n in 1..SPACE {
-        let first = load(coefficients[n][1]);
-        let mut along = inputs[1].map(|input| times(first, input));
-        for m in 2..SPACE {
-            let g = load(coefficients[n][m]);
-            along = [0, 1].map(|part| plus(along[part], times(g, inputs[m][part])));
-        }
-        let g = load(coefficients[n][0]);
-        add(n, 0, plus(along[0], times(g, inputs[0][1])));
-        add(n, 1, minus(along[1], times(g, inputs[0][0])));
-    }
+fn times<S: Simd>(
+    simd: S,
+    total: [S::f64s; PARTS],
+    [zz, xx, yy, xy, zx, zy]: [S::f64s; SERIES],
+    [p, q, a, b, c, d]: [S::f64s; PARTS],
+) -> [S::f64s; PARTS] {
+    let down = [
+        simd.sub_f64s(
+            simd.sub_f64s(simd.mul_f64s(zz, p), simd.mul_f64s(zx, b)),
+            simd.mul_f64s(zy, d),
+        ),
+        simd.add_f64s(
+            simd.add_f64s(simd.mul_f64s(zz, q), simd.mul_f64s(zx, a)),
+            simd.mul_f64s(zy, c),
+        ),
+    ];
+    let along = [
+        simd.add_f64s(
+            simd.add_f64s(simd.mul_f64s(xx, a), simd.mul_f64s(xy, c)),
+            simd.mul_f64s(zx, q),
+        ),
+        simd.sub_f64s(
+            simd.add_f64s(simd.mul_f64s(xx, b), simd.mul_f64s(xy, d)),
+            simd.mul_f64s(zx, p),
+        ),
+    ];
+    let away = [
+        simd.add_f64s(
+            simd.add_f64s(simd.mul_f64s(xy, a), simd.mul_f64s(yy, c)),
+            simd.mul_f64s(zy, q),
+        ),
+        simd.sub_f64s(
+            simd.add_f64s(simd.mul_f64s(xy, b), simd.mul_f64s(yy, d)),
+            simd.mul_f64s(zy, p),
+        ),
+    ];
+    [
+        simd.add_f64s(total[0], down[0]),
+        simd.add_f64s(total[1], down[1]),
+        simd.add_f64s(total[2], along[0]),
+        simd.add_f64s(total[3], along[1]),
+        simd.add_f64s(total[4], away[0]),
+        simd.add_f64s(total[5], away[1]),
+    ]
 }
