@@ -3,7 +3,7 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::linalg::matrix::Thinned;
+use crate::linalg::Thinned;
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
 
 /// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
@@ -75,9 +75,9 @@ impl Delassus {
         self.split = None;
     }
 
-    /// The soil's step compliance G¹, row-major; `None` if it is not known.
-    pub(crate) fn soil(&self) -> Option<&[f64]> {
-        self.soil.as_ref().map(|soil| &***soil)
+    /// The soil's step compliance G¹; `None` if it is not known.
+    pub(crate) fn soil(&self) -> Option<&Thinned> {
+        self.soil.as_deref()
     }
 
     /// jump ← jump + W τ.

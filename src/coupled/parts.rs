@@ -15,11 +15,11 @@ use crate::error::{
     Error, Progress, Result, all_finite, finite, memory, not_negative, positive, require,
     require_part, same_length, unobserved,
 };
-use crate::geometry::Patch;
+use crate::geometry::{Patch, lattice_cells};
 use crate::interface::{
     Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
-use crate::linalg::matrix::Thinned;
+use crate::linalg::Thinned;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
@@ -190,7 +190,11 @@ impl Parts {
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let soil = Arc::new(Thinned::new(soil, start_motion.len()));
+        let soil = match lattice_cells(&elements) {
+            Some(cells) => Thinned::on_lattice(soil, &cells, elements.areas()),
+            None => Thinned::new(soil, start_motion.len()),
+        };
+        let soil = Arc::new(soil);
         Ok(Self {
             structure,
             ground,

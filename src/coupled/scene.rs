@@ -16,7 +16,8 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
-use crate::linalg::matrix::{Thinned, spread};
+use crate::linalg::Thinned;
+use crate::linalg::matrix::spread;
 use crate::linalg::mixed;
 use crate::structure::probe::Probe;
 

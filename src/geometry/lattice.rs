@@ -2,6 +2,13 @@
 
 use std::ops::Mul;
 
+use super::{ContactElement, SPACE};
+
+/// Largest difference of a cell from its place, relative to its sides.
+const EQUAL: f64 = 1e-9;
+/// Largest number of a lattice's cells, relative to those of elements.
+const FEW: f64 = 4.0;
+
 /// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
 pub(crate) const SERIES: usize = 6;
 
@@ -90,6 +97,34 @@ pub(crate) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
     [0, 1].map(|axis| receiver[axis].cast_signed() - source[axis].cast_signed())
 }
 
+/// Column and row of each element, if all are equal cells of a lattice that is mostly filled.
+pub(crate) fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
+    let first = elements.first().filter(|own| own.directions().len() == SPACE)?;
+    let pitch = first.sides();
+    let corner = [0, 1]
+        .map(|axis| elements.iter().map(|own| own.ends()[axis][0]).fold(f64::INFINITY, f64::min));
+    let most = FEW * elements.len() as f64;
+    let cell = |own: &ContactElement| {
+        let near = |a: f64, b: f64| (a - b).abs() <= EQUAL;
+        let sides = own.sides();
+        let place = [0, 1].map(|axis| (own.ends()[axis][0] - corner[axis]) / pitch[axis]);
+        let fits = (0..2).all(|axis| {
+            near(sides[axis] / pitch[axis], 1.0) && near(place[axis], place[axis].round())
+        });
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "from zero to a few times the number of elements"
+        )]
+        (fits && place.iter().all(|place| *place < most))
+            .then(|| place.map(|place| place.round() as usize))
+    };
+    let cells: Vec<[usize; 2]> = elements.iter().map(cell).collect::<Option<_>>()?;
+    let [columns, rows] =
+        [0, 1].map(|axis| cells.iter().map(|cell| cell[axis] + 1).fold(0, usize::max));
+    ((columns * rows) as f64 <= most).then_some(cells)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -133,5 +168,26 @@ mod tests {
                 assert_eq!(there[column][row], back[row][column], "{offset:?}");
             }
         }
+    }
+
+    #[test]
+    fn elements_find_their_cells() {
+        let cells = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [1, 3]];
+        let element = |[i, j]: [usize; 2]| {
+            let [x, y] = [i as f64, j as f64];
+            ContactElement::in_plan(
+                [1.0 + 0.3 * x, 1.3 + 0.3 * x],
+                [-2.0 + 0.7 * y, -1.3 + 0.7 * y],
+            )
+        };
+        let elements: Vec<_> = cells.iter().map(|cell| element(*cell)).collect();
+        assert_eq!(lattice_cells(&elements), Some(cells.to_vec()));
+        let with = |other| lattice_cells(&[&elements[..], &[other]].concat());
+        // Another size, another place, far away.
+        let [wide, beside] = [2.0, 1.0].map(|width| 1.9 + 0.3 * width);
+        assert_eq!(with(ContactElement::in_plan([1.9, wide], [-2.0, -1.3])), None);
+        assert_eq!(with(ContactElement::in_plan([1.95, beside + 0.05], [-2.0, -1.3])), None);
+        assert_eq!(with(element([9, 9])), None);
+        assert_eq!(lattice_cells(&[ContactElement::new(0.0, 1.0)]), None);
     }
 }

@@ -13,7 +13,7 @@ pub use direction::Direction;
 pub(crate) use direction::{FRAME, IN_SPACE, TRANSLATIONS};
 pub use element::ContactElement;
 pub(crate) use footing::{Edge, Footing};
-pub(crate) use lattice::{Lattice, SERIES, offset};
+pub(crate) use lattice::{Lattice, SERIES, lattice_cells, offset};
 pub(crate) use patch::{Patch, check_count, check_order};
 
 /// Directions of motion and traction at each element of a ground in the plane: down, along x.

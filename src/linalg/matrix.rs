@@ -1,9 +1,7 @@
 //! Matrices of a structure: sparse in its degrees of freedom, diagonal in its modes.
 
-use std::ops::Deref;
-
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
-use crate::linalg::{Triplets, dense_multiply_add, weighted_dot};
+use crate::linalg::{Triplets, weighted_dot};
 
 /// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;
@@ -221,51 +219,6 @@ impl SparseMatrix {
         let range = self.row_start[row]..self.row_start[row + 1];
         let found = self.column[range.clone()].binary_search(&column);
         found.map_or(0.0, |k| self.value[range.start + k])
-    }
-}
-
-/// A dense square matrix, row-major; if most entries are zero, only the others are stored as sparse.
-#[derive(Debug, Clone)]
-pub(crate) struct Thinned {
-    values: Vec<f64>,
-    entries: Option<SparseMatrix>,
-}
-
-impl Thinned {
-    pub(crate) fn new(values: Vec<f64>, order: usize) -> Self {
-        let filled = values.iter().filter(|value| **value != 0.0).count();
-        // A product with a sparse entry costs about as much as with four dense ones.
-        let entries = (filled <= values.len() / 8)
-            .then(|| {
-                let mut entries = Triplets::new(order);
-                for (place, &value) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                    entries.add(place / order, place % order, value);
-                }
-                SparseMatrix::new("instantaneous operator of the ground", &entries).ok()
-            })
-            .flatten();
-        Self { values, entries }
-    }
-
-    /// Number of values that a product reads.
-    pub(crate) fn stored(&self) -> usize {
-        self.entries.as_ref().map_or(self.values.len(), SparseMatrix::stored)
-    }
-
-    /// y ← y + A x.
-    pub(crate) fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
-        match &self.entries {
-            Some(entries) => entries.multiply_add(1.0, x, y),
-            None => dense_multiply_add(&self.values, 1.0, x, y),
-        }
-    }
-}
-
-impl Deref for Thinned {
-    type Target = [f64];
-
-    fn deref(&self) -> &[f64] {
-        &self.values
     }
 }
 

@@ -13,12 +13,14 @@ mod elimination;
 pub(crate) mod gauss;
 mod hermitian;
 mod lanes;
+mod lattice_product;
 mod lowest_modes;
 pub(crate) mod matrix;
 mod number;
 mod partition;
 mod product;
 mod sparse;
+mod thinned;
 mod triplets;
 
 #[cfg(feature = "embedded")]
@@ -31,14 +33,16 @@ pub(crate) use elimination::Elimination;
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use hermitian::hermitian_range;
 pub(crate) use lanes::Lanes;
+pub(crate) use lattice_product::{LatticeProduct, LatticeScratch, smooth};
 pub(crate) use lowest_modes::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use number::Number;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot, largest,
-    magnitude, mixed, mixing_weight, row_products, transposed_multiply_add, vectorized,
+    Dot, Scalar, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot,
+    largest, magnitude, mixed, mixing_weight, row_products, transposed_multiply_add, vectorized,
     weighted_dot,
 };
 pub(crate) use sparse::{SparseFactor, indefinite_row};
+pub(crate) use thinned::Thinned;
 pub use triplets::Triplets;

@@ -1,29 +1,29 @@
-//! W by blocks of elements: their motion by the soil, and by the few modes in which the structure moves.
+//! W by blocks of elements on a lattice: their motion by the soil, and by the few modes in which the structure moves.
 //!
-//! On a lattice most blocks are equal, so that all of them stay in the processor's cache.
+//! Elements are near each other if one moves the other much. Eight elements that are not near each other form a group.
+//! A sweep solves them together, one in each lane, and moves the elements near them. All others are moved by transforms
+//! along the surface, after several sweeps.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
 use std::collections::HashMap;
 
-use crate::linalg::{Simd, WithSimd, largest, vectorized};
+use super::group::{read, write};
+use super::modes::{RANK, find_modes};
+use crate::geometry::offset;
+use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
-/// Largest number of modes.
-const RANK: usize = 24;
-/// Diagonal that the modes leave out, relative to the largest of W: rounding.
-const ROUNDING: f64 = 1e-14;
+/// Number of elements of a group.
+pub(super) const LANES: usize = 8;
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
 const NEAR: f64 = 3e-3;
-/// Force that a product leaves out, relative to the largest.
-const FINEST: f64 = 1e-16;
-/// Largest numbers of different blocks and of near links, relative to all.
-const DIFFERENT: f64 = 0.25;
+/// Largest number of elements near one, relative to all.
 const MOST_NEAR: f64 = 0.3;
 
+/// A number for each element of a group.
+pub(super) type Lane = [f64; LANES];
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
 type Block = [[f64; 4]; 3];
-/// L of an element, for each mode; the last number is zero.
-type Modes = [[f64; 4]; RANK];
 
 /// An element that another one moves, and the block by which it does.
 #[derive(Debug, Clone, Copy)]
@@ -32,21 +32,26 @@ struct Link {
     block: u32,
 }
 
-/// W = G + L Lᵀ: soil and structure.
-pub(super) struct Blocks {
-    /// Links of one element after the other, the strongest first.
-    links: Vec<Link>,
-    /// Force that each link adds, relative to the force that causes it.
-    strengths: Vec<f32>,
+/// Near elements of all elements, one after the other.
+struct Links {
+    all: Vec<Link>,
     /// First link of each element, and the end.
     starts: Vec<usize>,
-    /// End of the near links of each element.
-    near: Vec<usize>,
-    /// Different blocks.
     kinds: Vec<Block>,
-    modes: Vec<Modes>,
+}
+
+/// W = G + L Lᵀ: soil and structure.
+pub(super) struct Blocks {
+    /// Elements of each group; the number of elements where there is none.
+    pub(super) groups: Vec<[usize; LANES]>,
+    near: Links,
+    /// G without the near links; `None` if it is zero.
+    far: Option<LatticeProduct>,
+    scratch: LatticeScratch,
+    /// L of each group, mode by mode: three directions.
+    modes: Vec<[Lane; 3]>,
     rank: usize,
-    /// Motions by the soil; amplitudes Lᵀ r of the modes.
+    /// Motions by the soil, and one that no element has; amplitudes Lᵀ r of the modes.
     motions: Vec<[f64; 4]>,
     amplitudes: [f64; RANK],
     /// Forces of the last product with W, and the product: motions and amplitudes.
@@ -56,103 +61,58 @@ pub(super) struct Blocks {
 impl Blocks {
     /// Blocks of the row-major `w` with the part `soil(row, column)`, for reciprocals `rho` of the diagonal.
     ///
-    /// `None` if few blocks are equal, many elements are near each other, or the rest of W has too many modes.
+    /// `cells`: column and row of each element. `layer(row)`: part of the diagonal that is neither soil nor structure.
+    /// `None` if blocks of equal offset differ, many elements are near each other, or the rest of W has too many modes.
     pub(super) fn new(
         w: &[f64],
         rho: &[[f64; 2]],
+        cells: &[[usize; 2]],
         soil: impl Fn(usize, usize) -> f64,
+        layer: impl Fn(usize) -> f64,
     ) -> Option<Self> {
         let count = rho.len();
-        let mut all = Self {
-            links: Vec::with_capacity(count * count),
-            strengths: Vec::with_capacity(count * count),
-            starts: vec![0],
-            near: Vec::with_capacity(count),
-            kinds: vec![],
-            modes: vec![[[0.0; 4]; RANK]; count],
-            rank: 0,
-            motions: vec![[0.0; 4]; count],
-            amplitudes: [0.0; RANK],
-            known: (vec![f64::NAN; 3 * count], vec![[0.0; 4]; count], [0.0; RANK]),
+        let block = |receiver: usize, source: usize| {
+            [0, 1, 2].map(|r| [0, 1, 2].map(|c| soil(r * count + receiver, c * count + source)))
         };
-        all.find_links(rho, &soil)?;
-        all.find_modes(w, &soil)?;
-        Some(all)
-    }
-
-    #[allow(
-        clippy::cast_possible_truncation,
-        reason = "counts of elements; strengths need few digits"
-    )]
-    fn find_links(&mut self, rho: &[[f64; 2]], soil: impl Fn(usize, usize) -> f64) -> Option<()> {
-        let count = rho.len();
-        let mut known = HashMap::new();
-        let mut links: Vec<(f64, Link)> = Vec::with_capacity(count);
-        for e in 0..count {
-            links.clear();
-            for (element, [normal, tangential]) in rho.iter().enumerate() {
-                let mut block = Block::default();
-                for (c, column) in block.iter_mut().enumerate() {
-                    for (r, value) in column.iter_mut().take(3).enumerate() {
-                        *value = soil(r * count + element, c * count + e);
-                    }
-                }
-                if block == Block::default() {
-                    continue;
-                }
-                let strength = block.iter().fold(0.0_f64, |most, [n, x, y, _]| {
-                    most.max(normal * n.abs()).max(tangential * x.abs().max(y.abs()))
-                });
-                let kinds = &mut self.kinds;
-                let number =
-                    *known.entry(block.map(|c| c.map(f64::to_bits))).or_insert_with(|| {
-                        kinds.push(block);
-                        kinds.len() as u32 - 1
-                    });
-                links.push((strength, Link { element: element as u32, block: number }));
-            }
-            if self.kinds.len() as f64 > DIFFERENT * (count * count) as f64 {
-                return None;
-            }
-            links.sort_by(|a, b| b.0.total_cmp(&a.0));
-            let near = links.partition_point(|(strength, _)| *strength > NEAR);
-            self.near.push(self.links.len() + near);
-            self.links.extend(links.iter().map(|(_, link)| *link));
-            self.strengths.extend(links.iter().map(|(strength, _)| *strength as f32));
-            self.starts.push(self.links.len());
+        let greatest = |k: usize| rho.iter().map(|own| own[k]).fold(0.0, f64::max);
+        let scales = [greatest(0), greatest(1), greatest(1)];
+        let is_near = |receiver: usize, source: usize| {
+            let mut entries = block(receiver, source).into_iter().zip(scales);
+            let strong = |(row, rho): ([f64; 3], f64)| row.iter().any(|g| rho * g.abs() > NEAR);
+            receiver == source || entries.any(strong)
+        };
+        let near = Links::new(cells, is_near, block, &layer)?;
+        if near.all.len() as f64 > MOST_NEAR * (count * count) as f64 {
+            return None;
         }
-        let near: usize = self.near.iter().zip(&self.starts).map(|(end, start)| end - start).sum();
-        (near as f64 <= MOST_NEAR * self.links.len() as f64).then_some(())
-    }
-
-    /// Pivoted Cholesky factors L of W without the soil.
-    fn find_modes(&mut self, w: &[f64], soil: impl Fn(usize, usize) -> f64) -> Option<()> {
-        let count = self.modes.len();
-        let size = 3 * count;
-        let own = |i: usize| w[i * (size + 1)];
-        let mut rest: Vec<f64> = (0..size).map(|i| own(i) - soil(i, i)).collect();
-        let least = (0..size).map(|i| ROUNDING * own(i)).fold(0.0, f64::max);
-        loop {
-            let pivot = (0..size).max_by(|a, b| rest[*a].total_cmp(&rest[*b]))?;
-            if rest[pivot] <= least {
-                // A rest that is not positive has no such factors.
-                return rest.iter().all(|rest| *rest >= -10.0 * least).then_some(());
-            }
-            if self.rank == RANK {
-                return None;
-            }
-            let (k, root) = (self.rank, rest[pivot].sqrt());
-            let chosen = self.modes[pivot % count].map(|mode| mode[pivot / count]);
-            for (i, rest) in rest.iter_mut().enumerate() {
-                let (own, direction) = (&mut self.modes[i % count], i / count);
-                let pairs = own.iter().zip(&chosen).take(k);
-                let known: f64 = pairs.map(|(a, b)| a[direction] * b).sum();
-                own[k][direction] = (w[i * size + pivot] - soil(i, pivot) - known) / root;
-                *rest -= own[k][direction] * own[k][direction];
-            }
-            rest[pivot] = 0.0;
-            self.rank += 1;
-        }
+        let far_block = |receiver: usize, source: usize| {
+            if is_near(receiver, source) { [[0.0; 3]; 3] } else { block(receiver, source) }
+        };
+        let is_far = |source: usize, receiver: usize| far_block(receiver, source) != [[0.0; 3]; 3];
+        let far = if (0..count).any(|source| (0..count).any(|other| is_far(source, other))) {
+            Some(LatticeProduct::new(cells, &vec![1.0; count], far_block)?)
+        } else {
+            None
+        };
+        let modes = find_modes(w, 3 * count, |row, column| {
+            soil(row, column) + if row == column { layer(row) } else { 0.0 }
+        })?;
+        let groups = near.groups();
+        let of_group = |group: &[usize; LANES], mode: &[f64]| {
+            [0, 1, 2].map(|k| group.map(|e| if e < count { mode[k * count + e] } else { 0.0 }))
+        };
+        let modes_of = |group| modes.iter().map(move |mode| of_group(group, mode));
+        Some(Self {
+            modes: groups.iter().flat_map(modes_of).collect(),
+            rank: modes.len(),
+            groups,
+            near,
+            scratch: far.as_ref().map(LatticeProduct::scratch).unwrap_or_default(),
+            far,
+            motions: vec![[0.0; 4]; count + 1],
+            amplitudes: [0.0; RANK],
+            known: (vec![f64::NAN; 3 * count], vec![[0.0; 4]; count + 1], [0.0; RANK]),
+        })
     }
 
     /// Sets the motions to W r.
@@ -162,84 +122,162 @@ impl Blocks {
             self.amplitudes = self.known.2;
             return;
         }
-        vectorized(Respond { blocks: self, forces });
+        self.motions.fill([0.0; 4]);
+        self.amplitudes.fill(0.0);
+        vectorized(Near { blocks: self, forces });
+        self.move_far(forces);
         self.known.0.copy_from_slice(forces);
         self.known.1.copy_from_slice(&self.motions);
         self.known.2 = self.amplitudes;
     }
 
-    /// Adds the motion of near elements, and of all by the structure, by a force on one element.
+    /// Adds the motions of elements by forces on others that are not near.
+    pub(super) fn move_far(&mut self, forces: &[f64]) {
+        let Self { far, scratch, motions, .. } = self;
+        let Some(far) = far else { return };
+        far.multiply(forces, scratch, |component, e, motion| motions[e][component] += motion);
+    }
+
+    /// Adds the motion of near elements, and of all by the structure, by forces on the elements of a group.
     #[inline(always)]
-    pub(super) fn push_near<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
-        let Self { links, kinds, motions, .. } = self;
-        for link in &links[self.starts[e]..self.near[e]] {
-            add(simd, &kinds[link.block as usize], force, &mut motions[link.element as usize]);
+    pub(super) fn push<S: Simd>(&mut self, simd: S, g: usize, forces: &[Lane; 3]) {
+        let Self { near, motions, .. } = self;
+        let [p, x, y] = forces;
+        for (lane, e) in self.groups[g].into_iter().enumerate() {
+            let force = [p[lane], x[lane], y[lane]];
+            if force == [0.0; 3] {
+                continue;
+            }
+            for link in near.of(e) {
+                let block = &near.kinds[link.block as usize];
+                add(simd, block, force, &mut motions[link.element as usize]);
+            }
         }
-        let amplitudes = self.amplitudes[..self.rank].iter_mut();
-        for (amplitude, [p, x, y, _]) in amplitudes.zip(&self.modes[e]) {
-            *amplitude += p * force[0] + x * force[1] + y * force[2];
+        let modes = &self.modes[g * self.rank..][..self.rank];
+        for (amplitude, [a, b, c]) in self.amplitudes.iter_mut().zip(modes) {
+            let mut sums = simd.splat_f64s(0.0);
+            for part in 0..LANES / S::F64_LANES {
+                sums = simd.mul_add_e_f64s(read::<S>(a, part), read::<S>(p, part), sums);
+                sums = simd.mul_add_e_f64s(read::<S>(b, part), read::<S>(x, part), sums);
+                sums = simd.mul_add_e_f64s(read::<S>(c, part), read::<S>(y, part), sums);
+            }
+            *amplitude += simd.reduce_sum_f64s(sums);
         }
     }
 
-    /// Adds the motion of other elements by the soil, where it adds forces above `least`, N; returns whether any were.
+    /// Motions of the elements of a group.
     #[inline(always)]
-    pub(super) fn push_far<S: Simd>(
-        &mut self,
-        simd: S,
-        e: usize,
-        force: [f64; 3],
-        least: f64,
-    ) -> bool {
-        let Self { links, strengths, kinds, motions, .. } = self;
-        let far = self.near[e]..self.starts[e + 1];
-        #[allow(clippy::cast_possible_truncation, reason = "a bound, infinite beyond f32")]
-        let weakest = (least / largest(&force)) as f32;
-        let mut reached = false;
-        for (link, strength) in links[far.clone()].iter().zip(&strengths[far]) {
-            if *strength <= weakest {
-                break;
+    pub(super) fn motion<S: Simd>(&self, simd: S, g: usize) -> [Lane; 3] {
+        let mut motion = [[0.0; LANES]; 3];
+        for (lane, e) in self.groups[g].into_iter().enumerate() {
+            let own = &self.motions[e];
+            for k in 0..3 {
+                motion[k][lane] = own[k];
             }
-            add(simd, &kinds[link.block as usize], force, &mut motions[link.element as usize]);
-            reached = true;
         }
-        reached
-    }
-
-    /// Motion of an element.
-    #[inline(always)]
-    pub(super) fn motion<S: Simd>(&self, simd: S, e: usize) -> [f64; 3] {
-        let mut motion = self.motions[e];
-        let (sums, tail) = S::as_mut_simd_f64s(&mut motion);
-        for (amplitude, mode) in self.amplitudes[..self.rank].iter().zip(&self.modes[e]) {
-            let (wide, modes) = (simd.splat_f64s(*amplitude), S::as_simd_f64s(mode));
-            for (sum, mode) in sums.iter_mut().zip(modes.0) {
-                *sum = simd.mul_add_e_f64s(*mode, wide, *sum);
+        let modes = &self.modes[g * self.rank..][..self.rank];
+        for part in 0..LANES / S::F64_LANES {
+            let mut sums = [simd.splat_f64s(0.0); 3];
+            for (amplitude, mode) in self.amplitudes.iter().zip(modes) {
+                let amplitude = simd.splat_f64s(*amplitude);
+                for k in 0..3 {
+                    sums[k] = simd.mul_add_e_f64s(read::<S>(&mode[k], part), amplitude, sums[k]);
+                }
             }
-            tail.iter_mut().zip(modes.1).for_each(|(sum, mode)| *sum += mode * amplitude);
+            for k in 0..3 {
+                let sum = simd.add_f64s(read::<S>(&motion[k], part), sums[k]);
+                write::<S>(&mut motion[k], part, sum);
+            }
         }
-        [motion[0], motion[1], motion[2]]
+        motion
     }
 }
 
-/// Motions of all elements by all forces.
-struct Respond<'a> {
+impl Links {
+    /// Links between near elements; `None` if there are too many to be counted.
+    fn new(
+        cells: &[[usize; 2]],
+        is_near: impl Fn(usize, usize) -> bool,
+        block: impl Fn(usize, usize) -> [[f64; 3]; 3],
+        layer: impl Fn(usize) -> f64,
+    ) -> Option<Self> {
+        let count = cells.len();
+        let mut links = Self { all: vec![], starts: vec![0], kinds: vec![] };
+        // Number of the block for each offset, and for each layer of an element on itself.
+        let mut known = HashMap::new();
+        for source in 0..count {
+            for receiver in (0..count).filter(|receiver| is_near(*receiver, source)) {
+                let mut block = block(receiver, source);
+                let mut layers = [0; 3];
+                if receiver == source {
+                    for (k, bits) in layers.iter_mut().enumerate() {
+                        let layer = layer(k * count + source);
+                        block[k][k] += layer;
+                        *bits = layer.to_bits();
+                    }
+                }
+                let number = *known
+                    .entry((offset(cells[receiver], cells[source]), layers))
+                    .or_insert(u32::try_from(links.kinds.len()).ok()?);
+                if number as usize == links.kinds.len() {
+                    let column = |c: usize| [block[0][c], block[1][c], block[2][c], 0.0];
+                    links.kinds.push([0, 1, 2].map(column));
+                }
+                links.all.push(Link { element: u32::try_from(receiver).ok()?, block: number });
+            }
+            links.starts.push(links.all.len());
+        }
+        Some(links)
+    }
+
+    /// Links of one element.
+    #[inline(always)]
+    fn of(&self, e: usize) -> &[Link] {
+        &self.all[self.starts[e]..self.starts[e + 1]]
+    }
+
+    /// Groups of elements that are not near each other, in the order of their first elements.
+    fn groups(&self) -> Vec<[usize; LANES]> {
+        let count = self.starts.len() - 1;
+        let mut groups: Vec<[usize; LANES]> = vec![];
+        for e in 0..count {
+            let is_near =
+                |other: usize| self.of(e).iter().any(|link| link.element as usize == other);
+            let fits = |group: &&mut [usize; LANES]| {
+                group[LANES - 1] == count && !group.iter().any(|other| is_near(*other))
+            };
+            if let Some(group) = groups.iter_mut().find(fits) {
+                if let Some(free) = group.iter_mut().find(|own| **own == count) {
+                    *free = e;
+                }
+            } else {
+                let mut group = [count; LANES];
+                group[0] = e;
+                groups.push(group);
+            }
+        }
+        groups
+    }
+}
+
+/// Motions of all elements by forces on near ones, and by the structure.
+struct Near<'a> {
     blocks: &'a mut Blocks,
     forces: &'a [f64],
 }
 
-impl WithSimd for Respond<'_> {
+impl WithSimd for Near<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { blocks, forces } = self;
-        blocks.motions.fill([0.0; 4]);
-        blocks.amplitudes.fill(0.0);
-        let (count, least) = (blocks.motions.len(), FINEST * largest(forces));
-        for e in 0..count {
-            let force = [e, count + e, 2 * count + e].map(|i| forces[i]);
-            blocks.push_near(simd, e, force);
-            blocks.push_far(simd, e, force, least);
+        let count = forces.len() / 3;
+        for g in 0..blocks.groups.len() {
+            let own = blocks.groups[g];
+            let force =
+                [0, 1, 2].map(|k| own.map(|e| if e < count { forces[k * count + e] } else { 0.0 }));
+            blocks.push(simd, g, &force);
         }
     }
 }
@@ -247,15 +285,14 @@ impl WithSimd for Respond<'_> {
 /// Adds the motion by a force.
 #[inline(always)]
 fn add<S: Simd>(simd: S, block: &Block, force: [f64; 3], motion: &mut [f64; 4]) {
-    let [p, x, y] = force.map(|force| simd.splat_f64s(force));
-    let [a, b, c] = [0, 1, 2].map(|k| S::as_simd_f64s(&block[k]));
     let (sums, tail) = S::as_mut_simd_f64s(motion);
-    for (sum, (a, (b, c))) in sums.iter_mut().zip(a.0.iter().zip(b.0.iter().zip(c.0))) {
-        let first = simd.mul_add_e_f64s(*a, p, *sum);
-        *sum = simd.mul_add_e_f64s(*c, y, simd.mul_add_e_f64s(*b, x, first));
-    }
-    for (sum, (a, (b, c))) in tail.iter_mut().zip(a.1.iter().zip(b.1.iter().zip(c.1))) {
-        *sum += a * force[0] + b * force[1] + c * force[2];
+    for (k, force) in force.into_iter().enumerate() {
+        let (column, rest) = S::as_simd_f64s(&block[k]);
+        let wide = simd.splat_f64s(force);
+        for (sum, value) in sums.iter_mut().zip(column) {
+            *sum = simd.mul_add_e_f64s(*value, wide, *sum);
+        }
+        tail.iter_mut().zip(rest).for_each(|(sum, value)| *sum += value * force);
     }
 }
 

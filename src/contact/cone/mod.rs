@@ -1,7 +1,7 @@
 //! Contact with uplift and friction in plan: Signorini's law, and Coulomb's law with shear on a disc.
 //!
 //! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
-//!    change. Of many elements, only if all stuck.
+//!    change. Many elements on a lattice begin with sweeps.
 //! 2. Sweeps over the elements, from the forces of the previous step.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
@@ -19,6 +19,8 @@
 //! beyond it breaks in the step, which is then solved again: at most once for each element.
 
 mod blocks;
+mod group;
+mod modes;
 mod newton;
 mod problem;
 mod proximal;
@@ -28,6 +30,7 @@ mod sweeps;
 mod system;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 use super::SearchMethod;
 use super::problem::{ContactInput, ContactSolver};
@@ -41,12 +44,10 @@ use problem::{Bounds, Problem};
 use proximal::Proximal;
 use search::search;
 use status::{Normal, Status, Tangential};
+use wide::Wide;
 
 /// Gap at which a bond breaks, relative to the largest displacement.
 const GONE: f64 = 1e-12;
-
-/// Number of elements from which W is kept by blocks. Fewer are solved as quickly by products with all of W.
-const MANY: usize = 100;
 
 /// A contact problem in plan, and the methods that solve it.
 pub(super) struct Cone {
@@ -227,17 +228,19 @@ impl Cone {
             values[row] += layer(row);
         }
         problem.find_scales();
+        (problem.blocks, problem.wide) = (None, None);
         // Blocks of a W that changes would not pay.
-        problem.blocks = match input.delassus.soil() {
-            Some(soil) if lasts && count >= MANY => {
-                let soil = |row: usize, column: usize| {
-                    let own = soil[row * size + column] / areas[column % count];
-                    if row == column { own + layer(row) } else { own }
-                };
-                Blocks::new(&problem.w, &problem.rho, soil)
+        if let Some(soil) = input.delassus.soil().filter(|_| lasts)
+            && let Some(cells) = soil.cells()
+        {
+            let compliance =
+                |row: usize, column: usize| soil[row * size + column] / areas[column % count];
+            let blocks = Blocks::new(&problem.w, &problem.rho, cells, compliance, layer);
+            if blocks.is_none() {
+                problem.wide = Wide::new(&problem.w, cells, compliance, layer);
             }
-            _ => None,
-        };
+            problem.take_blocks(blocks);
+        }
         self.newton.forget(lasts);
         self.generation = Some(generation);
         Ok(())
@@ -246,6 +249,10 @@ impl Cone {
     /// Solves for the statuses of the previous step; `false` if an element slid.
     fn repeat(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
+        // Sweeps with blocks take less time.
+        if problem.blocks.is_some() {
+            return false;
+        }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
             let smooth = bounds.friction == 0.0 && !bounds.has_bond();
             *status = match mode {
@@ -264,10 +271,6 @@ impl Cone {
             if capped && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
-        }
-        // Sweeps with blocks take less time than a factorization.
-        if problem.blocks.is_some() && newton.statuses.iter().any(|own| *own != Status::STICK) {
-            return false;
         }
         problem.rest();
         newton.step(problem)

@@ -17,6 +17,8 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::blocks::Blocks;
+use super::group::Group;
+use super::wide::Wide;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
 /// Residual at which a solution is accepted, relative to the largest force.
@@ -116,10 +118,14 @@ pub(super) struct Problem {
     pub(super) w: Vec<f64>,
     /// W without `added`, if there are many elements on a lattice.
     pub(super) blocks: Option<Blocks>,
+    /// The same where each element moves most others.
+    pub(super) wide: Option<Wide>,
     /// Number that the proximal point method has added to W's diagonal.
     pub(super) added: f64,
     /// Blocks of W between the components of each element.
     pub(super) own: Vec<[[f64; 3]; 3]>,
+    /// Numbers of all groups, in sweeps.
+    pub(super) groups: Vec<Group>,
     /// Changes of force that have moved all elements, in sweeps.
     pub(super) applied: Vec<f64>,
     pub(super) q: Vec<f64>,
@@ -143,8 +149,10 @@ impl Problem {
             count,
             w: vec![0.0; 9 * count * count],
             blocks: None,
+            wide: None,
             added: 0.0,
             own: vec![[[0.0; 3]; 3]; count],
+            groups: vec![],
             applied: zero(),
             q: zero(),
             anchor: zero(),
@@ -173,6 +181,12 @@ impl Problem {
         places.map(|i| places.map(|j| self.w[i * self.size() + j]))
     }
 
+    /// Takes the blocks of W, if there are any.
+    pub(super) fn take_blocks(&mut self, blocks: Option<Blocks>) {
+        self.groups = vec![Group::NONE; blocks.as_ref().map_or(0, |blocks| blocks.groups.len())];
+        self.blocks = blocks;
+    }
+
     /// Computes ρ and the blocks of elements; call it when the diagonal of W has changed.
     pub(super) fn find_scales(&mut self) {
         for e in 0..self.count {
@@ -194,25 +208,24 @@ impl Problem {
             blocks.respond(&self.change);
             return self.read_blocks();
         }
-        let Self { w, q, change, y, .. } = self;
-        y.copy_from_slice(q);
-        dense_multiply_add(w, 1.0, change, y);
+        let Self { w, q, change, y, wide, added, count, .. } = self;
+        let Some(wide) = wide else {
+            y.copy_from_slice(q);
+            return dense_multiply_add(w, 1.0, change, y);
+        };
+        wide.respond(change);
+        for e in 0..*count {
+            let places = [e, *count + e, 2 * *count + e];
+            let motion = wide.motion(e, places.map(|i| change[i]));
+            for (i, motion) in places.into_iter().zip(motion) {
+                y[i] = q[i] + *added * change[i] + motion;
+            }
+        }
     }
 
     /// Copies the motion of all blocks to y.
     fn read_blocks(&mut self) {
         vectorized(Read(self));
-    }
-
-    /// Motion of an element by its block.
-    #[inline(always)]
-    pub(super) fn motion<S: Simd>(&self, simd: S, e: usize) -> [f64; 3] {
-        let Some(blocks) = &self.blocks else { return [0.0; 3] };
-        let mut motion = blocks.motion(simd, e);
-        for (y, i) in motion.iter_mut().zip(self.places(e)) {
-            *y += self.q[i] + self.added * self.change[i];
-        }
-        motion
     }
 
     /// p and t before they are projected.
@@ -331,10 +344,16 @@ impl WithSimd for Read<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let problem = self.0;
-        for e in 0..problem.count {
-            let motion = problem.motion(simd, e);
-            problem.places(e).into_iter().zip(motion).for_each(|(i, y)| problem.y[i] = y);
+        let Problem { blocks, count, q, change, added, y, .. } = self.0;
+        let Some(blocks) = blocks else { return };
+        for (g, elements) in blocks.groups.iter().enumerate() {
+            let motion = blocks.motion(simd, g);
+            for (lane, e) in elements.iter().enumerate().filter(|(_, e)| **e < *count) {
+                for (k, motion) in motion.iter().enumerate() {
+                    let i = k * *count + e;
+                    y[i] = q[i] + *added * change[i] + motion[lane];
+                }
+            }
         }
     }
 }

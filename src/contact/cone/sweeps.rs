@@ -2,7 +2,10 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
+use super::blocks::LANES;
+use super::group::Group;
 use super::problem::{Bounds, Problem};
+use super::wide::sweep_wide;
 use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
 
 /// Largest number of projections of an element in a sweep.
@@ -13,12 +16,13 @@ const KNOWN: usize = 4;
 const GOAL: f64 = 1e-2;
 /// Change at which projections of an element end, as a fraction of a change at which sweeps end.
 const LEAST: f64 = 0.1;
-/// With blocks: change of an element's projections at which they end, as a fraction of the first.
-const LOCAL_SHARE: f64 = 0.3;
 /// With blocks: change in a sweep after which all elements move, as a fraction of the changes since they last did; and
 /// the largest number of sweeps between.
 const SHARE: f64 = 3e-2;
 const BETWEEN: usize = 12;
+/// With blocks: change up to a motion of all elements that needs no other sweep, as a fraction of the change at which
+/// sweeps end.
+const FAR: f64 = 10.0;
 /// With blocks: factor of the number of sweeps, which then are cheap beside a factorization.
 const PATIENCE: usize = 4;
 
@@ -52,31 +56,34 @@ impl Problem {
         (most, self.is_solved())
     }
 
-    /// Sweeps that move near elements at once, and all others by the sum of several sweeps.
+    /// Sweeps over groups that move near elements at once, and all others by the sum of several sweeps.
     fn sweep_blocks(&mut self, most: usize) -> (usize, bool) {
         self.respond();
         self.applied.copy_from_slice(&self.change);
-        // Changes up to the last motion of all elements, and in the last sweep; number of sweeps since that motion.
-        let (mut before, mut last, mut sweeps) = (f64::INFINITY, f64::INFINITY, 0);
+        self.read_groups();
+        // Changes up to the last motion of all elements; in the first sweep since, and in the last; number of sweeps since.
+        let (mut before, mut first, mut last, mut sweeps) = (f64::INFINITY, 0.0, f64::INFINITY, 0);
+        let tolerance = GOAL * self.tolerance();
         for sweep in 1..=most {
-            let tolerance = GOAL * self.tolerance();
-            let largest = vectorized(Sweep { problem: self, least: LEAST * tolerance });
+            let largest = vectorized(Sweep(self));
             if largest.is_nan() {
+                self.write_groups();
                 return (sweep, false);
             }
             sweeps += 1;
-            let changes = self.change.iter().zip(&self.applied).map(|(a, b)| (a - b).abs());
-            let moved = changes.fold(0.0, f64::max);
-            if largest > tolerance.max(SHARE * moved) && sweeps < BETWEEN {
+            if sweeps == 1 {
+                first = largest;
+            }
+            if largest > tolerance.max(SHARE * first) && sweeps < BETWEEN {
                 if sweeps > KNOWN && largest >= last {
+                    self.write_groups();
                     return (sweep, self.is_solved());
                 }
                 last = largest;
                 continue;
             }
-            let reached = vectorized(Far { problem: self, least: LEAST * tolerance });
-            if largest <= tolerance && (!reached || moved <= tolerance) && self.blocks_are_solved()
-            {
+            let moved = self.move_far();
+            if largest <= tolerance && moved <= FAR * tolerance && self.blocks_are_solved() {
                 return (sweep, true);
             }
             // Factor by which these sweeps reduce the change.
@@ -87,11 +94,52 @@ impl Problem {
             }
             (before, last, sweeps) = (moved, f64::INFINITY, 0);
         }
+        self.write_groups();
         (most, self.is_solved())
+    }
+
+    /// Copies the numbers of all elements to their groups.
+    fn read_groups(&mut self) {
+        let mut groups = std::mem::take(&mut self.groups);
+        let elements = self.blocks.iter().flat_map(|blocks| &blocks.groups);
+        for (group, elements) in groups.iter_mut().zip(elements) {
+            *group = Group::of(self, *elements);
+        }
+        self.groups = groups;
+    }
+
+    /// Copies the forces of all groups to their elements.
+    fn write_groups(&mut self) {
+        let Self { blocks, groups, change, count, .. } = self;
+        let Some(blocks) = blocks else { return };
+        for (elements, group) in blocks.groups.iter().zip(groups) {
+            for (lane, e) in elements.iter().enumerate().filter(|(_, e)| **e < *count) {
+                (0..3).for_each(|k| change[k * *count + e] = group.change[k][lane]);
+            }
+        }
+    }
+
+    /// Moves elements by changes of force on others that are not near; returns the largest change, N.
+    fn move_far(&mut self) -> f64 {
+        self.write_groups();
+        let Self { blocks, change, applied, .. } = self;
+        let mut most = 0.0_f64;
+        for (applied, change) in applied.iter_mut().zip(&*change) {
+            *applied = change - *applied;
+            most = most.max(applied.abs());
+        }
+        if let Some(blocks) = blocks {
+            blocks.move_far(applied);
+        }
+        applied.copy_from_slice(change);
+        most
     }
 
     /// Solves all elements in turn, as [`Problem::relax`]; returns the largest change, N, or NaN.
     fn relax_all(&mut self, least: f64) -> f64 {
+        if self.wide.is_some() {
+            return sweep_wide(self, least);
+        }
         (0..self.count).map(|e| self.relax(e, least)).fold(0.0, larger)
     }
 
@@ -100,7 +148,7 @@ impl Problem {
         let places = self.places(e);
         let start = places.map(|i| self.force(i));
         let (rho, y) = (self.rho[e], places.map(|i| self.y[i]));
-        let r = alone(&self.bounds[e], rho, &self.own[e], start, y, [least, 0.0], f64::hypot);
+        let r = alone(&self.bounds[e], rho, &self.own[e], start, y, least);
         let mut change = 0.0;
         for (k, &i) in places.iter().enumerate() {
             let moved = r[k] - start[k];
@@ -118,26 +166,25 @@ impl Problem {
 
 /// Force of an element with the forces of others fixed, for its present force and motion.
 ///
-/// It is projected until it changes by no more than `least`, or by no more than a `share` of its first change.
+/// It is projected until it changes by no more than `least`.
 #[inline(always)]
-fn alone(
+pub(super) fn alone(
     bounds: &Bounds,
     [normal, tangential]: [f64; 2],
     block: &[[f64; 3]; 3],
     start: [f64; 3],
     mut y: [f64; 3],
-    [mut least, share]: [f64; 2],
-    magnitude: impl Fn(f64, f64) -> f64,
+    least: f64,
 ) -> [f64; 3] {
     let mut r = start;
-    for local in 0..LOCAL {
+    for _ in 0..LOCAL {
         let p = bounds.press(r[0] - normal * (y[0] - bounds.offset));
         let pressed = p - r[0];
         if pressed != 0.0 {
             (0..3).for_each(|k| y[k] += block[k][0] * pressed);
         }
         let trial = [r[1] - tangential * y[1], r[2] - tangential * y[2]];
-        let [tx, ty] = bounds.shear(p, trial, magnitude(trial[0], trial[1]));
+        let [tx, ty] = bounds.shear(p, trial, trial[0].hypot(trial[1]));
         let sheared = [tx - r[1], ty - r[2]];
         if sheared != [0.0; 2] {
             for k in 0..3 {
@@ -149,70 +196,32 @@ fn alone(
         if change.is_nan() || change <= least {
             break;
         }
-        if local == 0 {
-            least = least.max(share * change);
-        }
     }
     r
 }
 
 /// The larger of two changes, or NaN.
-fn larger(most: f64, change: f64) -> f64 {
+#[inline(always)]
+pub(super) fn larger(most: f64, change: f64) -> f64 {
     if change <= most { most } else { change }
 }
 
-/// A sweep over blocks that moves near elements, and all by the structure.
-struct Sweep<'a> {
-    problem: &'a mut Problem,
-    least: f64,
-}
+/// A sweep over groups that moves near elements, and all by the structure.
+struct Sweep<'a>(&'a mut Problem);
 
 impl WithSimd for Sweep<'_> {
     type Output = f64;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let Self { problem, least } = self;
-        let mut most = 0.0;
-        for e in 0..problem.count {
-            let places = problem.places(e);
-            let start = places.map(|i| problem.force(i));
-            let (y, bounds, rho) = (problem.motion(simd, e), &problem.bounds[e], problem.rho[e]);
-            let magnitude = |x: f64, y: f64| (x * x + y * y).sqrt();
-            let r = alone(bounds, rho, &problem.own[e], start, y, [least, LOCAL_SHARE], magnitude);
-            let moved: [f64; 3] = std::array::from_fn(|k| r[k] - start[k]);
-            if moved != [0.0; 3] {
-                places.into_iter().zip(r).for_each(|(i, r)| problem.set(i, r));
-                if let Some(blocks) = &mut problem.blocks {
-                    blocks.push_near(simd, e, moved);
-                }
-            }
-            most = larger(most, moved.iter().map(|moved| moved.abs()).sum());
+        let Problem { blocks, groups, added, .. } = self.0;
+        let Some(blocks) = blocks else { return f64::NAN };
+        let (mut most, mut moved) = (0.0, [[0.0; LANES]; 3]);
+        for (g, group) in groups.iter_mut().enumerate() {
+            let largest = group.solve(simd, &blocks.motion(simd, g), *added, &mut moved);
+            blocks.push(simd, g, &moved);
+            most = larger(most, largest);
         }
         most
-    }
-}
-
-/// Moves elements by changes of force on others that are not near; returns whether any added more than `least`, N.
-struct Far<'a> {
-    problem: &'a mut Problem,
-    least: f64,
-}
-
-impl WithSimd for Far<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> bool {
-        let Self { problem, least } = self;
-        let mut reached = false;
-        for e in 0..problem.count {
-            let moved = problem.places(e).map(|i| problem.change[i] - problem.applied[i]);
-            if let Some(blocks) = &mut problem.blocks {
-                reached |= blocks.push_far(simd, e, moved, least);
-            }
-        }
-        problem.applied.copy_from_slice(&problem.change);
-        reached
     }
 }

@@ -16,8 +16,9 @@ use crate::geometry::{ContactLayout, PLANE, Patch};
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
+use crate::linalg::Thinned;
 use crate::linalg::dense_multiply_add;
-use crate::linalg::matrix::{SparseMatrix, Thinned};
+use crate::linalg::matrix::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
 use basemat_problems::random::Random;

@@ -7,7 +7,7 @@ use crate::contact::Delassus;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::linalg::matrix::Thinned;
+use crate::linalg::Thinned;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
 use crate::structure::Triplets;
 

@@ -19,8 +19,8 @@ use crate::coupled::step::forcing::{Forcing, StepData};
 use crate::coupled::step::increment::Increment;
 use crate::error::LawError;
 use crate::interface::Mode;
-use crate::linalg::dot;
 use crate::linalg::matrix::spread;
+use crate::linalg::{LatticeScratch, dot};
 use crate::structure::Structure;
 
 /// The energy balance so far, and data of the last step that the next one needs.
@@ -50,6 +50,7 @@ struct Scratch {
     vector: Vec<f64>,
     product: Vec<f64>,
     means: Vec<f64>,
+    lattice: LatticeScratch,
 }
 
 impl EnergyAccumulator {
@@ -96,7 +97,12 @@ impl EnergyAccumulator {
             translation: vec![[0.0; 3]; parts.len()],
             inertia,
             mass,
-            scratch: Scratch { vector: vec![0.0; n], product: vec![0.0; n], means },
+            scratch: Scratch {
+                vector: vec![0.0; n],
+                product: vec![0.0; n],
+                means,
+                lattice: scene.soil.scratch(),
+            },
         };
         books.begin(scene, structure, state);
         Ok(books)
@@ -197,7 +203,7 @@ impl EnergyAccumulator {
         let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
         let Kinematics { velocity: v0, acceleration: a0, .. } = &state.kinematics;
         let (v1, energy_balance) = (&increment.velocity, &mut self.energy_balance);
-        let Scratch { vector, product, means } = &mut self.scratch;
+        let Scratch { vector, product, means, .. } = &mut self.scratch;
         let du = &increment.total;
         energy_balance.kinetic = 0.5 * model.mass.form(v1, v1);
         if model.damped {
@@ -265,10 +271,10 @@ impl EnergyAccumulator {
     /// balance the work of the tractions.
     fn book_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
-        let soil = &mut self.scratch.means;
+        let Scratch { means: soil, lattice, .. } = &mut self.scratch;
         let energy_balance = &mut self.energy_balance;
         soil.copy_from_slice(&forcing.history);
-        scene.soil.multiply_add(&increment.traction, soil);
+        scene.soil.multiply_add_with(lattice, &increment.traction, soil);
         let layout = scene.layout();
         let doubt = ground.increment_error_bound();
         for i in 0..layout.len() {

@@ -18,12 +18,13 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-use super::plan_spectra::{CHUNK, coefficients_in_plan, smooth};
+use super::plan_spectra::{CHUNK, coefficients_in_plan};
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::geometry::{Lattice, PLANE, SERIES, SPACE};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
+use crate::linalg::smooth;
 
 /// Smallest number of elements for which the transform along the surface is used.
 ///

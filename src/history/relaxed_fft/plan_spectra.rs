@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::geometry::{Lattice, SERIES};
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::linalg::add_combined_rows;
+use crate::linalg::{add_combined_rows, smooth};
 
 /// Number of lags evaluated together.
 pub(super) const CHUNK: usize = 512;
@@ -83,21 +83,4 @@ fn cosines_and_sines(offsets: usize, length: usize) -> [Vec<f64>; 2] {
         places.map(|(offset, k)| wave(offset, k)).collect()
     };
     [all(&even), all(&odd)]
-}
-
-/// The smallest even number from `least` on with no prime factor above 5.
-pub(super) fn smooth(least: usize) -> usize {
-    let is_smooth = |mut number: usize| {
-        for factor in [2, 3, 5] {
-            while number.is_multiple_of(factor) {
-                number /= factor;
-            }
-        }
-        number == 1
-    };
-    let mut length = least.max(2).next_multiple_of(2);
-    while !is_smooth(length) {
-        length += 2;
-    }
-    length
 }

@@ -1,0 +1,152 @@
+//! Elements of a group, one in each lane, solved together with the forces of all others fixed.
+
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
+
+use super::blocks::{LANES, Lane};
+use super::problem::Problem;
+use crate::linalg::Simd;
+
+/// Numbers of a group's elements; forces and bounds of a lane without an element are zero.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Group {
+    q: [Lane; 3],
+    anchor: [Lane; 3],
+    pub(super) change: [Lane; 3],
+    /// ρ, normal and tangential.
+    rho: [Lane; 2],
+    /// Motion along x and y by a p of the same element.
+    turned: [Lane; 2],
+    /// Smallest and largest p, and the gap when closed.
+    interval: [Lane; 2],
+    offset: Lane,
+    /// Friction, and forces that add to p and to the radius.
+    friction: Lane,
+    attraction: Lane,
+    strength: Lane,
+}
+
+impl Group {
+    /// Group without elements.
+    pub(super) const NONE: Self = {
+        let zero = [0.0; LANES];
+        Self {
+            q: [zero; 3],
+            anchor: [zero; 3],
+            change: [zero; 3],
+            rho: [zero; 2],
+            turned: [zero; 2],
+            interval: [zero; 2],
+            offset: zero,
+            friction: zero,
+            attraction: zero,
+            strength: zero,
+        }
+    };
+
+    /// Numbers of these elements.
+    pub(super) fn of(problem: &Problem, elements: [usize; LANES]) -> Self {
+        let mut all = Self::NONE;
+        for (lane, e) in elements.into_iter().enumerate().filter(|(_, e)| *e < problem.count) {
+            let bounds = &problem.bounds[e];
+            for (k, i) in problem.places(e).into_iter().enumerate() {
+                all.q[k][lane] = problem.q[i];
+                all.anchor[k][lane] = problem.anchor[i];
+                all.change[k][lane] = problem.change[i];
+            }
+            (0..2).for_each(|k| all.turned[k][lane] = problem.own[e][k + 1][0]);
+            (0..2).for_each(|k| all.rho[k][lane] = problem.rho[e][k]);
+            let free = [f64::NEG_INFINITY, f64::INFINITY];
+            let interval = if bounds.bonded { free } else { bounds.interval };
+            (0..2).for_each(|k| all.interval[k][lane] = interval[k]);
+            all.offset[lane] = bounds.offset;
+            all.friction[lane] = if bounds.bonded { 0.0 } else { bounds.taken() };
+            all.attraction[lane] = bounds.attraction;
+            all.strength[lane] = if bounds.bonded { f64::INFINITY } else { bounds.strength };
+        }
+        all
+    }
+
+    /// Projects the elements once, p first, for their motions by W, without q and with the number `added` on W's
+    /// diagonal.
+    ///
+    /// Writes the changes of force to `moved`; returns the largest sum of an element, N, or NaN.
+    #[inline(always)]
+    pub(super) fn solve<S: Simd>(
+        &mut self,
+        simd: S,
+        motion: &[Lane; 3],
+        added: f64,
+        moved: &mut [Lane; 3],
+    ) -> f64 {
+        let mut most = simd.splat_f64s(0.0);
+        let mut sum = most;
+        for part in 0..LANES / S::F64_LANES {
+            let size = self.solve_part(simd, motion, added, moved, part);
+            (most, sum) = (simd.max_f64s(most, size), simd.add_f64s(sum, size));
+        }
+        let sum = simd.reduce_sum_f64s(sum);
+        if sum.is_nan() { sum } else { simd.reduce_max_f64s(most) }
+    }
+
+    /// Solves as many elements as an instruction takes; returns the sums of their changes.
+    #[inline(always)]
+    fn solve_part<S: Simd>(
+        &mut self,
+        simd: S,
+        motion: &[Lane; 3],
+        added: f64,
+        moved: &mut [Lane; 3],
+        part: usize,
+    ) -> S::f64s {
+        let (added, zero) = (simd.splat_f64s(added), simd.splat_f64s(0.0));
+        let [mut start, mut y] = [[zero; 3]; 2];
+        for k in 0..3 {
+            let change = read::<S>(&self.change[k], part);
+            start[k] = simd.add_f64s(read::<S>(&self.anchor[k], part), change);
+            let own = simd.mul_add_e_f64s(added, change, read::<S>(&self.q[k], part));
+            y[k] = simd.add_f64s(read::<S>(&motion[k], part), own);
+        }
+        let gap = simd.sub_f64s(y[0], read::<S>(&self.offset, part));
+        let trial = simd.sub_f64s(start[0], simd.mul_f64s(read::<S>(&self.rho[0], part), gap));
+        let [least, most] = &self.interval;
+        let p = simd.max_f64s(trial, read::<S>(least, part));
+        let mut r = [simd.min_f64s(p, read::<S>(most, part)), zero, zero];
+        let pressed = simd.sub_f64s(r[0], start[0]);
+        let rho = read::<S>(&self.rho[1], part);
+        for k in 1..3 {
+            let y = simd.mul_add_e_f64s(read::<S>(&self.turned[k - 1], part), pressed, y[k]);
+            r[k] = simd.sub_f64s(start[k], simd.mul_f64s(rho, y));
+        }
+        let size = simd.mul_add_e_f64s(r[1], r[1], simd.mul_f64s(r[2], r[2]));
+        let size = simd.max_f64s(simd.sqrt_f64s(size), simd.splat_f64s(f64::MIN_POSITIVE));
+        let pressing = simd.add_f64s(r[0], read::<S>(&self.attraction, part));
+        let pressing =
+            simd.mul_f64s(read::<S>(&self.friction, part), simd.max_f64s(pressing, zero));
+        let radius = simd.add_f64s(pressing, read::<S>(&self.strength, part));
+        let share = simd.min_f64s(simd.div_f64s(radius, size), simd.splat_f64s(1.0));
+        let mut sum = zero;
+        for k in 0..3 {
+            if k > 0 {
+                r[k] = simd.mul_f64s(share, r[k]);
+            }
+            let change = simd.sub_f64s(r[k], start[k]);
+            sum = simd.add_f64s(sum, simd.max_f64s(change, simd.sub_f64s(zero, change)));
+            write::<S>(&mut moved[k], part, change);
+            let anchor = read::<S>(&self.anchor[k], part);
+            write::<S>(&mut self.change[k], part, simd.sub_f64s(r[k], anchor));
+        }
+        sum
+    }
+}
+
+/// Numbers that an instruction takes.
+#[inline(always)]
+pub(super) fn read<S: Simd>(lane: &Lane, part: usize) -> S::f64s {
+    S::as_simd_f64s(lane).0[part]
+}
+
+/// Writes numbers that an instruction returns.
+#[inline(always)]
+pub(super) fn write<S: Simd>(lane: &mut Lane, part: usize, values: S::f64s) {
+    S::as_mut_simd_f64s(lane).0[part] = values;
+}
