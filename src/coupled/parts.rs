@@ -189,12 +189,7 @@ impl Parts {
         let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
-        let soil = instantaneous_operator(ground.as_ref(), &elements)?;
-        let soil = match lattice_cells(&elements) {
-            Some(cells) => Thinned::on_lattice(soil, &cells, elements.areas()),
-            None => Thinned::new(soil, start_motion.len()),
-        };
-        let soil = Arc::new(soil);
+        let soil = Arc::new(instantaneous_operator(ground.as_ref(), &elements)?);
         Ok(Self {
             structure,
             ground,
@@ -255,7 +250,7 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
 /// Step compliance of the ground; an error if it could generate energy.
 ///
 /// With rows weighted by the elements' areas, its symmetric part must not be negative.
-fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f64>> {
+fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinned> {
     const NAME: &str = "instantaneous operator of the ground";
     let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
@@ -277,7 +272,10 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Vec<f
         symmetric[row * (size + 1)] += ROUNDING;
     }
     match indefinite_pivot(&symmetric, size) {
-        None => Ok(operator),
+        None => Ok(match lattice_cells(elements) {
+            Some(cells) => Thinned::on_lattice(operator, &cells, areas),
+            None => Thinned::new(operator, size),
+        }),
         Some(row) => {
             let diagonal = operator[row * (size + 1)];
             Err(Error::Indefinite { matrix: NAME, row, diagonal })

@@ -6,7 +6,7 @@ use super::{ContactElement, SPACE};
 
 /// Largest difference of a cell from its place, relative to its sides.
 const EQUAL: f64 = 1e-9;
-/// Largest number of a lattice's cells, relative to those of elements.
+/// Largest number of cells of a lattice for each element.
 const FEW: f64 = 4.0;
 
 /// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).

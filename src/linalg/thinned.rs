@@ -36,7 +36,7 @@ impl Thinned {
 
     /// Matrix of three components of elements with these `areas` on `cells` of a lattice, component by component.
     ///
-    /// Products are those of [`Thinned::new`] if blocks over the area of their source do not depend on the offset alone.
+    /// Products are as in [`Thinned::new`] unless blocks over the area of their source depend on the offset alone.
     pub(crate) fn on_lattice(values: Vec<f64>, cells: &[[usize; 2]], areas: &[f64]) -> Self {
         let count = areas.len();
         let mut all = Self::new(values, 3 * count);

@@ -85,15 +85,7 @@ impl Blocks {
         if near.all.len() as f64 > MOST_NEAR * (count * count) as f64 {
             return None;
         }
-        let far_block = |receiver: usize, source: usize| {
-            if is_near(receiver, source) { [[0.0; 3]; 3] } else { block(receiver, source) }
-        };
-        let is_far = |source: usize, receiver: usize| far_block(receiver, source) != [[0.0; 3]; 3];
-        let far = if (0..count).any(|source| (0..count).any(|other| is_far(source, other))) {
-            Some(LatticeProduct::new(cells, &vec![1.0; count], far_block)?)
-        } else {
-            None
-        };
+        let far = far(cells, is_near, block)?;
         let modes = find_modes(w, 3 * count, |row, column| {
             soil(row, column) + if row == column { layer(row) } else { 0.0 }
         })?;
@@ -191,6 +183,23 @@ impl Blocks {
         }
         motion
     }
+}
+
+/// G without the near links, within `Some` unless it is zero; `None` if blocks of equal offset differ.
+#[allow(clippy::option_option, reason = "the outer one is a failure")]
+fn far(
+    cells: &[[usize; 2]],
+    is_near: impl Fn(usize, usize) -> bool,
+    block: impl Fn(usize, usize) -> [[f64; 3]; 3],
+) -> Option<Option<LatticeProduct>> {
+    let far = |receiver: usize, source: usize| {
+        if is_near(receiver, source) { [[0.0; 3]; 3] } else { block(receiver, source) }
+    };
+    let mut pairs = (0..cells.len()).flat_map(|e| (0..cells.len()).map(move |other| (e, other)));
+    if pairs.all(|(receiver, source)| far(receiver, source) == [[0.0; 3]; 3]) {
+        return Some(None);
+    }
+    LatticeProduct::new(cells, &vec![1.0; cells.len()], far).map(Some)
 }
 
 impl Links {
