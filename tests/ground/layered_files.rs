@@ -84,31 +84,32 @@ pub(super) fn march(
 /// Coefficients of a ground in plan: the same from a file, of which only its own cells take them.
 #[test]
 fn files_in_plan_are_taken_to_the_last_bit() {
-    let file = Temporary::new("plan");
-    let plan = |cells| Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
-    let ground = |plan| {
-        let ground = ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan).unwrap();
-        ground.with_kernel_file(&file.0)
-    };
-    let march = |mut ground: ElasticGround| march(&mut ground, 0.2, LAGS);
-    let wanted = march(ElasticGround::in_plan(p1(gmb(5), gmb(1)), plan(3)).unwrap()).unwrap();
-    assert!(march(ground(plan(3))).unwrap() == wanted);
-    let written = std::fs::read(&file.0).unwrap();
-    // Six classes of six kinds, two blocks of lags, and six words around them.
-    assert_eq!(written.len(), 8 * (6 * 6 * 256 + 6));
-    assert!(march(ground(plan(3))).unwrap() == wanted);
-    assert!(std::fs::read(&file.0).unwrap() == written);
-    // A file of which one bit is wrong is refused; one with other numbers and their checksum is believed.
-    let forged = rewritten(&written, true, |words| words[300] ^= 1 << 40);
-    std::fs::write(&file.0, rewritten(&written, false, |words| words[300] ^= 1 << 40)).unwrap();
-    assert!(is_damaged(&fault(march(ground(plan(3))))));
-    std::fs::write(&file.0, forged).unwrap();
-    assert!(march(ground(plan(3))).unwrap() != wanted);
-    // Other cells make it anew.
-    march(ground(plan(2))).unwrap();
-    assert_ne!(std::fs::read(&file.0).unwrap().len(), written.len());
-    assert!(march(ground(plan(3))).unwrap() == wanted);
-    assert!(std::fs::read(&file.0).unwrap() == written);
+    let half_space = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
+    for profile in [half_space, p1(gmb(5), gmb(1))] {
+        let file = Temporary::new("plan");
+        let plan = |cells| Plan::rectangle(-1.0..1.0, -1.0..1.0, cells).unwrap();
+        let alone = |plan| ElasticGround::in_plan(profile.clone(), plan).unwrap();
+        let ground = |plan| alone(plan).with_kernel_file(&file.0);
+        let march = |mut ground: ElasticGround| march(&mut ground, 0.2, LAGS);
+        let wanted = march(alone(plan(3))).unwrap();
+        assert!(march(ground(plan(3))).unwrap() == wanted);
+        let written = std::fs::read(&file.0).unwrap();
+        // Six classes of six kinds, two blocks of lags, and six words around them.
+        assert_eq!(written.len(), 8 * (6 * 6 * 256 + 6));
+        assert!(march(ground(plan(3))).unwrap() == wanted);
+        assert!(std::fs::read(&file.0).unwrap() == written);
+        // A file of which one bit is wrong is refused; one with other numbers and their checksum is believed.
+        let forged = rewritten(&written, true, |words| words[300] ^= 1 << 40);
+        std::fs::write(&file.0, rewritten(&written, false, |words| words[300] ^= 1 << 40)).unwrap();
+        assert!(is_damaged(&fault(march(ground(plan(3))))));
+        std::fs::write(&file.0, forged).unwrap();
+        assert!(march(ground(plan(3))).unwrap() != wanted);
+        // Other cells make it anew.
+        march(ground(plan(2))).unwrap();
+        assert_ne!(std::fs::read(&file.0).unwrap().len(), written.len());
+        assert!(march(ground(plan(3))).unwrap() == wanted);
+        assert!(std::fs::read(&file.0).unwrap() == written);
+    }
 }
 
 fn fault(found: Result<Vec<u64>, Error>) -> FileFault {

@@ -165,11 +165,3 @@ pub(crate) fn last_block(lag: usize) -> Result<usize> {
     require("lag of a layered ground", lag as f64, lag <= most, "at most 2147483648")?;
     Ok(Block::place(lag).0)
 }
-
-/// Number of threads for one block.
-pub(crate) fn threads() -> usize {
-    #[cfg(feature = "rayon")]
-    return rayon::current_num_threads();
-    #[cfg(not(feature = "rayon"))]
-    1
-}

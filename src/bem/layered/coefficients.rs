@@ -18,8 +18,7 @@
 //! Lags N+1 … 2N always use L = 4N, N a power of two, so that the bits of a lag depend on nothing else.
 
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
@@ -27,6 +26,7 @@ use super::contour::{
     Circle, CirclePanel, POINTS, Panels, Polynomials, evaluate, factor, own_classes,
 };
 use super::runge_kutta::{Node, Stages, on_circle};
+use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
 use crate::error::{Error, Result, Watch};
 use crate::history::{KINDS as STRIP_KINDS, PairClasses};
@@ -353,41 +353,14 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         samples: &mut Samples,
     ) -> Result<Vec<[Complex; KINDS]>> {
         let mut values = vec![[Complex::default(); KINDS]; places.len() * self.classes];
-        let queue = Mutex::new(places.iter().zip(values.chunks_mut(self.classes)).enumerate());
-        let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-        let work = |after: &mut dyn FnMut(usize) -> Result<()>| {
-            let mut work = I::Workspace::default();
-            let mut scratch = vec![[Complex::default(); KINDS]; self.classes];
-            while !stopped.load(Ordering::Relaxed) {
-                // If a thread panics, its queue stays valid.
-                let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
-                let Some((number, (place, sums))) = next else { break };
-                let own = self.nodes(*place).nth(node);
-                own.map_or(Ok(()), |node| self.add(node, &mut work, &mut scratch, sums))
-                    .map_err(|error| (number, error))?;
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                after(done).map_err(|error| (number, error))?;
-            }
-            Ok(())
+        let items = places.iter().zip(values.chunks_mut(self.classes));
+        let add = |(work, scratch): &mut (_, Vec<_>), (place, sums): (&[f64; 2], &mut [_])| {
+            scratch.resize(self.classes, [Complex::default(); KINDS]);
+            let own = self.nodes(*place).nth(node);
+            own.map_or(Ok(()), |node| self.add(node, work, scratch, sums))
         };
-        // Separate threads instead of a pool: a waiting worker of a pool may start other work, which may wait
-        // for these weights.
-        let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
-            let others: Vec<_> =
-                (1..threads).map(|_| scope.spawn(|| work(&mut |_| Ok(())))).collect();
-            let own = work(&mut |done| samples.reach(done)).err();
-            stopped.store(own.is_some(), Ordering::Relaxed);
-            let joined = others.into_iter().map(|thread| match thread.join() {
-                Ok(outcome) => outcome.err(),
-                // A user's damping law may panic; the panic is passed on.
-                Err(panic) => std::panic::resume_unwind(panic),
-            });
-            let others = joined.collect::<Vec<_>>().into_iter().flatten();
-            own.into_iter().chain(others).collect()
-        });
-        samples.done += done.into_inner();
-        failed.sort_by_key(|(number, _)| *number);
-        failed.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))?;
+        on_threads(threads, items, add, |done| samples.reach(done))?;
+        samples.done += places.len();
         Ok(values)
     }
 }

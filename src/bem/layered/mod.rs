@@ -6,7 +6,8 @@
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
 //! | passivity | the gate that checks convolution weights |
-//! | kept | blocks of convolution weights in memory and in a file |
+//! | block_store, block_file | blocks of convolution weights in memory and in a file |
+//! | threads | work on several threads |
 //! | weights | convolution weights for a history |
 //! | static_compliance, impedance | statics, rigid strips at one frequency |
 
@@ -24,6 +25,7 @@ mod static_compliance;
 mod tail;
 #[cfg(test)]
 pub(super) mod test_profiles;
+mod threads;
 mod wavenumber;
 mod weights;
 
@@ -41,5 +43,6 @@ pub use runge_kutta::Stages;
 pub(super) use runge_kutta::on_circle;
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{REACH, on_grid, surface_series};
+pub(super) use threads::{on_threads, threads};
 pub(super) use wavenumber::{Compliances, deep, surface_outlook, unresolved};
 pub(super) use weights::{QuadratureWeights, StripWeights};

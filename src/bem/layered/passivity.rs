@@ -3,6 +3,7 @@
 use realfft::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
+use super::threads::{on_threads, threads};
 use super::wavenumber::Compliances;
 use crate::error::{Error, Result, Watch};
 use crate::history::PairClasses;
@@ -11,6 +12,8 @@ use crate::text::check_sum::CheckSum;
 
 /// Radius of the circle of the check.
 pub(crate) const RADIUS: f64 = 0.99;
+/// Largest number of threads: each takes two matrices of all pairs.
+const THREADS: usize = 8;
 
 /// ln |z| and angle of `count` points on the upper half of the circle.
 pub(crate) fn places(count: usize) -> impl Iterator<Item = [f64; 2]> {
@@ -32,27 +35,28 @@ pub(crate) fn check<I: Compliances<KINDS>, const KINDS: usize>(
 ) -> Result<u64> {
     let order = classes.layout().len();
     let allowed = -quadrature.tolerance * order as f64;
-    let mut work = I::Workspace::default();
-    let mut scratch = vec![[Complex::default(); KINDS]; classes.count()];
-    let mut values = scratch.clone();
+    let mut values = vec![[Complex::default(); KINDS]; I::GATE_POINTS * classes.count()];
+    let points = places(I::GATE_POINTS).zip(values.chunks_mut(classes.count()));
+    let test = |(work, scratch): &mut (_, Vec<_>), (place, values): ([f64; 2], &mut [_])| {
+        scratch.resize(classes.count(), [Complex::default(); KINDS]);
+        quadrature.mobility(place, work, scratch, values)?;
+        if classes.exceeds(allowed, own(values), |_, pair| real(&values[pair.class])) {
+            return Ok(());
+        }
+        let margin = margin(classes, values);
+        if margin >= allowed {
+            return Ok(());
+        }
+        let (quantity, [_, angle]) = ("mobility of the convolution weights", place);
+        Err(Error::NotPassive { quantity, margin, allowed, angle, radius: RADIUS })
+    };
+    on_threads(threads().min(THREADS), points, test, |done| watch.reach(done))?;
     let mut fingerprint = CheckSum::default();
     let sizes = [quadrature.time_step, quadrature.tolerance, quadrature.stages.count() as f64];
     sizes.iter().chain(mesh).for_each(|number| fingerprint.add_number(*number));
-    for (point, [logarithm, angle]) in places(I::GATE_POINTS).enumerate() {
-        quadrature.mobility([logarithm, angle], &mut work, &mut scratch, &mut values)?;
-        watch.reach(point + 1)?;
-        let passes = classes.exceeds(allowed, own(&values), |_, pair| real(&values[pair.class]));
-        if !passes {
-            let margin = margin(classes, &values);
-            if margin.is_nan() || margin < allowed {
-                let (quantity, radius) = ("mobility of the convolution weights", RADIUS);
-                return Err(Error::NotPassive { quantity, margin, allowed, angle, radius });
-            }
-        }
-        for value in values.iter().flatten() {
-            fingerprint.add_number(value.re);
-            fingerprint.add_number(value.im);
-        }
+    for value in values.iter().flatten() {
+        fingerprint.add_number(value.re);
+        fingerprint.add_number(value.im);
     }
     Ok(fingerprint.value())
 }

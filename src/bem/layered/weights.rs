@@ -3,10 +3,11 @@
 use std::ops::Range;
 use std::path::PathBuf;
 
-use super::block_store::{BlockStore, copy_lags, last_block, threads};
+use super::block_store::{BlockStore, copy_lags, last_block};
 use super::coefficients::{Block, Quadrature, Samples};
 use super::passivity;
 use super::runge_kutta::Stages;
+use super::threads::threads;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
 use crate::geometry::{ContactElement, SERIES};
@@ -84,7 +85,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     }
 
     /// Runs the passivity gate, and returns the fingerprint of the weights.
-    fn admit(&self, watch: &mut Watch) -> Result<u64> {
+    pub(in crate::bem) fn admit(&self, watch: &mut Watch) -> Result<u64> {
         self.blocks.gate(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
             passivity::check(&self.quadrature, self.gate(), &self.mesh, watch)

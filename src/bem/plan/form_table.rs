@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 
 use super::corner_waves::{CornerWaves, Scratch};
 use super::forms::{AngularMeans, FORMS, integrals};
-use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid};
+use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid, on_threads, threads};
 use crate::error::{GroundError, Result, Watch, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
@@ -30,6 +30,8 @@ const SHORT: f64 = 8.0;
 const END: f64 = 64.0;
 /// Smallest ratio of K* to |√q₂|.
 const SPREAD: f64 = 16.0;
+/// Number of panels whose forms are computed before they are summed.
+const BATCH: usize = 32;
 /// Number of panels on which forms are sums over directions; beyond, they are waves from corners.
 const DIRECT: usize = 64;
 /// Largest number of operations for a table and for the compliances that use it: a minute or two.
@@ -230,7 +232,6 @@ impl FormTable {
         let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
         let mut tabulated =
             Tabulated { values: FormRows::new(kept.end() * POINTS, classes), tails: vec![] };
-        let mut forms = PanelForms::new(self);
         let mut sums = FormRows::new(TERMS, classes);
         // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
         let [last, star] =
@@ -240,9 +241,8 @@ impl FormTable {
             power *= (unit / star).powi(2);
             0.5 * power / (term as f64 + 1.0)
         });
-        for panel in (0..end).rev() {
-            watch.reach(0)?;
-            let rows = forms.on(panel, &self.rule.nodes).chunks_exact(FORMS * classes);
+        self.backwards(watch, |panel, values| {
+            let rows = values.chunks_exact(FORMS * classes);
             for (i, (node, values)) in self.rule.nodes.iter().zip(rows).enumerate() {
                 let k = self.wavenumber(panel, *node);
                 if panel < *kept.end() {
@@ -261,7 +261,7 @@ impl FormTable {
                 let forms = sums.forms.clone();
                 tabulated.tails.push((panel, FormRows { forms, classes }));
             }
-        }
+        })?;
         // The rest is the known total minus the sum.
         for (class, offset) in list.iter().enumerate() {
             let totals = integrals(self.lattice.pitch, *offset);
@@ -278,6 +278,22 @@ impl FormTable {
         }
         // Another thread may have been first, with the same result.
         let _ = self.tabulated.set(tabulated);
+        Ok(())
+    }
+
+    /// Calls `take` with each panel up to K*, from the last to the first, and its forms at all points.
+    fn backwards(&self, watch: &mut Watch, mut take: impl FnMut(usize, &[f64])) -> Result<()> {
+        let (panels, mut batch) = ((0..self.end).rev().collect::<Vec<_>>(), vec![vec![]; BATCH]);
+        for panels in panels.chunks(BATCH) {
+            let fill = |forms: &mut Option<_>, (panel, values): (&usize, &mut Vec<f64>)| {
+                let forms = forms.get_or_insert_with(|| PanelForms::new(self));
+                values.clear();
+                values.extend_from_slice(forms.on(*panel, &self.rule.nodes));
+                Ok(())
+            };
+            on_threads(threads(), panels.iter().zip(&mut batch), fill, |_| watch.reach(0))?;
+            panels.iter().zip(&batch).for_each(|(panel, values)| take(*panel, values));
+        }
         Ok(())
     }
 

@@ -163,3 +163,20 @@ fn bad_requests_are_told() {
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));
 }
+
+/// Tables of forms, the passivity check and blocks have the same bits on any number of threads.
+#[cfg(feature = "rayon")]
+#[test]
+fn threads_change_no_bit() {
+    let bits = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let kernel = kernel(half_space(), &square(), Stages::Two);
+            let fingerprint = kernel.admit(&mut crate::error::Watch::nobody()).unwrap();
+            let weights = weights(&kernel, 200).into_iter().flatten().flatten();
+            weights.map(f64::to_bits).chain([fingerprint]).collect::<Vec<_>>()
+        })
+    };
+    let alone = bits(1);
+    assert!(bits(2) == alone && bits(5) == alone);
+}

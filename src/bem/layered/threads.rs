@@ -1,0 +1,92 @@
+//! Work on several threads, with results that do not depend on their number.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use crate::error::{Error, Result};
+
+/// Number of threads: of all processors with the feature `rayon`, otherwise one.
+pub(in crate::bem) fn threads() -> usize {
+    #[cfg(feature = "rayon")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "rayon"))]
+    1
+}
+
+/// Calls `work` once for each item, on `threads` threads with a workspace each.
+///
+/// `after` is called on this thread, with the number of items done so far; its error stops all threads.
+///
+/// # Errors
+/// The first error in the order of the items.
+pub(in crate::bem) fn on_threads<T: Send, W: Default>(
+    threads: usize,
+    items: impl Iterator<Item = T> + Send,
+    work: impl Fn(&mut W, T) -> Result<()> + Sync,
+    mut after: impl FnMut(usize) -> Result<()>,
+) -> Result<()> {
+    let queue = Mutex::new(items.enumerate());
+    let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let take = |after: &mut dyn FnMut(usize) -> Result<()>| {
+        let mut own = W::default();
+        while !stopped.load(Ordering::Relaxed) {
+            // If a thread panics, its queue stays valid.
+            let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
+            let Some((number, item)) = next else { break };
+            work(&mut own, item).map_err(|error| (number, error))?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            after(done).map_err(|error| (number, error))?;
+        }
+        Ok(())
+    };
+    // Separate threads instead of a pool: a waiting worker of a pool may start other work, which may wait for the
+    // results of these threads.
+    let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(|| take(&mut |_| Ok(())))).collect();
+        let own = take(&mut after).err();
+        stopped.store(own.is_some(), Ordering::Relaxed);
+        let joined = others.into_iter().map(|thread| match thread.join() {
+            Ok(outcome) => outcome.err(),
+            // A user's damping law may panic; the panic is passed on.
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        let others = joined.collect::<Vec<_>>().into_iter().flatten();
+        own.into_iter().chain(others).collect()
+    });
+    failed.sort_by_key(|(number, _)| *number);
+    failed.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::error::positive;
+
+    /// Each item is done once; the first item that fails is the error, whichever thread was first.
+    #[test]
+    fn threads_do_all_items_or_return_the_first_error() {
+        for threads in [1, 2, 5] {
+            let mut squares = vec![0; 100];
+            let (calls, mut last) = (AtomicUsize::new(0), 0);
+            let work = |own: &mut usize, (item, square): (usize, &mut usize)| {
+                *own += 1;
+                *square += item * item;
+                calls.fetch_add(1, Ordering::Relaxed);
+                Ok(())
+            };
+            let after = |done| {
+                last = done;
+                Ok(())
+            };
+            on_threads(threads, (0..100).zip(&mut squares), work, after).unwrap();
+            assert!(squares.iter().enumerate().all(|(item, square)| *square == item * item));
+            assert!(calls.into_inner() == 100 && last <= 100);
+
+            let fail = |(): &mut (), item: usize| positive("item", 6.5 - item as f64).map(|_| ());
+            let found = on_threads(threads, 0..100, fail, |_| Ok(()));
+            assert!(matches!(found, Err(Error::Input { value: -0.5, .. })), "{found:?}");
+            let stop = |done: usize| positive("rest", 3.0 - done as f64).map(|_| ());
+            assert!(on_threads(threads, 0..100, |(): &mut (), _| Ok(()), stop).is_err());
+        }
+    }
+}
