@@ -139,7 +139,7 @@
 //! | `reference` | `reference`: closed forms from the literature, to check against |
 //! | `plot` | `plot`: pictures of time series, contact, spectra and shapes, as SVG; `results::DeformedShape` |
 //! | `png` | `plot`, and the same pictures as PNG |
-//! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground, on all processors |
+//! | `rayon` | [`sweep::Sweep`], and coefficients of layered ground and in plan, on all processors |
 //! | `serde` | `Serialize` and `Deserialize` of settings, results, records and [`Checkpoint`](coupled::Checkpoint)s |
 //! | `npz` | [`results::TimeSeries`] as an archive of NumPy's arrays |
 //!

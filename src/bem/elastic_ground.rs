@@ -194,7 +194,8 @@ impl ElasticGround {
 
     /// Reads convolution weights from the file `path`, and adds missing weights to it.
     ///
-    /// The closed form needs no file.
+    /// The closed form of the half-plane needs no file; a half-space in plan has weights as layers have. In plan a table of
+    /// form factors and the check of passivity are computed again.
     ///
     /// Weights from a file equal computed ones to the last bit. A file of another profile, mesh, step, accuracy,
     /// machine or format is replaced. A damaged file, or a file with other content, stays unchanged and causes an

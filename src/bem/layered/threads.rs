@@ -62,7 +62,7 @@ mod tests {
     use super::*;
     use crate::error::positive;
 
-    /// Each item is done once; the first item that fails is the error, whichever thread was first.
+    /// Each item is done once; the error is of the first item that fails, whichever thread ends first.
     #[test]
     fn threads_do_all_items_or_return_the_first_error() {
         for threads in [1, 2, 5] {
@@ -82,7 +82,12 @@ mod tests {
             assert!(squares.iter().enumerate().all(|(item, square)| *square == item * item));
             assert!(calls.into_inner() == 100 && last <= 100);
 
-            let fail = |(): &mut (), item: usize| positive("item", 6.5 - item as f64).map(|_| ());
+            // The first item fails last.
+            let fail = |(): &mut (), item: usize| {
+                let wait = std::time::Duration::from_millis(if item == 0 { 100 } else { 0 });
+                std::thread::sleep(wait);
+                positive("item", -0.5 - item as f64).map(|_| ())
+            };
             let found = on_threads(threads, 0..100, fail, |_| Ok(()));
             assert!(matches!(found, Err(Error::Input { value: -0.5, .. })), "{found:?}");
             let stop = |done: usize| positive("rest", 3.0 - done as f64).map(|_| ());

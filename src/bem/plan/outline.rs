@@ -130,7 +130,8 @@ pub(super) fn error(faces: &[Face], mats: &[usize], pitch: [f64; 2]) -> f64 {
         let area: f64 = own.iter().map(|face| face.area()).sum();
         ERROR * (pitch[0] * pitch[1]).sqrt() * Face::oblique_edges(&own, OBLIQUE) / area
     };
-    mats.iter().map(|mat| error(*mat)).fold(0.0, f64::max)
+    let count = mats.iter().max().map_or(0, |last| last + 1);
+    (0..count).map(error).fold(0.0, f64::max)
 }
 
 impl Grid {

@@ -16,6 +16,7 @@ mod plots;
 mod report;
 mod scene;
 mod settings;
+mod space;
 mod sweep;
 
 use std::path::PathBuf;
@@ -44,6 +45,9 @@ pub(crate) struct Options {
     /// Only the lines of error against time of structures of 300 to 30 000 degrees of freedom.
     #[arg(long)]
     pub(crate) front: bool,
+    /// Only structures of shells in three directions, raft and cells refined together.
+    #[arg(long)]
+    pub(crate) space: bool,
     /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     pub(crate) repeats: u8,
@@ -51,6 +55,9 @@ pub(crate) struct Options {
 
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
+    if options.space {
+        return space::run(options.short, options.docs.is_some());
+    }
     if options.front {
         let bar = ProgressBar::new(0);
         let lines = front::run(options.short, options.repeats, &bar)?;

@@ -137,7 +137,8 @@ fn capitalised(text: &str) -> String {
     letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
 }
 
-fn machine() -> String {
+/// Processor and compiler.
+pub(crate) fn machine() -> String {
     let compiler = told_by("rustc", &["--version"]);
     let compiler = compiler.split(" (").next().unwrap_or_default();
     format!("Machine: {}, one thread of {}; {compiler}.", processor("model name"), threads())
