@@ -8,20 +8,16 @@
 
 use std::collections::HashMap;
 
-use super::group::{read, write};
+use super::group::{LANES, Lane, read, write};
 use super::modes::{RANK, find_modes};
 use crate::geometry::offset;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
-/// Number of elements of a group.
-pub(super) const LANES: usize = 8;
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
 const NEAR: f64 = 3e-3;
 /// Largest number of elements near one, relative to all.
 const MOST_NEAR: f64 = 0.3;
 
-/// A number for each element of a group.
-pub(super) type Lane = [f64; LANES];
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
 type Block = [[f64; 4]; 3];
 

@@ -2,27 +2,31 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
-use super::blocks::{LANES, Lane};
-use super::problem::Problem;
 use crate::linalg::Simd;
+
+/// Number of elements of a group.
+pub(super) const LANES: usize = 8;
+
+/// A number for each element of a group.
+pub(super) type Lane = [f64; LANES];
 
 /// Numbers of a group's elements; forces and bounds of a lane without an element are zero.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Group {
-    q: [Lane; 3],
-    anchor: [Lane; 3],
+    pub(super) q: [Lane; 3],
+    pub(super) anchor: [Lane; 3],
     pub(super) change: [Lane; 3],
     /// ρ, normal and tangential.
-    rho: [Lane; 2],
+    pub(super) rho: [Lane; 2],
     /// Motion along x and y by a p of the same element.
-    turned: [Lane; 2],
+    pub(super) turned: [Lane; 2],
     /// Smallest and largest p, and the gap when closed.
-    interval: [Lane; 2],
-    offset: Lane,
+    pub(super) interval: [Lane; 2],
+    pub(super) offset: Lane,
     /// Friction, and forces that add to p and to the radius.
-    friction: Lane,
-    attraction: Lane,
-    strength: Lane,
+    pub(super) friction: Lane,
+    pub(super) attraction: Lane,
+    pub(super) strength: Lane,
 }
 
 impl Group {
@@ -42,29 +46,6 @@ impl Group {
             strength: zero,
         }
     };
-
-    /// Numbers of these elements.
-    pub(super) fn of(problem: &Problem, elements: [usize; LANES]) -> Self {
-        let mut all = Self::NONE;
-        for (lane, e) in elements.into_iter().enumerate().filter(|(_, e)| *e < problem.count) {
-            let bounds = &problem.bounds[e];
-            for (k, i) in problem.places(e).into_iter().enumerate() {
-                all.q[k][lane] = problem.q[i];
-                all.anchor[k][lane] = problem.anchor[i];
-                all.change[k][lane] = problem.change[i];
-            }
-            (0..2).for_each(|k| all.turned[k][lane] = problem.own[e][k + 1][0]);
-            (0..2).for_each(|k| all.rho[k][lane] = problem.rho[e][k]);
-            let free = [f64::NEG_INFINITY, f64::INFINITY];
-            let interval = if bounds.bonded { free } else { bounds.interval };
-            (0..2).for_each(|k| all.interval[k][lane] = interval[k]);
-            all.offset[lane] = bounds.offset;
-            all.friction[lane] = if bounds.bonded { 0.0 } else { bounds.taken() };
-            all.attraction[lane] = bounds.attraction;
-            all.strength[lane] = if bounds.bonded { f64::INFINITY } else { bounds.strength };
-        }
-        all
-    }
 
     /// Projects the elements once, p first, for their motions by W, without q and with the number `added` on W's
     /// diagonal.

@@ -17,7 +17,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::blocks::Blocks;
-use super::group::Group;
+use super::group::{Group, LANES};
 use super::wide::Wide;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
@@ -179,6 +179,29 @@ impl Problem {
     fn block(&self, e: usize) -> [[f64; 3]; 3] {
         let places = self.places(e);
         places.map(|i| places.map(|j| self.w[i * self.size() + j]))
+    }
+
+    /// Numbers of these elements.
+    pub(super) fn group(&self, elements: [usize; LANES]) -> Group {
+        let mut all = Group::NONE;
+        for (lane, e) in elements.into_iter().enumerate().filter(|(_, e)| *e < self.count) {
+            let bounds = &self.bounds[e];
+            for (k, i) in self.places(e).into_iter().enumerate() {
+                all.q[k][lane] = self.q[i];
+                all.anchor[k][lane] = self.anchor[i];
+                all.change[k][lane] = self.change[i];
+            }
+            (0..2).for_each(|k| all.turned[k][lane] = self.own[e][k + 1][0]);
+            (0..2).for_each(|k| all.rho[k][lane] = self.rho[e][k]);
+            let free = [f64::NEG_INFINITY, f64::INFINITY];
+            let interval = if bounds.bonded { free } else { bounds.interval };
+            (0..2).for_each(|k| all.interval[k][lane] = interval[k]);
+            all.offset[lane] = bounds.offset;
+            all.friction[lane] = if bounds.bonded { 0.0 } else { bounds.taken() };
+            all.attraction[lane] = bounds.attraction;
+            all.strength[lane] = if bounds.bonded { f64::INFINITY } else { bounds.strength };
+        }
+        all
     }
 
     /// Takes the blocks of W, if there are any.

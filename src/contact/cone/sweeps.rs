@@ -2,10 +2,8 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
-use super::blocks::LANES;
-use super::group::Group;
+use super::group::LANES;
 use super::problem::{Bounds, Problem};
-use super::wide::sweep_wide;
 use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
 
 /// Largest number of projections of an element in a sweep.
@@ -103,7 +101,7 @@ impl Problem {
         let mut groups = std::mem::take(&mut self.groups);
         let elements = self.blocks.iter().flat_map(|blocks| &blocks.groups);
         for (group, elements) in groups.iter_mut().zip(elements) {
-            *group = Group::of(self, *elements);
+            *group = self.group(*elements);
         }
         self.groups = groups;
     }
@@ -136,9 +134,9 @@ impl Problem {
     }
 
     /// Solves all elements in turn, as [`Problem::relax`]; returns the largest change, N, or NaN.
-    fn relax_all(&mut self, least: f64) -> f64 {
+    pub(super) fn relax_all(&mut self, least: f64) -> f64 {
         if self.wide.is_some() {
-            return sweep_wide(self, least);
+            return vectorized(WideSweep { problem: self, least });
         }
         (0..self.count).map(|e| self.relax(e, least)).fold(0.0, larger)
     }
@@ -168,7 +166,7 @@ impl Problem {
 ///
 /// It is projected until it changes by no more than `least`.
 #[inline(always)]
-pub(super) fn alone(
+fn alone(
     bounds: &Bounds,
     [normal, tangential]: [f64; 2],
     block: &[[f64; 3]; 3],
@@ -202,7 +200,7 @@ pub(super) fn alone(
 
 /// The larger of two changes, or NaN.
 #[inline(always)]
-pub(super) fn larger(most: f64, change: f64) -> f64 {
+fn larger(most: f64, change: f64) -> f64 {
     if change <= most { most } else { change }
 }
 
@@ -221,6 +219,45 @@ impl WithSimd for Sweep<'_> {
             let largest = group.solve(simd, &blocks.motion(simd, g), *added, &mut moved);
             blocks.push(simd, g, &moved);
             most = larger(most, largest);
+        }
+        most
+    }
+}
+
+/// A sweep by tables: all elements in turn, each until its force changes by no more than `least`.
+struct WideSweep<'a> {
+    problem: &'a mut Problem,
+    least: f64,
+}
+
+impl WithSimd for WideSweep<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let Self { problem, least } = self;
+        let mut most = 0.0;
+        for e in 0..problem.count {
+            let places = problem.places(e);
+            let (mut start, mut change) = ([0.0; 3], [0.0; 3]);
+            for k in 0..3 {
+                (start[k], change[k]) = (problem.force(places[k]), problem.change[places[k]]);
+            }
+            let Some(wide) = &mut problem.wide else { return f64::NAN };
+            let mut y = wide.motion(e, change);
+            for k in 0..3 {
+                y[k] += problem.q[places[k]] + problem.added * change[k];
+            }
+            let r = alone(&problem.bounds[e], problem.rho[e], &problem.own[e], start, y, least);
+            let mut moved = [0.0; 3];
+            for k in 0..3 {
+                moved[k] = r[k] - start[k];
+                problem.change[places[k]] = r[k] - problem.anchor[places[k]];
+            }
+            if moved != [0.0; 3] {
+                wide.push(simd, e, moved);
+            }
+            most = larger(most, moved[0].abs() + moved[1].abs() + moved[2].abs());
         }
         most
     }

@@ -3,9 +3,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
 use super::modes::find_modes;
-use super::problem::Problem;
-use super::sweeps::{alone, larger};
-use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
+use crate::linalg::{LatticeProduct, LatticeScratch, Simd};
 
 /// W = G + L Lᵀ: soil and structure.
 pub(super) struct Wide {
@@ -111,7 +109,7 @@ impl Wide {
 
     /// Adds the motion of all elements by a force on one.
     #[inline(always)]
-    fn push<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
+    pub(super) fn push<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
         let ([columns, rows], [i, j]) = (self.counts, self.cells[e]);
         let width = 2 * columns - 1;
         for (motions, tables) in self.motions.iter_mut().zip(&self.tables) {
@@ -141,48 +139,5 @@ impl Wide {
         for (amplitude, mode) in self.amplitudes.iter_mut().zip(&self.modes[e * self.rank..]) {
             *amplitude += mode[0] * force[0] + mode[1] * force[1] + mode[2] * force[2];
         }
-    }
-}
-
-/// Solves all elements in turn, each until its force changes by no more than `least`; returns the largest change, N.
-pub(super) fn sweep_wide(problem: &mut Problem, least: f64) -> f64 {
-    vectorized(Sweep { problem, least })
-}
-
-struct Sweep<'a> {
-    problem: &'a mut Problem,
-    least: f64,
-}
-
-impl WithSimd for Sweep<'_> {
-    type Output = f64;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> f64 {
-        let Self { problem, least } = self;
-        let mut most = 0.0;
-        for e in 0..problem.count {
-            let places = problem.places(e);
-            let (mut start, mut change) = ([0.0; 3], [0.0; 3]);
-            for k in 0..3 {
-                (start[k], change[k]) = (problem.force(places[k]), problem.change[places[k]]);
-            }
-            let Some(wide) = &mut problem.wide else { return f64::NAN };
-            let mut y = wide.motion(e, change);
-            for k in 0..3 {
-                y[k] += problem.q[places[k]] + problem.added * change[k];
-            }
-            let r = alone(&problem.bounds[e], problem.rho[e], &problem.own[e], start, y, least);
-            let mut moved = [0.0; 3];
-            for k in 0..3 {
-                moved[k] = r[k] - start[k];
-                problem.change[places[k]] = r[k] - problem.anchor[places[k]];
-            }
-            if moved != [0.0; 3] {
-                wide.push(simd, e, moved);
-            }
-            most = larger(most, moved[0].abs() + moved[1].abs() + moved[2].abs());
-        }
-        most
     }
 }
