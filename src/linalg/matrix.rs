@@ -1,7 +1,12 @@
 //! Matrices of a structure: sparse in its degrees of freedom, diagonal in its modes.
 
+use std::sync::Arc;
+
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, weighted_dot};
+
+/// Number of vectors that a matrix multiplies together.
+const WIDTH: usize = 8;
 
 /// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;
@@ -26,10 +31,10 @@ pub(crate) fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
 /// Square sparse matrix, compressed by rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SparseMatrix {
-    order: usize,
-    row_start: Vec<usize>,
-    column: Vec<usize>,
-    value: Vec<f64>,
+    pub(super) order: usize,
+    pub(super) row_start: Vec<usize>,
+    pub(super) column: Vec<usize>,
+    pub(super) value: Vec<f64>,
 }
 
 impl SparseMatrix {
@@ -182,43 +187,30 @@ impl SparseMatrix {
         }
     }
 
+    /// A x of many vectors, one after the other.
+    pub(crate) fn times(&self, vectors: &[f64]) -> Vec<f64> {
+        let n = self.order.max(1);
+        let mut products = vec![0.0; vectors.len()];
+        let mut beside = vec![[0.0; WIDTH]; self.order];
+        for (x, y) in vectors.chunks(WIDTH * n).zip(products.chunks_mut(WIDTH * n)) {
+            for (k, x) in x.chunks_exact(n).enumerate() {
+                beside.iter_mut().zip(x).for_each(|(own, x)| own[k] = *x);
+            }
+            for row in 0..self.order {
+                let mut sums = [0.0; WIDTH];
+                let own = self.row_start[row]..self.row_start[row + 1];
+                for (&column, a) in self.column[own.clone()].iter().zip(&self.value[own]) {
+                    sums.iter_mut().zip(&beside[column]).for_each(|(sum, x)| *sum += a * x);
+                }
+                y.chunks_exact_mut(n).zip(sums).for_each(|(y, sum)| y[row] = sum);
+            }
+        }
+        products
+    }
+
     /// x·A y.
     pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
         x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
-    }
-
-    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
-    pub(crate) fn asymmetry(&self) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut difference = 0.0_f64;
-        for (row, column, value) in self.entries() {
-            largest = largest.max(value.abs());
-            difference = difference.max((value - self.entry(column, row)).abs());
-        }
-        if largest > 0.0 { difference / largest } else { 0.0 }
-    }
-
-    /// Row, column, a_ij and a_ji of the pair whose difference most exceeds the difference `allowed` in its row and
-    /// column.
-    pub(crate) fn unsymmetric_pair(
-        &self,
-        allowed: impl Fn(usize, usize) -> f64,
-    ) -> Option<(usize, usize, [f64; 2])> {
-        let pairs = self.entries().map(|(row, column, value)| {
-            let pair = [value, self.entry(column, row)];
-            let excess = (pair[0] - pair[1]).abs() - allowed(row, column);
-            (excess, (row, column, pair))
-        });
-        let beyond = pairs.filter(|(excess, _)| *excess > 0.0);
-        // Of equal ones the first.
-        beyond.reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, pair)| pair)
-    }
-
-    /// a_ij.
-    fn entry(&self, row: usize, column: usize) -> f64 {
-        let range = self.row_start[row]..self.row_start[row + 1];
-        let found = self.column[range.clone()].binary_search(&column);
-        found.map_or(0.0, |k| self.value[range.start + k])
     }
 }
 
@@ -226,7 +218,7 @@ impl SparseMatrix {
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
     /// Matrix in the structure's own degrees of freedom.
-    Sparse(SparseMatrix),
+    Sparse(Arc<SparseMatrix>),
     /// Diagonal of the matrix in modal coordinates.
     Diagonal(Vec<f64>),
 }
@@ -249,12 +241,13 @@ impl Matrix {
         }
     }
 
-    /// Adds factor · A to `sum`.
-    pub(crate) fn add_to(&self, factor: f64, sum: &mut Triplets) {
+    /// The matrix with all entries that are stored.
+    pub(crate) fn as_sparse(&self) -> Arc<SparseMatrix> {
         match self {
-            Self::Sparse(matrix) => matrix.add_to(factor, sum),
+            Self::Sparse(matrix) => Arc::clone(matrix),
             Self::Diagonal(values) => {
-                values.iter().enumerate().for_each(|(i, d)| sum.add(i, i, factor * d));
+                let fill = |row: usize, own: &mut Vec<_>| own.push((row, values[row]));
+                Arc::new(SparseMatrix::by_rows(values.len(), fill))
             }
         }
     }
@@ -313,7 +306,7 @@ mod tests {
         let d: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
         let mut triplets = Triplets::new(11);
         d.iter().enumerate().for_each(|(i, d)| triplets.add(i, i, *d));
-        let sparse = Matrix::Sparse(SparseMatrix::new("test", &triplets).unwrap());
+        let sparse = Matrix::Sparse(Arc::new(SparseMatrix::new("test", &triplets).unwrap()));
         let diagonal = Matrix::Diagonal(d);
         let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
         let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();
@@ -323,5 +316,18 @@ mod tests {
         diagonal.multiply_add(-2.0, &x, &mut b);
         assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-13));
         assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal.is_empty());
+    }
+
+    #[test]
+    fn many_vectors_are_multiplied_as_each() {
+        let mut triplets = Triplets::new(5);
+        (0..20).for_each(|k| triplets.add(k % 5, (3 * k + 1) % 5, 0.3 * k as f64 - 2.0));
+        let matrix = SparseMatrix::new("test", &triplets).unwrap();
+        let vectors: Vec<f64> = (0..5 * (2 * WIDTH + 3)).map(|k| (k as f64).sin()).collect();
+        let mut each = vec![0.0; vectors.len()];
+        for (x, y) in vectors.chunks_exact(5).zip(each.chunks_exact_mut(5)) {
+            matrix.multiply_add(1.0, x, y);
+        }
+        assert_eq!(matrix.times(&vectors), each);
     }
 }

@@ -17,9 +17,11 @@ mod lattice_product;
 mod lowest_modes;
 pub(crate) mod matrix;
 mod number;
+pub(crate) mod orthonormal;
 mod partition;
 mod product;
 mod sparse;
+mod symmetry;
 mod thinned;
 mod triplets;
 

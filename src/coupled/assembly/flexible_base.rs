@@ -14,7 +14,9 @@
 //! 0.9, 2.4 and 11. Walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times the
 //! elements, by which ρ grows with their cube.
 
+use std::cell::RefCell;
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::at_rest;
 use crate::coupled::base::PlacedBase;
@@ -22,11 +24,12 @@ use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
+use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
-use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
-use crate::structure::{BaseNode, Triplets};
+use crate::linalg::{DenseFactor, SparseMatrix, dot, magnitude, transposed_multiply_add};
+use crate::structure::{BaseNode, Tangent, Triplets};
 
 const NAME: &str = "stiffness matrix with its contact elements held";
 /// Smallest ρ at which elements are short enough.
@@ -51,6 +54,9 @@ const ROUNDING: f64 = 1e-9;
 const ITERATIONS: usize = 20;
 const CONVERGED: f64 = 0.01;
 
+/// Static compliance of the soil under elements, and the structure's compliance on them.
+type OnSoil<'a> = (&'a [f64], &'a RefCell<Option<Compliance>>);
+
 /// The softest shape of a base with zero mean displacement on every element.
 struct UnseenShape {
     /// ρ.
@@ -61,42 +67,47 @@ struct UnseenShape {
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
-/// `at_rest`: the static state. A rigid base costs nothing.
+/// `at_rest`: the static state. `shared`: the structure's compliance in it, if it is known. A rigid base costs nothing.
 pub(crate) fn check(
     parts: &Parts,
     assembled: &Assembled,
     at_rest: &StaticState,
+    shared: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
     if !base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
     let own_soil = at_rest::compliance(parts)?;
+    let own = (own_soil.as_slice(), shared);
+    let Some(floating) = floating(parts, assembled, own)? else { return Ok(None) };
     // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
     let alone = faces(base).any(|(.., own)| own.len() == 1);
     let halves = if alone { finer(parts, base) } else { None };
-    let shape = UnseenShape::softest(assembled, base, &own_soil, halves.as_ref())
+    let shape = UnseenShape::softest(assembled, base, own, halves.as_ref())
         .filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = if alone { halves } else { finer(parts, base) } {
         // If twice the elements leave no such shape, they are enough.
-        let next = UnseenShape::softest(assembled, &finer, &soil, None);
+        let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)));
+        let halved = (soil.as_slice(), &compliance);
+        let next = UnseenShape::softest(assembled, &finer, halved, None);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
-            let under = |assembled: &Assembled, soil: &[f64]| {
+            let under = |assembled: &Assembled, soil| {
                 at_rest::under_loads(parts, assembled, soil, law).ok()
             };
             let with_first;
             let coarse = if parts.given.laws.len() == 1 {
                 Some(at_rest)
             } else {
-                with_first = under(assembled, &own_soil);
+                with_first = under(assembled, own);
                 with_first.as_ref()
             };
-            let fine = under(&assembled.on(finer), &soil);
+            let fine = under(&assembled.on(finer), halved);
             let both = coarse.zip(fine.as_ref());
             difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
         }
@@ -121,6 +132,28 @@ pub(crate) fn check(
         return Err(CoarseBaseError { foundation, elements, needed, difference, axis }.into());
     }
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
+}
+
+/// The factored structure of the compliance on its own elements, which becomes known.
+///
+/// `None` if its stiffness is not symmetric or cannot be factored.
+fn floating(
+    parts: &Parts,
+    assembled: &Assembled,
+    (soil, shared): OnSoil<'_>,
+) -> Result<Option<Rc<Floating>>> {
+    if assembled.stiffness_at_rest().asymmetry() > ROUNDING {
+        return Ok(None);
+    }
+    if let Some(known) = &*shared.borrow() {
+        return Ok(Some(Rc::clone(&known.floating)));
+    }
+    let tangent = Tangent::at(parts.structure.as_ref(), &vec![0.0; assembled.dofs()])?.matrix;
+    let springs = springs(assembled, soil)?;
+    let Ok(floating) = Floating::new(assembled, &tangent, springs) else { return Ok(None) };
+    let floating = Rc::new(floating);
+    shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)));
+    Ok(Some(floating))
 }
 
 /// Base on twice the elements, four times in plan, and their static compliance.
@@ -234,32 +267,37 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
 impl UnseenShape {
     /// The shape with the smallest ρ on elements of this static compliance; `halves`: as for [`moduli`].
     ///
-    /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
+    /// `None` if there is no such shape.
     fn softest(
         assembled: &Assembled,
         base: &PlacedBase,
-        soil: &[f64],
+        (soil, shared): OnSoil<'_>,
         halves: Option<&(PlacedBase, Vec<f64>)>,
     ) -> Option<Self> {
-        let (stiffness, n) = (assembled.stiffness_at_rest(), assembled.dofs());
+        let (n, layout) = (assembled.dofs(), base.layout());
         let moduli = moduli(base, soil, halves);
-        let mut seen = SparseMatrix::weighted_sum(n, &[(1.0, stiffness)]);
-        for (i, modulus) in moduli.iter().enumerate() {
-            seen.add_outer(base.mean_row(i), HELD * modulus * base.area(i));
-        }
-        let (layout, mut springs) = (base.layout(), Triplets::new(n));
+        let mut springs = Triplets::new(n);
         for (point, rows) in base.deviations() {
             for (component, row) in rows.iter().enumerate() {
                 let modulus = moduli[layout.place(component, point.element)];
                 springs.add_outer(row, modulus * point.area);
             }
         }
-        if stiffness.asymmetry() > ROUNDING {
+        let springs = SparseMatrix::new(NAME, &springs).ok()?;
+        let known = shared.borrow();
+        let Compliance { floating, columns, delassus } = known.as_ref()?;
+        // Tractions of the springs that hold the means: t = HELD · modulus · mean.
+        let size = layout.len();
+        let entry = |k: usize| {
+            let own = HELD * moduli[k / size] * (delassus[k] - soil[k]);
+            if k % (size + 1) == 0 { 1.0 + own } else { own }
+        };
+        let matrix: Vec<f64> = (0..size * size).map(entry).collect();
+        let mut means = DenseFactor::with_capacity(size);
+        if !means.factor(&matrix, size) {
             return None;
         }
-        let springs = SparseMatrix::new(NAME, &springs).ok()?;
-        let seen = SparseMatrix::new(NAME, &seen).ok()?;
-        let mut factor = SparseFactor::of(NAME, &seen, &assembled.elimination).ok()?;
+        let mut traction = vec![0.0; size];
         // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the smallest.
         let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut ratio = f64::INFINITY;
@@ -274,7 +312,11 @@ impl UnseenShape {
                 *f /= whole;
             }
             shape.copy_from_slice(&force);
-            factor.solve(&mut shape);
+            floating.factor.solve_many(&mut shape);
+            base.means(&shape, &mut traction);
+            traction.iter_mut().zip(&moduli).for_each(|(own, modulus)| *own *= HELD * modulus);
+            means.solve(&mut traction);
+            transposed_multiply_add(columns, -1.0, &traction, &mut shape);
             let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());
             if (before / ratio - 1.0).abs() < CONVERGED {
                 break;

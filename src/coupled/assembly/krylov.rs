@@ -22,7 +22,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
+use crate::linalg::{SparseFactor, SparseMatrix, dot, indefinite_row, lowest_modes};
 use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// Ratio of a shift to the previous one.
@@ -246,7 +246,8 @@ impl<'a> Reduction<'a> {
         for round in 1..=ROUNDS {
             if !grow(&mut space, &factors, &mut blocks, least) {
                 if least <= LEAST_NEW {
-                    return Ok(space.basis(&space.ritz()?));
+                    let modes = space.ritz()?;
+                    return Ok(space.basis(&modes));
                 }
                 // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
@@ -296,8 +297,9 @@ impl<'a> Reduction<'a> {
                 return Err(error.within(REDUCED));
             }
         }
-        let factor = SparseFactor::of(names[0], matrices[0], &self.assembled.elimination);
-        if !factor.is_ok_and(|factor| factor.is_positive_definite()) {
+        let has_mass = matrices[0].diagonal().iter().all(|mass| *mass > 0.0);
+        let order = &self.assembled.elimination;
+        if !has_mass || indefinite_row(matrices[0], 0.0, 0.0, order).is_some() {
             let needed = "it must be positive definite";
             let error = Error::Scene { quantity: names[0], needed };
             return Err(error.within(REDUCED));

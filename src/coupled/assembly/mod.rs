@@ -19,6 +19,7 @@ mod stepped;
 mod subspace;
 mod vibration_modes;
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
@@ -319,8 +320,9 @@ impl SimulationBuilder {
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let at_rest = at_rest::solve(&mut parts, &assembled)?;
-        let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
+        let shared = RefCell::default();
+        let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
+        let coarse = flexible_base::check(&parts, &assembled, &at_rest, &shared)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),
             &assembled.stiffness,

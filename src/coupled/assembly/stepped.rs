@@ -121,9 +121,9 @@ fn cause(
     error: Error,
 ) -> Error {
     let Assembled { mass, damping, stiffness, .. } = assembled;
-    let terms = [(1.0, stiffness), (1.0, tangent)];
+    let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
+    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass].map(|own| &**own)));
     found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
