@@ -1,12 +1,15 @@
 //! Matrices of a structure: sparse in its degrees of freedom, diagonal in its modes.
 
+#![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
+
 use std::sync::Arc;
 
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
+use crate::linalg::product::{Simd, WithSimd, vectorized};
 use crate::linalg::{Triplets, weighted_dot};
 
 /// Number of vectors that a matrix multiplies together.
-const WIDTH: usize = 8;
+const WIDTH: usize = 16;
 
 /// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
 const BYTES_PER_UNKNOWN: f64 = 400.0;
@@ -193,17 +196,10 @@ impl SparseMatrix {
         let mut products = vec![0.0; vectors.len()];
         let mut beside = vec![[0.0; WIDTH]; self.order];
         for (x, y) in vectors.chunks(WIDTH * n).zip(products.chunks_mut(WIDTH * n)) {
-            for (k, x) in x.chunks_exact(n).enumerate() {
-                beside.iter_mut().zip(x).for_each(|(own, x)| own[k] = *x);
+            for (row, own) in beside.iter_mut().enumerate() {
+                own.iter_mut().zip(x[row..].iter().step_by(n)).for_each(|(own, x)| *own = *x);
             }
-            for row in 0..self.order {
-                let mut sums = [0.0; WIDTH];
-                let own = self.row_start[row]..self.row_start[row + 1];
-                for (&column, a) in self.column[own.clone()].iter().zip(&self.value[own]) {
-                    sums.iter_mut().zip(&beside[column]).for_each(|(sum, x)| *sum += a * x);
-                }
-                y.chunks_exact_mut(n).zip(sums).for_each(|(y, sum)| y[row] = sum);
-            }
+            vectorized(Times { matrix: self, x: &beside, y });
         }
         products
     }
@@ -211,6 +207,33 @@ impl SparseMatrix {
     /// x·A y.
     pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
         x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
+    }
+}
+
+/// A x of vectors whose entries are beside each other in `x` and one after the other in `y`.
+struct Times<'a> {
+    matrix: &'a SparseMatrix,
+    x: &'a [[f64; WIDTH]],
+    y: &'a mut [f64],
+}
+
+impl WithSimd for Times<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { matrix, x, y } = self;
+        for row in 0..matrix.order {
+            let mut sums = [0.0; WIDTH];
+            let own = matrix.row_start[row]..matrix.row_start[row + 1];
+            for (&column, a) in matrix.column[own.clone()].iter().zip(&matrix.value[own]) {
+                let x = &x[column];
+                for k in 0..WIDTH {
+                    sums[k] += a * x[k];
+                }
+            }
+            y[row..].iter_mut().step_by(matrix.order).zip(sums).for_each(|(y, sum)| *y = sum);
+        }
     }
 }
 

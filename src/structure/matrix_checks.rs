@@ -64,6 +64,46 @@ pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -
     check_semi_definite("damping matrix", damping, elimination)
 }
 
+/// Whether a matrix is βA + αB up to rounding and therefore positive semi-definite, as its check by factors.
+///
+/// A is positive definite, B positive semi-definite, and A has all places of B. An α below zero may leave negative
+/// values as small as the check allows.
+pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> bool {
+    let Ok(b) = SparseMatrix::sum("matrix", a.order(), &[(0.0, a), (1.0, b)]) else { return false };
+    let entries = || matrix.entries().zip(a.entries()).zip(b.entries());
+    let is_alike = |own: &SparseMatrix| {
+        let places = |of| SparseMatrix::entries(of).map(|(i, j, _)| (i, j));
+        places(own).eq(places(matrix))
+    };
+    if !(is_alike(a) && is_alike(&b)) {
+        return false;
+    }
+    let diagonal = matrix.diagonal();
+    // Least squares, of entries in a matrix scaled to a unit diagonal.
+    let mut sums = [0.0; 5];
+    for (((i, j, own), (.., a)), (.., b)) in entries() {
+        let scale = (diagonal[i] * diagonal[j]).abs().max(f64::MIN_POSITIVE).recip();
+        let products = [a * a, a * b, b * b, a * own, b * own];
+        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += scale * product);
+    }
+    let [aa, ab, bb, ac, bc] = sums;
+    let rest = aa * bb - ab * ab;
+    let (beta, alpha) = if rest > SYMMETRIC * aa * bb {
+        ((ac * bb - bc * ab) / rest, (bc * aa - ac * ab) / rest)
+    } else {
+        (ac / aa, 0.0)
+    };
+    let mut left = vec![[0.0; 2]; diagonal.len()];
+    for (((i, _, own), (.., a)), (.., b)) in entries() {
+        left[i][0] += (own - beta * a - alpha * b).abs();
+        left[i][1] += (-alpha).max(0.0) * b.abs();
+    }
+    let is_rounding = |(left, own): (&[f64; 2], &f64)| {
+        left[0] <= SYMMETRIC * own && left[1] <= SEMI_DEFINITE * own
+    };
+    beta >= 0.0 && left.iter().zip(&diagonal).all(is_rounding)
+}
+
 fn check_semi_definite(
     name: &'static str,
     matrix: &SparseMatrix,

@@ -24,6 +24,7 @@ use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
+use crate::coupled::assembly::krylov::Held;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
@@ -39,6 +40,7 @@ use crate::coupled::serviceability::Serviceability;
 use crate::coupled::simulation::Simulation;
 use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
@@ -320,9 +322,19 @@ impl SimulationBuilder {
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
         let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let period = assembled.period_on_fixed_base(&mut held);
+        let at_rest = assembled.at_rest(parts.structure.as_ref());
+        let is_free = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
+        let reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
+        let held_base = reduced.then(|| Held::new(&assembled, &held));
+        // Factors of large structures take most of the memory.
+        drop(held);
         let shared = RefCell::default();
         let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
         let coarse = flexible_base::check(&parts, &assembled, &at_rest, &shared)?;
+        let floating = shared.take().map(|own: Compliance| own.floating);
+        let known = floating.as_ref().and_then(|own| own.positive_definite());
+        assembled.check_damping(parts.structure.as_ref(), known)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),
             &assembled.stiffness,
@@ -330,7 +342,7 @@ impl SimulationBuilder {
             [&at_rest.displacement, &at_rest.force],
         )?;
         let Stepped { model, base, operators } =
-            Stepped::choose(&parts, &assembled, &held, &at_rest)?;
+            Stepped::choose(&parts, &assembled, (held_base, floating), &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
@@ -343,7 +355,6 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let period = assembled.period_on_fixed_base(&mut held);
         let mut warnings =
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
         let pressure = given.gravity * assembled.mass_over_area();
@@ -354,10 +365,8 @@ impl SimulationBuilder {
         warnings.extend(Warning::of_triangles(structure.triangle_sides()));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
-        if scene.model.linear {
-            // Last, since stiffnesses too far apart for double precision look like a mechanism.
-            assembled.at_rest(structure.as_ref()).check(&mut held)?;
-        }
+        // Last, since stiffnesses too far apart for double precision look like a mechanism.
+        is_free?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, compliant && given.energy_balance),

@@ -20,7 +20,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
-    check_stiffness, stiffest,
+    check_stiffness, is_combination, stiffest,
 };
 
 /// Number of passes that refine the influence vectors.
@@ -64,9 +64,6 @@ impl Assembled {
         // Masses and dampings may couple far fewer degrees of freedom: the stiffness chooses the order.
         let elimination = Elimination::of(at_rest.as_ref().unwrap_or(&stiffness));
         check_mass(&mass, &elimination)?;
-        if !structure.has_active_damping() {
-            check_damping(&damping, &elimination)?;
-        }
         if !structure.has_active_stiffness() {
             check_stiffness(&stiffness, &mass)?;
         }
@@ -80,6 +77,22 @@ impl Assembled {
             _ => own.at_rest(structure).behind(error),
         })?;
         Ok((Self { influence: Arc::new(influence), ..own }, held))
+    }
+
+    /// Error for a damping that is not positive semi-definite, unless it may be.
+    ///
+    /// `floating`: K + εM, if it is known to be positive definite. Proportional damping then needs no factor.
+    pub(crate) fn check_damping(
+        &self,
+        structure: &dyn Structure,
+        floating: Option<&SparseMatrix>,
+    ) -> Result<()> {
+        let is_proportional =
+            floating.is_some_and(|own| is_combination(&self.damping, [own, &self.mass]));
+        if structure.has_active_damping() || is_proportional {
+            return Ok(());
+        }
+        check_damping(&self.damping, &self.elimination)
     }
 
     /// The same structure on other elements.

@@ -39,6 +39,11 @@ impl Floating {
         Ok(Self { springs, matrix, factor })
     }
 
+    /// The matrix, if it is positive definite.
+    pub(crate) fn positive_definite(&self) -> Option<&SparseMatrix> {
+        self.factor.is_positive_definite().then_some(&self.matrix)
+    }
+
     /// Condition of the matrix, scaled by its diagonal.
     pub(crate) fn condition(&self) -> f64 {
         sparse_condition(&self.matrix, &self.factor)
