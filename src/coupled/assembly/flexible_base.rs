@@ -100,13 +100,8 @@ pub(crate) fn check(
             let under = |assembled: &Assembled, soil| {
                 at_rest::under_loads(parts, assembled, soil, law).ok()
             };
-            let with_first;
-            let coarse = if parts.given.laws.len() == 1 {
-                Some(at_rest)
-            } else {
-                with_first = under(assembled, own);
-                with_first.as_ref()
-            };
+            let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, own));
+            let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
             let fine = under(&assembled.on(finer), halved);
             let both = coarse.zip(fine.as_ref());
             difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
@@ -286,18 +281,8 @@ impl UnseenShape {
         let springs = SparseMatrix::new(NAME, &springs).ok()?;
         let known = shared.borrow();
         let Compliance { floating, columns, delassus } = known.as_ref()?;
-        // Tractions of the springs that hold the means: t = HELD · modulus · mean.
-        let size = layout.len();
-        let entry = |k: usize| {
-            let own = HELD * moduli[k / size] * (delassus[k] - soil[k]);
-            if k % (size + 1) == 0 { 1.0 + own } else { own }
-        };
-        let matrix: Vec<f64> = (0..size * size).map(entry).collect();
-        let mut means = DenseFactor::with_capacity(size);
-        if !means.factor(&matrix, size) {
-            return None;
-        }
-        let mut traction = vec![0.0; size];
+        let mut means = held_means(&moduli, delassus, soil)?;
+        let mut traction = vec![0.0; layout.len()];
         // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the smallest.
         let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
         let mut ratio = f64::INFINITY;
@@ -337,6 +322,20 @@ impl UnseenShape {
         let most = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
         Some(Self { ratio, face: most.map_or(0, |(face, _)| face) })
     }
+}
+
+/// Factors of means = (1 + HELD · modulus · D) t: free means of elements over tractions t of springs that hold them.
+///
+/// D is the structure's part of the Delassus operator; each mean is multiplied by HELD · modulus.
+fn held_means(moduli: &[f64], delassus: &[f64], soil: &[f64]) -> Option<DenseFactor> {
+    let size = moduli.len();
+    let entry = |k: usize| {
+        let own = HELD * moduli[k / size] * (delassus[k] - soil[k]);
+        if k % (size + 1) == 0 { 1.0 + own } else { own }
+    };
+    let matrix: Vec<f64> = (0..size * size).map(entry).collect();
+    let mut factor = DenseFactor::with_capacity(size);
+    factor.factor(&matrix, size).then_some(factor)
 }
 
 /// Stiffness of the soil under each element in each component, Pa/m.

@@ -99,7 +99,7 @@ impl<'a> Reduction<'a> {
         (held, floating, factored): (Held, Option<Rc<Floating>>, &'a Factored<'a>),
         steps: usize,
     ) -> Result<Self> {
-        let (given, base) = (&parts.given, &assembled.base);
+        let (given, base, coefficients) = (&parts.given, &assembled.base, &parts.coefficients);
         let (n, size) = (assembled.dofs(), base.layout().len());
         let mut rows = ResponseRows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
@@ -150,7 +150,6 @@ impl<'a> Reduction<'a> {
                 places[kind] = kept.then_some(place);
             }
         }
-        let coefficients = &parts.coefficients;
         let floating = Cell::new(floating);
         Ok(Self { assembled, coefficients, factored, held, floating, steps, rows, motions })
     }
@@ -179,33 +178,21 @@ impl<'a> Reduction<'a> {
     ///
     /// Few reductions need a third round, which makes the factor again: kept, it would add to the peak of memory of all.
     fn modes_of_many(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let (mut space, lowest) = (self.rigid(matrices), self.held.lowest);
+        let mut space = self.rigid(matrices);
         let (rows, c) = (&self.rows.all, self.coefficients);
         let count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), LEAST_NEW);
         let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        let shift = lowest.clamp(STATIC[0] * own, STATIC[1] * own);
         // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
         let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
-        let mut products = Vec::new();
         let mut last: Option<(Ritz, StepResponses)> = None;
-        let (mut change, mut effective) = (f64::INFINITY, None);
+        let (mut products, mut change, mut effective) = (Vec::new(), f64::INFINITY, None);
         for round in 0..ROUNDS_OF_MODES {
             // One more power alone is the comparison.
             if round != 1 {
-                let known = self.floating.take().filter(|known| {
-                    let is_definite = known.factor.is_positive_definite();
-                    is_definite && known.springs > FAR * own * own
-                });
-                let made;
-                let (factor, square) = if let Some(known) = &known {
-                    (&known.factor, known.springs)
-                } else {
-                    made = self.shifted(shift, matrices)?;
-                    (&made, shift * shift)
-                };
-                let whole = limit * limit + square;
+                let floating = self.on_springs(own)?;
+                let (factor, whole) = (&floating.factor, limit * limit + floating.springs);
                 let found = lowest_modes(factor, matrices[0], MODES, whole);
                 let found = found.filter(|(squares, _)| squares.len() < MODES);
                 let Some((_, modes)) = found else {
@@ -218,13 +205,12 @@ impl<'a> Reduction<'a> {
                     let before = space.count();
                     space.extend(std::mem::take(&mut block), LEAST_NEW);
                     block.extend_from_slice(space.momenta(before));
+                    drop(floating);
+                    effective = Some((self.factored)()?);
                 }
             }
             for momentum in &mut block {
                 *momentum *= c.acceleration[0];
-            }
-            if effective.is_none() {
-                effective = Some((self.factored)()?);
             }
             effective.iter().for_each(|factor| factor.solve_many(&mut block));
             let before = space.count();
@@ -250,6 +236,17 @@ impl<'a> Reduction<'a> {
             last = Some((modes, responses));
         }
         Err(inaccurate(change, tolerance, space.count()))
+    }
+
+    /// Factored K + σ²M: of the static state, if it is known; `own`: shift of the scheme.
+    fn on_springs(&self, own: f64) -> Result<Rc<Floating>> {
+        let known = self
+            .floating
+            .take()
+            .filter(|known| known.factor.is_positive_definite() && known.springs > FAR * own * own);
+        let shift = self.held.lowest.clamp(STATIC[0] * own, STATIC[1] * own);
+        let shifted = || Floating::new(self.assembled, &SparseMatrix::default(), shift * shift);
+        known.map_or_else(|| shifted().map(Rc::new), Ok)
     }
 
     /// Ritz modes for few forces: powers of several shifts.

@@ -47,6 +47,7 @@ use crate::coupled::step::increment::Increment;
 use crate::coupled::step::solver::Solver;
 use crate::error::{Progress, Result};
 use crate::interface::InterfaceLaw;
+use crate::linalg::SparseFactor;
 use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
@@ -321,14 +322,8 @@ impl SimulationBuilder {
     /// * [`crate::Error::Stopped`] by the observer.
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
-        let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let period = assembled.period_on_fixed_base(&mut held);
-        let at_rest = assembled.at_rest(parts.structure.as_ref());
-        let is_free = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
-        let reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
-        let held_base = reduced.then(|| Held::new(&assembled, &held));
-        // Factors of large structures take most of the memory.
-        drop(held);
+        let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let (period, is_firm, held) = with_base_held(&parts, &assembled, held);
         let shared = RefCell::default();
         let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
         let coarse = flexible_base::check(&parts, &assembled, &at_rest, &shared)?;
@@ -342,7 +337,7 @@ impl SimulationBuilder {
             [&at_rest.displacement, &at_rest.force],
         )?;
         let Stepped { model, base, operators } =
-            Stepped::choose(&parts, &assembled, (held_base, floating), &at_rest)?;
+            Stepped::choose(&parts, &assembled, (held, floating), &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
@@ -366,7 +361,7 @@ impl SimulationBuilder {
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.
-        is_free?;
+        is_firm?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, compliant && given.energy_balance),
@@ -385,4 +380,19 @@ impl SimulationBuilder {
             prepared: given.steps,
         })
     }
+}
+
+/// Period on a fixed base, whether there is no mechanism, and responses for reduced coordinates.
+///
+/// Releases the factored stiffness with the base held: factors of large structures take most of the memory.
+fn with_base_held(
+    parts: &Parts,
+    assembled: &Assembled,
+    mut held: SparseFactor,
+) -> (f64, Result<()>, Option<Held>) {
+    let period = assembled.period_on_fixed_base(&mut held);
+    let at_rest = assembled.at_rest(parts.structure.as_ref());
+    let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
+    let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
+    (period, is_firm, is_reduced.then(|| Held::new(assembled, &held)))
 }

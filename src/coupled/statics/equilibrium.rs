@@ -67,12 +67,11 @@ impl Standing<'_> {
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, shared, .. } = *self;
-        let base = &assembled.base;
-        let mut springs = self.springs()?;
+        let (base, mut springs) = (&assembled.base, self.springs()?);
         let stiffest = springs.stiffness;
+        let is_first = |own: &Compliance| assembled.linear && own.floating.springs == stiffest;
         let mut solver = ContactSolver::new(base.layout());
-        let kind = ContactSearch::Robust;
-        let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
+        let mut search = ModeSearch::new(base.layout(), base.areas(), false, ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
         let (mut change, mut iterations) = (f64::INFINITY, 0);
@@ -99,9 +98,7 @@ impl Standing<'_> {
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
                     state.stand_in = solver.stand_in.or(state.stand_in);
-                    if assembled.linear && springs.stiffness == stiffest {
-                        shared.replace(compliance);
-                    }
+                    shared.replace(compliance.filter(is_first));
                     state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));
                 }
