@@ -197,4 +197,31 @@ mod tests {
         // A matrix of another order chooses its own.
         SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
     }
+
+    /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.
+    #[test]
+    fn separate_parts_are_eliminated_one_after_the_other() {
+        let one = cube(9, 2.0);
+        let [mut apart, mut coupled] = [(); 2].map(|()| Triplets::new(3 * one.order()));
+        for (row, column, value) in one.entries() {
+            (0..3).for_each(|k| apart.add(3 * row + k, 3 * column + k, value));
+            for (k, l) in (0..9).map(|k| (k / 3, k % 3)) {
+                let value = if k == l { 3.0 * value } else { 0.1 * value };
+                coupled.add(3 * row + k, 3 * column + l, value);
+            }
+        }
+        let [apart, coupled] = [apart, coupled].map(|own| SparseMatrix::new("", &own).unwrap());
+        let elimination = Elimination::of(&coupled);
+        let order = elimination.0.get().unwrap();
+        let columns = by_columns(&apart);
+        let parts = order.by_parts(columns.symbolic());
+        assert!(parts.rows.chunks(one.order()).enumerate().all(|(k, own)| {
+            own.iter().all(|row| row % 3 == k) && own.is_sorted_by_key(|row| order.places[*row])
+        }));
+        assert_eq!(order.by_parts(by_columns(&coupled).symbolic()).rows, order.rows);
+        let x: Vec<f64> = (0..apart.order()).map(|i| (i as f64).sin()).collect();
+        let mut found = apart.times(&x);
+        SparseFactor::of("apart", &apart, &elimination).unwrap().solve(&mut found);
+        assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
+    }
 }

@@ -15,6 +15,7 @@ mod hermitian;
 mod lanes;
 mod lattice_product;
 mod lowest_modes;
+mod many_vectors;
 pub(crate) mod matrix;
 mod number;
 pub(crate) mod orthonormal;

@@ -116,3 +116,44 @@ fn check_semi_definite(
         None => Ok(()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Triplets;
+
+    /// Chain of springs `spring`, and a spring `own` under each mass.
+    fn chain(spring: f64, own: f64) -> SparseMatrix {
+        let mut matrix = Triplets::new(30);
+        for i in 0..30 {
+            matrix.add(i, i, own);
+            if i > 0 {
+                matrix.add_spring(i - 1, i, spring);
+            }
+        }
+        SparseMatrix::new("chain", &matrix).unwrap()
+    }
+
+    #[test]
+    fn proportional_matrices_are_combinations_and_others_are_not() {
+        let (stiffness, mass) = (chain(4.0e6, 1e-2), chain(0.0, 2.0));
+        let floating = [&stiffness, &mass];
+        let sum = |terms: &[(f64, &SparseMatrix)]| SparseMatrix::sum("sum", 30, terms).unwrap();
+        // In proportion to both, to the stiffness, and to the mass in the places of the stiffness.
+        for [beta, alpha] in [[1e-3, 0.7], [1e-3, 0.0], [0.0, 0.7], [1e-3, -1e-6]] {
+            assert!(is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+        }
+        // Negative, by more than rounding or in part.
+        for [beta, alpha] in [[-1e-3, 0.7], [1e-3, -0.7], [0.0, -0.7]] {
+            assert!(!is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+        }
+        // A dashpot more, between neighbours or elsewhere.
+        for place in [17, 25] {
+            let mut dashpot = Triplets::new(30);
+            dashpot.add_spring(16, place, 1.0);
+            let dashpot = SparseMatrix::new("dashpot", &dashpot).unwrap();
+            let damping = sum(&[(1e-3, &stiffness), (0.7, &mass), (1.0, &dashpot)]);
+            assert!(!is_combination(&damping, floating));
+        }
+    }
+}

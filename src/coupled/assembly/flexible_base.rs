@@ -15,10 +15,10 @@
 //! elements, by which ρ grows with their cube.
 
 use std::cell::RefCell;
-use std::ops::Range;
 use std::rc::Rc;
 
 use super::at_rest;
+use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
@@ -27,11 +27,10 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
-use crate::linalg::{DenseFactor, SparseMatrix, dot, magnitude, transposed_multiply_add};
-use crate::structure::{BaseNode, Tangent, Triplets};
+use crate::geometry::{axis_name, far_ends, in_a_row};
+use crate::linalg::{dot, magnitude};
+use crate::structure::{BaseNode, Tangent};
 
-const NAME: &str = "stiffness matrix with its contact elements held";
 /// Smallest ρ at which elements are short enough.
 const STIFF: f64 = 6.0;
 /// ρ at which the number named for a wall aims.
@@ -42,28 +41,12 @@ const DIFFERENCE: f64 = 0.03;
 const ANOTHER: f64 = 0.3;
 /// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
 const POWERS: [f64; 2] = [1.0, 3.0];
-/// Stiffness of springs that hold element means, relative to the soil.
-const HELD: f64 = 1e4;
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
 const LINE: f64 = 1e-9;
 /// Largest order of a matrix with twice the elements.
 const MOST: usize = 3600;
 /// Asymmetry of K that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Largest number of power iterations for ρ, and the change at which they end.
-const ITERATIONS: usize = 20;
-const CONVERGED: f64 = 0.01;
-
-/// Static compliance of the soil under elements, and the structure's compliance on them.
-type OnSoil<'a> = (&'a [f64], &'a RefCell<Option<Compliance>>);
-
-/// The softest shape of a base with zero mean displacement on every element.
-struct UnseenShape {
-    /// ρ.
-    ratio: f64,
-    /// Number of the face with the largest part in the shape.
-    face: usize,
-}
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
@@ -168,17 +151,6 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, soil))
 }
 
-/// Faces of the foundations, each with the number and the nodes of its foundation and its elements.
-///
-/// A foundation without walls is one face.
-fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
-    base.foundations().enumerate().flat_map(|(foundation, (nodes, own))| {
-        let faces = ContactElement::faces(base.elements()).into_iter();
-        let parts = faces.map(move |face| face.start.max(own.start)..face.end.min(own.end));
-        parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
-    })
-}
-
 /// The face with the largest difference of its shape between two static states, and the difference.
 ///
 /// Root mean squares over the nodes of displacements into the soil, without the best rigid motions, relative to the
@@ -257,117 +229,4 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
     let ((_, count), axis) = shorter.unwrap_or_default();
     (foundation, axis_name(patch.is_plan(), axis), count)
-}
-
-impl UnseenShape {
-    /// The shape with the smallest ρ on elements of this static compliance; `halves`: as for [`moduli`].
-    ///
-    /// `None` if there is no such shape.
-    fn softest(
-        assembled: &Assembled,
-        base: &PlacedBase,
-        (soil, shared): OnSoil<'_>,
-        halves: Option<&(PlacedBase, Vec<f64>)>,
-    ) -> Option<Self> {
-        let (n, layout) = (assembled.dofs(), base.layout());
-        let moduli = moduli(base, soil, halves);
-        let mut springs = Triplets::new(n);
-        for (point, rows) in base.deviations() {
-            for (component, row) in rows.iter().enumerate() {
-                let modulus = moduli[layout.place(component, point.element)];
-                springs.add_outer(row, modulus * point.area);
-            }
-        }
-        let springs = SparseMatrix::new(NAME, &springs).ok()?;
-        let known = shared.borrow();
-        let Compliance { floating, columns, delassus } = known.as_ref()?;
-        let mut means = held_means(&moduli, delassus, soil)?;
-        let mut traction = vec![0.0; layout.len()];
-        // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the smallest.
-        let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
-        let mut ratio = f64::INFINITY;
-        for _ in 0..ITERATIONS {
-            let mut force = vec![0.0; n];
-            springs.multiply_add(1.0, &shape, &mut force);
-            let whole = dot(&shape, &force).sqrt();
-            if !(whole.is_finite() && whole > 0.0) {
-                return None;
-            }
-            for f in &mut force {
-                *f /= whole;
-            }
-            shape.copy_from_slice(&force);
-            floating.factor.solve_many(&mut shape);
-            base.means(&shape, &mut traction);
-            traction.iter_mut().zip(&moduli).for_each(|(own, modulus)| *own *= HELD * modulus);
-            means.solve(&mut traction);
-            transposed_multiply_add(columns, -1.0, &traction, &mut shape);
-            let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());
-            if (before / ratio - 1.0).abs() < CONVERGED {
-                break;
-            }
-        }
-        if !ratio.is_finite() {
-            return None;
-        }
-        let mut energies = vec![0.0; faces(base).count()];
-        for (point, rows) in base.deviations() {
-            let own = faces(base).position(|(.., own)| own.contains(&point.element));
-            for (component, row) in rows.iter().enumerate() {
-                let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
-                let modulus = moduli[layout.place(component, point.element)];
-                energies[own.unwrap_or(0)] += modulus * point.area * value * value;
-            }
-        }
-        let most = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        Some(Self { ratio, face: most.map_or(0, |(face, _)| face) })
-    }
-}
-
-/// Factors of means = (1 + HELD · modulus · D) t: free means of elements over tractions t of springs that hold them.
-///
-/// D is the structure's part of the Delassus operator; each mean is multiplied by HELD · modulus.
-fn held_means(moduli: &[f64], delassus: &[f64], soil: &[f64]) -> Option<DenseFactor> {
-    let size = moduli.len();
-    let entry = |k: usize| {
-        let own = HELD * moduli[k / size] * (delassus[k] - soil[k]);
-        if k % (size + 1) == 0 { 1.0 + own } else { own }
-    };
-    let matrix: Vec<f64> = (0..size * size).map(entry).collect();
-    let mut factor = DenseFactor::with_capacity(size);
-    factor.factor(&matrix, size).then_some(factor)
-}
-
-/// Stiffness of the soil under each element in each component, Pa/m.
-///
-/// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements; from one
-/// of its `halves`, a base and its compliance, to the other where a face has one element.
-fn moduli(base: &PlacedBase, soil: &[f64], halves: Option<&(PlacedBase, Vec<f64>)>) -> Vec<f64> {
-    let layout = base.layout();
-    let faces: Vec<_> = faces(base).map(|(.., own)| own).collect();
-    let modulus = |i: usize| {
-        let [component, e] = layout.origin(i);
-        let face = faces.iter().position(|own| own.contains(&e));
-        let own = face.map_or(e..e + 1, |face| faces[face].clone());
-        let around = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
-        let mut compliance = around
-            .filter(|other| own.contains(other))
-            .map(|other| alternating(base, soil, component, [e, other]))
-            .fold(soil[i * layout.len() + i], f64::min);
-        if let (1, Some((base, soil)), Some(face)) = (own.len(), halves, face) {
-            let halves = self::faces(base).nth(face).map_or(0..1, |(.., own)| own);
-            let others = (halves.start + 1..halves.end)
-                .map(|other| alternating(base, soil, component, [halves.start, other]));
-            compliance = others.fold(compliance, f64::min);
-        }
-        if compliance > 0.0 { compliance.recip() } else { 0.0 }
-    };
-    (0..layout.len()).map(modulus).collect()
-}
-
-/// Compliance of the soil for equal and opposite tractions on two elements, m/Pa.
-fn alternating(base: &PlacedBase, soil: &[f64], component: usize, elements: [usize; 2]) -> f64 {
-    let [i, j] = elements.map(|e| base.layout().place(component, e));
-    let entry = |i: usize, j: usize| soil[i * base.layout().len() + j];
-    0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i))
 }

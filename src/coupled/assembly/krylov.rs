@@ -17,6 +17,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
+use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
@@ -26,8 +27,7 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, dot, indefinite_row, lowest_modes};
-use crate::structure::{BaseNode, HeldBase, stiffest};
+use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, lowest_modes};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
@@ -78,7 +78,7 @@ pub(crate) struct Reduction<'a> {
     coefficients: &'a SchemeCoefficients,
     /// Factors K_eff.
     factored: &'a Factored<'a>,
-    held: Held,
+    held: HeldResponses,
     /// Factored K + εM, until it is used.
     floating: Cell<Option<Rc<Floating>>>,
     /// Steps of the run.
@@ -96,7 +96,7 @@ impl<'a> Reduction<'a> {
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        (held, floating, factored): (Held, Option<Rc<Floating>>, &'a Factored<'a>),
+        (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
         steps: usize,
     ) -> Result<Self> {
         let (given, base, coefficients) = (&parts.given, &assembled.base, &parts.coefficients);
@@ -353,41 +353,6 @@ impl<'a> Reduction<'a> {
         let terms = [(shift * shift, mass), (1.0, stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
         SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
-    }
-}
-
-/// Responses of a structure with its base held.
-#[derive(Default)]
-pub(crate) struct Held {
-    /// Responses to a rotation of each part's base: rigid rotations of parts that stand on one level.
-    rotations: Vec<f64>,
-    /// Estimate of the lowest frequency, by Rayleigh's quotient.
-    lowest: f64,
-}
-
-impl Held {
-    /// Responses by the factored stiffness with the base held.
-    pub(crate) fn new(assembled: &Assembled, factor: &SparseFactor) -> Self {
-        let [mass, _, stiffness] = assembled.matrices();
-        let n = assembled.dofs();
-        let translations = assembled.influence.translations(n);
-        let held = HeldBase::new(assembled.base.nodes(), stiffness, stiffest(stiffness));
-        let mut rotations = Vec::new();
-        for part in assembled.influence.parts() {
-            let nodes = part.nodes(&assembled.base);
-            let mean = |place: fn(&BaseNode) -> f64| {
-                nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
-            };
-            let middle = [mean(|node| node.x), mean(|node| node.y)];
-            rotations.extend(held.turns(nodes.iter().copied(), middle).concat());
-        }
-        factor.solve_many(&mut rotations);
-        let inertia = mass.times(&translations);
-        let mut bent = inertia.clone();
-        factor.solve_many(&mut bent);
-        let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
-        let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
-        Self { rotations, lowest: squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt() }
     }
 }
 

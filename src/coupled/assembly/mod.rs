@@ -11,12 +11,14 @@
 mod at_rest;
 mod backfilled;
 mod flexible_base;
+mod held_responses;
 mod initial_motion;
 mod krylov;
 mod static_stages;
 mod step_response;
 mod stepped;
 mod subspace;
+mod unseen_shape;
 mod vibration_modes;
 
 use std::cell::RefCell;
@@ -24,7 +26,7 @@ use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
-use crate::coupled::assembly::krylov::Held;
+use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
@@ -389,10 +391,10 @@ fn with_base_held(
     parts: &Parts,
     assembled: &Assembled,
     mut held: SparseFactor,
-) -> (f64, Result<()>, Option<Held>) {
+) -> (f64, Result<()>, Option<HeldResponses>) {
     let period = assembled.period_on_fixed_base(&mut held);
     let at_rest = assembled.at_rest(parts.structure.as_ref());
     let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
     let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
-    (period, is_firm, is_reduced.then(|| Held::new(assembled, &held)))
+    (period, is_firm, is_reduced.then(|| HeldResponses::new(assembled, &held)))
 }

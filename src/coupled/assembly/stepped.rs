@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use super::vibration_modes::vibration_modes;
-use crate::coupled::assembly::krylov::{Factored, Held, Reduction};
+use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::krylov::{Factored, Reduction};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
@@ -55,7 +56,7 @@ impl Stepped {
     pub(crate) fn choose(
         parts: &Parts,
         assembled: &Assembled,
-        (held, floating): (Option<Held>, Option<Rc<Floating>>),
+        (held, floating): (Option<HeldResponses>, Option<Rc<Floating>>),
         at_rest: &StaticState,
     ) -> Result<Self> {
         let Parts { given, coefficients, .. } = parts;
