@@ -212,7 +212,7 @@ impl<'a> Reduction<'a> {
             for momentum in &mut block {
                 *momentum *= c.acceleration[0];
             }
-            effective.iter().for_each(|factor| factor.solve_many(&mut block));
+            effective = effective.inspect(|factor| factor.solve_many(&mut block));
             let before = space.count();
             space.extend_by_length(std::mem::take(&mut block), 0.5 * tolerance.sqrt());
             block.extend_from_slice(space.momenta(before));

@@ -113,7 +113,7 @@ fn held_means(moduli: &[f64], delassus: &[f64], soil: &[f64]) -> Option<DenseFac
     let size = moduli.len();
     let entry = |k: usize| {
         let own = HELD * moduli[k / size] * (delassus[k] - soil[k]);
-        if k % (size + 1) == 0 { 1.0 + own } else { own }
+        if k.is_multiple_of(size + 1) { 1.0 + own } else { own }
     };
     let matrix: Vec<f64> = (0..size * size).map(entry).collect();
     let mut factor = DenseFactor::with_capacity(size);
