@@ -5,13 +5,15 @@ use std::sync::{Arc, OnceLock};
 use faer::Side;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
-use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
 };
+use faer::sparse::{SparseColMat, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 use super::dissection::dissection;
+use super::matrix::SparseMatrix;
+use super::partition::Partition;
 
 /// Places of the entries, by columns.
 type Pattern<'a> = SymbolicSparseColMatRef<'a, usize>;
@@ -35,12 +37,21 @@ struct Order {
 }
 
 impl Elimination {
+    /// Order for a matrix, if its factor may have many entries.
+    pub(crate) fn of(matrix: &SparseMatrix) -> Self {
+        let own = Self::default();
+        if matrix.order() * matrix.order() / 2 > LARGE {
+            own.analyse(by_columns(matrix).symbolic());
+        }
+        own
+    }
+
     /// Symbolic factor in the shared order, or in the order of minimum degree while there is none.
     ///
     /// The first factor of many entries chooses the shared order: by dissection, if its factor has fewer entries.
     pub(super) fn analyse(&self, pattern: Pattern<'_>) -> Option<SymbolicCholesky<usize>> {
         if let Some(order) = self.0.get().filter(|order| order.rows.len() == pattern.ncols()) {
-            return symbolic_in(pattern, order.as_symmetric());
+            return symbolic_in(pattern, order.by_parts(pattern).as_symmetric());
         }
         let found = symbolic_in(pattern, SymmetricOrdering::Amd)?;
         if found.len_val() < LARGE {
@@ -69,9 +80,27 @@ impl Order {
             |column| pattern.row_idx_of_col_raw(column),
             by_minimum_degree,
         )?;
+        Some(Self::new(rows))
+    }
+
+    fn new(rows: Vec<usize>) -> Self {
         let mut places = vec![0; rows.len()];
         rows.iter().enumerate().for_each(|(place, &row)| places[row] = place);
-        Some(Self { rows, places })
+        Self { rows, places }
+    }
+
+    /// This order, in separate parts of a matrix one after the other.
+    ///
+    /// The masses of bricks do not couple directions: a factor whose columns alternate between these has no blocks.
+    fn by_parts(&self, pattern: Pattern<'_>) -> Self {
+        let mut parts = Partition::new(self.rows.len());
+        for column in 0..self.rows.len() {
+            let rows = pattern.row_idx_of_col_raw(column).iter();
+            rows.for_each(|row| parts.join(column, *row));
+        }
+        let mut rows = self.rows.clone();
+        rows.sort_by_key(|row| parts.root(*row));
+        Self::new(rows)
     }
 
     fn as_symmetric(&self) -> SymmetricOrdering<'_, usize> {
@@ -98,6 +127,23 @@ fn by_minimum_degree(start: &[usize], neighbours: &[usize]) -> Option<Vec<usize>
     let (control, stack) = (amd::Control::default(), MemStack::new(&mut buffer));
     amd::order_maybe_unsorted(&mut order, &mut places, pattern, control, stack).ok()?;
     Some(order)
+}
+
+/// The matrix, compressed by columns.
+pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
+    let order = matrix.order();
+    let mut start = vec![0; order + 1];
+    matrix.entries().for_each(|(_, column, _)| start[column + 1] += 1);
+    (0..order).for_each(|column| start[column + 1] += start[column]);
+    let mut next = start.clone();
+    let (mut rows, mut values) = (vec![0; matrix.stored()], vec![0.0; matrix.stored()]);
+    for (row, column, value) in matrix.entries() {
+        let at = &mut next[column];
+        (rows[*at], values[*at]) = (row, value);
+        *at += 1;
+    }
+    let pattern = SymbolicSparseColMat::new_checked(order, order, start, None, rows);
+    SparseColMat::new(pattern, values)
 }
 
 #[cfg(test)]
@@ -145,10 +191,37 @@ mod tests {
         }
         let order = elimination.0.get().unwrap();
         assert_eq!((order.rows.len(), stored[0]), (8000, stored[1]));
-        let columns = crate::linalg::sparse::by_columns(&matrix);
+        let columns = by_columns(&matrix);
         let amd = symbolic_in(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
         assert!(amd.len_val() > LARGE && 5 * stored[0] < 4 * amd.len_val(), "{stored:?}");
         // A matrix of another order chooses its own.
         SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
+    }
+
+    /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.
+    #[test]
+    fn separate_parts_are_eliminated_one_after_the_other() {
+        let one = cube(9, 2.0);
+        let [mut apart, mut coupled] = [(); 2].map(|()| Triplets::new(3 * one.order()));
+        for (row, column, value) in one.entries() {
+            (0..3).for_each(|k| apart.add(3 * row + k, 3 * column + k, value));
+            for (k, l) in (0..9).map(|k| (k / 3, k % 3)) {
+                let value = if k == l { 3.0 * value } else { 0.1 * value };
+                coupled.add(3 * row + k, 3 * column + l, value);
+            }
+        }
+        let [apart, coupled] = [apart, coupled].map(|own| SparseMatrix::new("", &own).unwrap());
+        let elimination = Elimination::of(&coupled);
+        let order = elimination.0.get().unwrap();
+        let columns = by_columns(&apart);
+        let parts = order.by_parts(columns.symbolic());
+        assert!(parts.rows.chunks(one.order()).enumerate().all(|(k, own)| {
+            own.iter().all(|row| row % 3 == k) && own.is_sorted_by_key(|row| order.places[*row])
+        }));
+        assert_eq!(order.by_parts(by_columns(&coupled).symbolic()).rows, order.rows);
+        let x: Vec<f64> = (0..apart.order()).map(|i| (i as f64).sin()).collect();
+        let mut found = apart.times(&x);
+        SparseFactor::of("apart", &apart, &elimination).unwrap().solve(&mut found);
+        assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
     }
 }

@@ -4,13 +4,14 @@
 //! |---|---|
 //! | A | K⁻¹ M, symmetric in the inner product x·M y; its largest eigenvalues θ are 1/λ |
 //! | V | basis, M-orthonormal, a row per vector |
-//! | H | Vᵀ M A V, built from the coefficients of the orthogonalisation |
+//! | H | Vᵀ M A V |
 //!
 //! Every new vector is made orthogonal to all earlier ones, twice (Parlett 1998, § 13), so no spurious copies
 //! appear. As many modes of the same frequency are found as a block has vectors.
 
 use super::eigen::symmetric_modes;
-use super::product::{dense_multiply_add, dot, transposed_multiply_add};
+use super::orthonormal::{Least, OrthonormalRows};
+use super::product::{add_combined_rows, row_products};
 use super::sparse::SparseFactor;
 use crate::linalg::SparseMatrix;
 
@@ -22,6 +23,12 @@ const TOLERANCE: f64 = 1e-9;
 
 /// The same for modes up to a limit: they span a space in which their errors are squared.
 const LOOSE: f64 = 1e-5;
+
+/// The number of vectors grows by one in so many from a search for modes to the next.
+const SEARCHES: usize = 8;
+
+/// Largest number of vectors in a search for modes up to a limit.
+const VECTORS: usize = 800;
 
 /// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
 const DEPENDENT: f64 = 1e-10;
@@ -35,33 +42,40 @@ type Pairs = (Vec<f64>, Vec<f64>);
 ///
 /// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
 /// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
-/// fails.
+/// fails, or so many modes are below `limit` that 800 vectors do not find them.
 pub(crate) fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
     count: usize,
     limit: f64,
 ) -> Option<Pairs> {
-    let mut space = Space { stiffness, mass, basis: Vec::new(), columns: Vec::new(), seed: 1 };
-    let count = count.min(space.order());
+    let basis = OrthonormalRows::new(mass);
+    let mut space = Space { stiffness, order: mass.order(), basis, columns: Vec::new(), seed: 1 };
+    let count = count.min(space.order);
+    let mut next = if limit.is_finite() { 0 } else { count };
     let tolerance = if limit.is_finite() { LOOSE } else { TOLERANCE };
     loop {
         let applied = space.columns.len();
-        if applied == space.vectors() {
+        if applied == space.basis.count() {
             // At the beginning, or when A yields no new vector. The modes found are then exact, unless a
             // frequency has more modes than a block has vectors.
             space.extend_at_random();
-            if applied == space.vectors() {
+            if applied == space.basis.count() {
                 return space.modes(&space.approximations(count, limit)?);
             }
         }
         space.step();
-        if space.columns.len() >= count || limit.is_finite() {
+        let applied = space.columns.len();
+        if applied >= next {
             let found = space.approximations(count, limit)?;
             let ends = found.theta.last().is_some_and(|theta| theta * limit < 1.0);
-            if (ends || space.columns.len() >= count) && found.residual <= tolerance {
+            if (ends || applied >= count) && found.residual <= tolerance {
                 return space.modes(&found);
             }
+            if limit.is_finite() && applied > VECTORS {
+                return None;
+            }
+            next = applied + applied / SEARCHES;
         }
     }
 }
@@ -69,65 +83,21 @@ pub(crate) fn lowest_modes(
 /// The Krylov space built so far.
 struct Space<'a> {
     stiffness: &'a SparseFactor,
-    mass: &'a SparseMatrix,
-    basis: Vec<f64>,
-    /// Columns of H: the coefficients of A v, for every v to which A was applied.
+    order: usize,
+    /// V.
+    basis: OrthonormalRows<'a>,
+    /// Columns of H, for every vector to which A was applied, with the rows known by then.
     columns: Vec<Vec<f64>>,
     seed: u64,
 }
 
 impl Space<'_> {
-    fn order(&self) -> usize {
-        self.mass.order()
-    }
-
-    fn vectors(&self) -> usize {
-        self.basis.len() / self.order().max(1)
-    }
-
-    /// Overwrites vectors x with A x.
-    fn apply(&self, vectors: &mut [f64]) {
-        let mut product = vec![0.0; self.order()];
-        for vector in vectors.chunks_exact_mut(self.order()) {
-            product.fill(0.0);
-            self.mass.multiply_add(1.0, vector, &mut product);
-            vector.copy_from_slice(&product);
-        }
-        self.stiffness.solve_many(vectors);
-    }
-
-    /// Appends a vector to the basis if it is independent of it, and returns its coefficients.
-    fn append(&mut self, vector: &mut [f64]) -> Vec<f64> {
-        let mut coefficients = vec![0.0; self.vectors()];
-        let mut product = vec![0.0; self.order()];
-        let mut correction = coefficients.clone();
-        let mut first = None;
-        for _ in 0..2 {
-            product.fill(0.0);
-            self.mass.multiply_add(1.0, vector, &mut product);
-            first.get_or_insert(dot(vector, &product).max(0.0).sqrt());
-            correction.fill(0.0);
-            dense_multiply_add(&self.basis, 1.0, &product, &mut correction);
-            transposed_multiply_add(&self.basis, -1.0, &correction, vector);
-            coefficients.iter_mut().zip(&correction).for_each(|(sum, c)| *sum += c);
-        }
-        product.fill(0.0);
-        self.mass.multiply_add(1.0, vector, &mut product);
-        let rest = dot(vector, &product).max(0.0).sqrt();
-        if rest > DEPENDENT * first.unwrap_or(0.0) {
-            self.basis.extend(vector.iter().map(|x| x / rest));
-            coefficients.push(rest);
-        }
-        coefficients
-    }
-
     /// Appends a block of random vectors, multiplied by A to remove their parts without mass.
     fn extend_at_random(&mut self) {
-        let mut block: Vec<f64> = (0..BLOCK * self.order()).map(|_| self.random()).collect();
-        self.apply(&mut block);
-        for vector in block.chunks_exact_mut(self.order()) {
-            self.append(vector);
-        }
+        let mut block: Vec<f64> = (0..BLOCK * self.order).map(|_| self.random()).collect();
+        block = self.basis.mass().times(&block);
+        self.stiffness.solve_many(&mut block);
+        self.basis.extend(block, Least::Fraction(DEPENDENT));
     }
 
     /// SplitMix64 (Steele, Lea & Flood 2014), in [−½, ½).
@@ -141,14 +111,11 @@ impl Space<'_> {
 
     /// Applies A to the newest vectors and appends the independent results to the basis.
     fn step(&mut self) {
-        let n = self.order();
-        let begin = self.columns.len();
-        let mut images = self.basis[begin * n..].to_vec();
-        self.apply(&mut images);
-        for image in images.chunks_exact_mut(n) {
-            let coefficients = self.append(image);
-            self.columns.push(coefficients);
-        }
+        let mut images = self.basis.momenta()[self.columns.len() * self.order..].to_vec();
+        self.stiffness.solve_many(&mut images);
+        self.basis.extend(images.clone(), Least::Fraction(DEPENDENT));
+        let shares = row_products(&images, self.basis.momenta(), self.order);
+        self.columns.extend(shares.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
     /// The best approximations of the lowest `count` modes in this space, up to the first one above `limit`.
@@ -156,7 +123,8 @@ impl Space<'_> {
         let m = self.columns.len();
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
         let square = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
-        let matrix: Vec<f64> = square.map(|(i, j)| 0.5 * (entry(i, j) + entry(j, i))).collect();
+        // A column has all rows up to its own.
+        let matrix: Vec<f64> = square.map(|(i, j)| entry(i.min(j), i.max(j))).collect();
         let (values, vectors) = symmetric_modes(&matrix, m)?;
         let top = values.last().copied().unwrap_or(0.0);
         let mut found = Approximations { theta: vec![], shares: vec![], residual: 0.0 };
@@ -167,7 +135,7 @@ impl Space<'_> {
             }
             let y: Vec<f64> = (0..m).map(|i| vectors[i * m + k]).collect();
             let outside = |row: usize| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>();
-            let square: f64 = (m..self.vectors()).map(|row| outside(row).powi(2)).sum();
+            let square: f64 = (m..self.basis.count()).map(|row| outside(row).powi(2)).sum();
             found.residual = found.residual.max(square.sqrt() / theta);
             found.theta.push(theta);
             found.shares.push(y);
@@ -180,11 +148,11 @@ impl Space<'_> {
 
     /// λ and φ of the approximations.
     fn modes(&self, found: &Approximations) -> Option<Pairs> {
-        let (n, m) = (self.order(), self.columns.len());
+        let (n, m) = (self.order, self.columns.len());
         let mut modes = vec![0.0; found.theta.len() * n];
-        for (mode, y) in modes.chunks_exact_mut(n).zip(&found.shares) {
-            transposed_multiply_add(&self.basis[..m * n], 1.0, y, mode);
-        }
+        let weights: Vec<f64> =
+            (0..m).flat_map(|i| found.shares.iter().map(move |y| y[i])).collect();
+        add_combined_rows(&weights, &self.basis.vectors()[..m * n], n, 1.0, &mut modes);
         let finite = modes.iter().all(|x| x.is_finite());
         finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))
     }

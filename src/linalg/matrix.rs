@@ -1,5 +1,7 @@
 //! Matrices of a structure: sparse in its degrees of freedom, diagonal in its modes.
 
+use std::sync::Arc;
+
 use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, weighted_dot};
 
@@ -26,10 +28,10 @@ pub(crate) fn spread(terms: &[(usize, f64)], length: usize) -> Vec<f64> {
 /// Square sparse matrix, compressed by rows.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct SparseMatrix {
-    order: usize,
-    row_start: Vec<usize>,
-    column: Vec<usize>,
-    value: Vec<f64>,
+    pub(super) order: usize,
+    pub(super) row_start: Vec<usize>,
+    pub(super) column: Vec<usize>,
+    pub(super) value: Vec<f64>,
 }
 
 impl SparseMatrix {
@@ -186,47 +188,13 @@ impl SparseMatrix {
     pub(crate) fn form(&self, x: &[f64], y: &[f64]) -> f64 {
         x.iter().enumerate().map(|(row, x)| x * self.row_product(row, y)).sum()
     }
-
-    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
-    pub(crate) fn asymmetry(&self) -> f64 {
-        let mut largest = 0.0_f64;
-        let mut difference = 0.0_f64;
-        for (row, column, value) in self.entries() {
-            largest = largest.max(value.abs());
-            difference = difference.max((value - self.entry(column, row)).abs());
-        }
-        if largest > 0.0 { difference / largest } else { 0.0 }
-    }
-
-    /// Row, column, a_ij and a_ji of the pair whose difference most exceeds the difference `allowed` in its row and
-    /// column.
-    pub(crate) fn unsymmetric_pair(
-        &self,
-        allowed: impl Fn(usize, usize) -> f64,
-    ) -> Option<(usize, usize, [f64; 2])> {
-        let pairs = self.entries().map(|(row, column, value)| {
-            let pair = [value, self.entry(column, row)];
-            let excess = (pair[0] - pair[1]).abs() - allowed(row, column);
-            (excess, (row, column, pair))
-        });
-        let beyond = pairs.filter(|(excess, _)| *excess > 0.0);
-        // Of equal ones the first.
-        beyond.reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, pair)| pair)
-    }
-
-    /// a_ij.
-    fn entry(&self, row: usize, column: usize) -> f64 {
-        let range = self.row_start[row]..self.row_start[row + 1];
-        let found = self.column[range.clone()].binary_search(&column);
-        found.map_or(0.0, |k| self.value[range.start + k])
-    }
 }
 
 /// A matrix of the equations of motion in the coordinates in which they are stepped.
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
     /// Matrix in the structure's own degrees of freedom.
-    Sparse(SparseMatrix),
+    Sparse(Arc<SparseMatrix>),
     /// Diagonal of the matrix in modal coordinates.
     Diagonal(Vec<f64>),
 }
@@ -249,12 +217,13 @@ impl Matrix {
         }
     }
 
-    /// Adds factor · A to `sum`.
-    pub(crate) fn add_to(&self, factor: f64, sum: &mut Triplets) {
+    /// The matrix with all entries that are stored.
+    pub(crate) fn as_sparse(&self) -> Arc<SparseMatrix> {
         match self {
-            Self::Sparse(matrix) => matrix.add_to(factor, sum),
+            Self::Sparse(matrix) => Arc::clone(matrix),
             Self::Diagonal(values) => {
-                values.iter().enumerate().for_each(|(i, d)| sum.add(i, i, factor * d));
+                let fill = |row: usize, own: &mut Vec<_>| own.push((row, values[row]));
+                Arc::new(SparseMatrix::by_rows(values.len(), fill))
             }
         }
     }
@@ -313,7 +282,7 @@ mod tests {
         let d: Vec<f64> = (0..11).map(|i| 1.0 + f64::from(i)).collect();
         let mut triplets = Triplets::new(11);
         d.iter().enumerate().for_each(|(i, d)| triplets.add(i, i, *d));
-        let sparse = Matrix::Sparse(SparseMatrix::new("test", &triplets).unwrap());
+        let sparse = Matrix::Sparse(Arc::new(SparseMatrix::new("test", &triplets).unwrap()));
         let diagonal = Matrix::Diagonal(d);
         let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
         let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();

@@ -15,11 +15,14 @@ mod hermitian;
 mod lanes;
 mod lattice_product;
 mod lowest_modes;
+mod many_vectors;
 pub(crate) mod matrix;
 mod number;
+pub(crate) mod orthonormal;
 mod partition;
 mod product;
 mod sparse;
+mod symmetry;
 mod thinned;
 mod triplets;
 

@@ -1,17 +1,20 @@
 //! Factors of sparse matrices.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::SparseColMat;
 use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
-use faer::sparse::{SparseColMat, SymbolicSparseColMat};
 use faer::{Conj, MatMut, Par, Side, Spec};
 
 use crate::error::{Error, Result};
-use crate::linalg::elimination::Elimination;
+use crate::linalg::elimination::{Elimination, by_columns};
 use crate::linalg::{SparseMatrix, Triplets};
+
+/// Numbers in right-hand sides that are solved for together.
+const TOGETHER: usize = 1 << 22;
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {
@@ -23,6 +26,18 @@ pub(crate) struct SparseFactor {
 enum Factors {
     Cholesky { symbolic: SymbolicCholesky<usize>, values: Vec<f64> },
     Lu { symbolic: SymbolicLu<usize>, numeric: NumericLu<usize, f64> },
+}
+
+impl Factors {
+    /// Workspace of a solve for so many right-hand sides.
+    fn scratch(&self, columns: usize) -> StackReq {
+        match self {
+            Self::Cholesky { symbolic, .. } => {
+                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
+            }
+            Self::Lu { symbolic, .. } => symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq),
+        }
+    }
 }
 
 impl SparseFactor {
@@ -127,24 +142,21 @@ impl SparseFactor {
         Self::solve_with(&self.factors, self.order, 1, false, rhs, &mut self.buffer);
     }
 
-    /// Overwrites `rhs` with A⁻ᵀ rhs.
-    pub(crate) fn solve_transposed(&mut self, rhs: &mut [f64]) {
-        Self::solve_with(&self.factors, self.order, 1, true, rhs, &mut self.buffer);
+    /// Overwrites `rhs` with A⁻ᵀ rhs; allocates its workspace.
+    pub(crate) fn solve_transposed(&self, rhs: &mut [f64]) {
+        let mut buffer = MemBuffer::new(self.factors.scratch(1));
+        Self::solve_with(&self.factors, self.order, 1, true, rhs, &mut buffer);
     }
 
     /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub(crate) fn solve_many(&self, rhs: &mut [f64]) {
-        let columns = rhs.len() / self.order.max(1);
-        let scratch = match &self.factors {
-            Factors::Cholesky { symbolic, .. } => {
-                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
-            }
-            Factors::Lu { symbolic, .. } => {
-                symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq)
-            }
-        };
-        let mut buffer = MemBuffer::new(scratch);
-        Self::solve_with(&self.factors, self.order, columns, false, rhs, &mut buffer);
+        let order = self.order.max(1);
+        let columns = (rhs.len() / order).min((TOGETHER / order).max(8));
+        let mut buffer = MemBuffer::new(self.factors.scratch(columns));
+        for some in rhs.chunks_mut(columns.max(1) * order) {
+            let columns = some.len() / order;
+            Self::solve_with(&self.factors, self.order, columns, false, some, &mut buffer);
+        }
     }
 
     fn solve_with(
@@ -214,23 +226,6 @@ pub(crate) fn indefinite_row(
     (0..matrix.order()).for_each(|row| scaled.add(row, row, 1.0 + tolerance));
     let scaled = SparseMatrix::new("scaled matrix", &scaled).ok()?;
     SparseFactor::cholesky(&by_columns(&scaled), elimination).err()
-}
-
-/// The matrix, compressed by columns.
-pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
-    let order = matrix.order();
-    let mut start = vec![0; order + 1];
-    matrix.entries().for_each(|(_, column, _)| start[column + 1] += 1);
-    (0..order).for_each(|column| start[column + 1] += start[column]);
-    let mut next = start.clone();
-    let (mut rows, mut values) = (vec![0; matrix.stored()], vec![0.0; matrix.stored()]);
-    for (row, column, value) in matrix.entries() {
-        let at = &mut next[column];
-        (rows[*at], values[*at]) = (row, value);
-        *at += 1;
-    }
-    let pattern = SymbolicSparseColMat::new_checked(order, order, start, None, rows);
-    SparseColMat::new(pattern, values)
 }
 
 #[cfg(test)]

@@ -120,5 +120,5 @@ fn holds_itself(stiffness: &Triplets) -> Result<bool> {
         return Ok(false);
     }
     Ok(SparseFactor::new(NAME, stiffness)
-        .is_ok_and(|mut factor| sparse_condition(&matrix, &mut factor) < FLOATS))
+        .is_ok_and(|factor| sparse_condition(&matrix, &factor) < FLOATS))
 }

@@ -64,6 +64,46 @@ pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -
     check_semi_definite("damping matrix", damping, elimination)
 }
 
+/// Whether a matrix is βA + αB up to rounding and therefore positive semi-definite, as its check by factors.
+///
+/// A is positive definite, B positive semi-definite, and A has all places of B. An α below zero may leave negative
+/// values as small as the check allows.
+pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> bool {
+    let Ok(b) = SparseMatrix::sum("matrix", a.order(), &[(0.0, a), (1.0, b)]) else { return false };
+    let entries = || matrix.entries().zip(a.entries()).zip(b.entries());
+    let is_alike = |own: &SparseMatrix| {
+        let places = |of| SparseMatrix::entries(of).map(|(i, j, _)| (i, j));
+        places(own).eq(places(matrix))
+    };
+    if !(is_alike(a) && is_alike(&b)) {
+        return false;
+    }
+    let diagonal = matrix.diagonal();
+    // Least squares, of entries in a matrix scaled to a unit diagonal.
+    let mut sums = [0.0; 5];
+    for (((i, j, own), (.., a)), (.., b)) in entries() {
+        let scale = (diagonal[i] * diagonal[j]).abs().max(f64::MIN_POSITIVE).recip();
+        let products = [a * a, a * b, b * b, a * own, b * own];
+        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += scale * product);
+    }
+    let [aa, ab, bb, ac, bc] = sums;
+    let rest = aa * bb - ab * ab;
+    let (beta, alpha) = if rest > SYMMETRIC * aa * bb {
+        ((ac * bb - bc * ab) / rest, (bc * aa - ac * ab) / rest)
+    } else {
+        (ac / aa, 0.0)
+    };
+    let mut left = vec![[0.0; 2]; diagonal.len()];
+    for (((i, _, own), (.., a)), (.., b)) in entries() {
+        left[i][0] += (own - beta * a - alpha * b).abs();
+        left[i][1] += (-alpha).max(0.0) * b.abs();
+    }
+    let is_rounding = |(left, own): (&[f64; 2], &f64)| {
+        left[0] <= SYMMETRIC * own && left[1] <= SEMI_DEFINITE * own
+    };
+    beta >= 0.0 && left.iter().zip(&diagonal).all(is_rounding)
+}
+
 fn check_semi_definite(
     name: &'static str,
     matrix: &SparseMatrix,
@@ -74,5 +114,46 @@ fn check_semi_definite(
     match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest, elimination) {
         Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),
         None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::structure::Triplets;
+
+    /// Chain of springs `spring`, and a spring `own` under each mass.
+    fn chain(spring: f64, own: f64) -> SparseMatrix {
+        let mut matrix = Triplets::new(30);
+        for i in 0..30 {
+            matrix.add(i, i, own);
+            if i > 0 {
+                matrix.add_spring(i - 1, i, spring);
+            }
+        }
+        SparseMatrix::new("chain", &matrix).unwrap()
+    }
+
+    #[test]
+    fn proportional_matrices_are_combinations_and_others_are_not() {
+        let (stiffness, mass) = (chain(4.0e6, 1e-2), chain(0.0, 2.0));
+        let floating = [&stiffness, &mass];
+        let sum = |terms: &[(f64, &SparseMatrix)]| SparseMatrix::sum("sum", 30, terms).unwrap();
+        // In proportion to both, to the stiffness, and to the mass in the places of the stiffness.
+        for [beta, alpha] in [[1e-3, 0.7], [1e-3, 0.0], [0.0, 0.7], [1e-3, -1e-6]] {
+            assert!(is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+        }
+        // Negative, by more than rounding or in part.
+        for [beta, alpha] in [[-1e-3, 0.7], [1e-3, -0.7], [0.0, -0.7]] {
+            assert!(!is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+        }
+        // A dashpot more, between neighbours or elsewhere.
+        for place in [17, 25] {
+            let mut dashpot = Triplets::new(30);
+            dashpot.add_spring(16, place, 1.0);
+            let dashpot = SparseMatrix::new("dashpot", &dashpot).unwrap();
+            let damping = sum(&[(1e-3, &stiffness), (0.7, &mass), (1.0, &dashpot)]);
+            assert!(!is_combination(&damping, floating));
+        }
     }
 }

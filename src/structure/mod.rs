@@ -48,7 +48,9 @@ pub use hysteresis::{
     BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
     PendulumBearing, SpringResponse, WithSprings,
 };
-pub(crate) use matrix_checks::{UNNOTICED, check_damping, check_mass, check_stiffness, massless};
+pub(crate) use matrix_checks::{
+    UNNOTICED, check_damping, check_mass, check_stiffness, is_combination, massless,
+};
 pub use modal_damping::{ModalDamping, WithModalDamping};
 #[cfg(feature = "embedded")]
 pub use models::WithWalls;

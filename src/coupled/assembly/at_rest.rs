@@ -1,5 +1,7 @@
 //! The static state of a scene: in stages, with walls after backfilling or in place of the soil.
 
+use std::cell::RefCell;
+
 use super::backfilled;
 use super::static_stages::{loaded, placed};
 use crate::coupled::base::held::holds;
@@ -7,6 +9,7 @@ use crate::coupled::base::influence::UP;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
+use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, finite};
@@ -16,11 +19,16 @@ use crate::structure::nonlinear_state;
 
 /// The state under weight and the loads at t = 0; trivial without gravity.
 ///
-/// Commits the structure's internal variables to it.
-pub(crate) fn solve(parts: &mut Parts, assembled: &Assembled) -> Result<StaticState> {
+/// Commits the structure's internal variables to it. `shared` receives the compliance of a linear structure.
+pub(crate) fn solve(
+    parts: &mut Parts,
+    assembled: &Assembled,
+    shared: &RefCell<Option<Compliance>>,
+) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     if parts.given.is_static() {
-        state = under_loads(parts, assembled, &compliance(parts)?, &parts.given.laws)?;
+        let soil = compliance(parts)?;
+        state = under_loads(parts, assembled, (&soil, shared), &parts.given.laws)?;
         if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
         }
@@ -45,11 +53,11 @@ pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
 
 /// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws.
 ///
-/// The structure's internal variables stay unchanged.
+/// The structure's internal variables stay unchanged. `shared`: the structure's compliance on them, if it is known.
 pub(crate) fn under_loads(
     parts: &Parts,
     assembled: &Assembled,
-    soil: &[f64],
+    (soil, shared): (&[f64], &RefCell<Option<Compliance>>),
     laws: &[Box<dyn InterfaceLaw>],
 ) -> Result<StaticState> {
     let Parts { structure, given, .. } = parts;
@@ -68,7 +76,7 @@ pub(crate) fn under_loads(
     all_finite("weight", &weight)?;
     all_finite("load at t = 0", &load)?;
     let (structure, frictionless) = (structure.as_ref(), false);
-    let stage = Standing { assembled, structure, soil, frictionless, offset: &[] };
+    let stage = Standing { assembled, structure, soil, frictionless, offset: &[], shared };
     let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
     let mut state = if walls && given.gravity_stage != GravityStage::WishedInPlace {
         backfilled::state(parts, &stage, laws, [&weight, &load])?

@@ -7,6 +7,8 @@
 //! | S, B | static compliance of the soil, element means of the base displacement |
 //! | u₀, τ₀ | displacement and tractions after backfilling |
 
+use std::cell::RefCell;
+
 use super::static_stages::{TIME_STEP, loaded, placed};
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
@@ -34,7 +36,8 @@ pub(super) fn state(
     for row in &places {
         soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
     }
-    let on_floor = Standing { assembled: &own, soil: &soil, ..*stage };
+    let shared = RefCell::default();
+    let on_floor = Standing { assembled: &own, soil: &soil, shared: &shared, ..*stage };
 
     let mut traction = at_rest(parts, elements, false)?;
     let mut total = weight.to_vec();

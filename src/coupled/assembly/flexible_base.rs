@@ -14,21 +14,23 @@
 //! 0.9, 2.4 and 11. Walls 8 m high with a strut between their middles: 9 % near ρ = 6, 3 % with 1.5 to 2 times the
 //! elements, by which ρ grows with their cube.
 
-use std::ops::Range;
+use std::cell::RefCell;
+use std::rc::Rc;
 
 use super::at_rest;
+use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
+use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
-use crate::linalg::{SparseFactor, SparseMatrix, dot, magnitude};
-use crate::structure::{BaseNode, Triplets};
+use crate::geometry::{axis_name, far_ends, in_a_row};
+use crate::linalg::{dot, magnitude};
+use crate::structure::{BaseNode, Tangent};
 
-const NAME: &str = "stiffness matrix with its contact elements held";
 /// Smallest ρ at which elements are short enough.
 const STIFF: f64 = 6.0;
 /// ρ at which the number named for a wall aims.
@@ -39,64 +41,51 @@ const DIFFERENCE: f64 = 0.03;
 const ANOTHER: f64 = 0.3;
 /// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
 const POWERS: [f64; 2] = [1.0, 3.0];
-/// Stiffness of springs that hold element means, relative to the soil.
-const HELD: f64 = 1e4;
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
 const LINE: f64 = 1e-9;
 /// Largest order of a matrix with twice the elements.
 const MOST: usize = 3600;
 /// Asymmetry of K that counts as rounding.
 const ROUNDING: f64 = 1e-9;
-/// Largest number of power iterations for ρ, and the change at which they end.
-const ITERATIONS: usize = 20;
-const CONVERGED: f64 = 0.01;
-
-/// The softest shape of a base with zero mean displacement on every element.
-struct UnseenShape {
-    /// ρ.
-    ratio: f64,
-    /// Number of the face with the largest part in the shape.
-    face: usize,
-}
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
-/// `at_rest`: the static state. A rigid base costs nothing.
+/// `at_rest`: the static state. `shared`: the structure's compliance in it, if it is known. A rigid base costs nothing.
 pub(crate) fn check(
     parts: &Parts,
     assembled: &Assembled,
     at_rest: &StaticState,
+    shared: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
     if !base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
     let own_soil = at_rest::compliance(parts)?;
+    let own = (own_soil.as_slice(), shared);
+    let Some(floating) = floating(parts, assembled, own)? else { return Ok(None) };
     // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
     let alone = faces(base).any(|(.., own)| own.len() == 1);
     let halves = if alone { finer(parts, base) } else { None };
-    let shape = UnseenShape::softest(assembled, base, &own_soil, halves.as_ref())
+    let shape = UnseenShape::softest(assembled, base, own, halves.as_ref())
         .filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = if alone { halves } else { finer(parts, base) } {
         // If twice the elements leave no such shape, they are enough.
-        let next = UnseenShape::softest(assembled, &finer, &soil, None);
+        let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)));
+        let halved = (soil.as_slice(), &compliance);
+        let next = UnseenShape::softest(assembled, &finer, halved, None);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
-            let under = |assembled: &Assembled, soil: &[f64]| {
+            let under = |assembled: &Assembled, soil| {
                 at_rest::under_loads(parts, assembled, soil, law).ok()
             };
-            let with_first;
-            let coarse = if parts.given.laws.len() == 1 {
-                Some(at_rest)
-            } else {
-                with_first = under(assembled, &own_soil);
-                with_first.as_ref()
-            };
-            let fine = under(&assembled.on(finer), &soil);
+            let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, own));
+            let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
+            let fine = under(&assembled.on(finer), halved);
             let both = coarse.zip(fine.as_ref());
             difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
         }
@@ -123,6 +112,28 @@ pub(crate) fn check(
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
+/// The factored structure of the compliance on its own elements, which becomes known.
+///
+/// `None` if its stiffness is not symmetric or cannot be factored.
+fn floating(
+    parts: &Parts,
+    assembled: &Assembled,
+    (soil, shared): OnSoil<'_>,
+) -> Result<Option<Rc<Floating>>> {
+    if assembled.stiffness_at_rest().asymmetry() > ROUNDING {
+        return Ok(None);
+    }
+    if let Some(known) = &*shared.borrow() {
+        return Ok(Some(Rc::clone(&known.floating)));
+    }
+    let tangent = Tangent::at(parts.structure.as_ref(), &vec![0.0; assembled.dofs()])?.matrix;
+    let springs = springs(assembled, soil)?;
+    let Ok(floating) = Floating::new(assembled, &tangent, springs) else { return Ok(None) };
+    let floating = Rc::new(floating);
+    shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)));
+    Ok(Some(floating))
+}
+
 /// Base on twice the elements, four times in plan, and their static compliance.
 ///
 /// `None` if the compliance is unknown, or too large for a check.
@@ -138,17 +149,6 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
     }
     finer.refer_inside(&mut soil);
     Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, soil))
-}
-
-/// Faces of the foundations, each with the number and the nodes of its foundation and its elements.
-///
-/// A foundation without walls is one face.
-fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
-    base.foundations().enumerate().flat_map(|(foundation, (nodes, own))| {
-        let faces = ContactElement::faces(base.elements()).into_iter();
-        let parts = faces.map(move |face| face.start.max(own.start)..face.end.min(own.end));
-        parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
-    })
 }
 
 /// The face with the largest difference of its shape between two static states, and the difference.
@@ -229,104 +229,4 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
     let ((_, count), axis) = shorter.unwrap_or_default();
     (foundation, axis_name(patch.is_plan(), axis), count)
-}
-
-impl UnseenShape {
-    /// The shape with the smallest ρ on elements of this static compliance; `halves`: as for [`moduli`].
-    ///
-    /// `None` if there is no such shape, or the structure's stiffness is not symmetric.
-    fn softest(
-        assembled: &Assembled,
-        base: &PlacedBase,
-        soil: &[f64],
-        halves: Option<&(PlacedBase, Vec<f64>)>,
-    ) -> Option<Self> {
-        let (stiffness, n) = (assembled.stiffness_at_rest(), assembled.dofs());
-        let moduli = moduli(base, soil, halves);
-        let mut seen = SparseMatrix::weighted_sum(n, &[(1.0, stiffness)]);
-        for (i, modulus) in moduli.iter().enumerate() {
-            seen.add_outer(base.mean_row(i), HELD * modulus * base.area(i));
-        }
-        let (layout, mut springs) = (base.layout(), Triplets::new(n));
-        for (point, rows) in base.deviations() {
-            for (component, row) in rows.iter().enumerate() {
-                let modulus = moduli[layout.place(component, point.element)];
-                springs.add_outer(row, modulus * point.area);
-            }
-        }
-        if stiffness.asymmetry() > ROUNDING {
-            return None;
-        }
-        let springs = SparseMatrix::new(NAME, &springs).ok()?;
-        let seen = SparseMatrix::new(NAME, &seen).ok()?;
-        let mut factor = SparseFactor::of(NAME, &seen, &assembled.elimination).ok()?;
-        // Power iteration from a vector of mixed signs and sizes; the quotient is some per cent above the smallest.
-        let mut shape: Vec<f64> = (0..n).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
-        let mut ratio = f64::INFINITY;
-        for _ in 0..ITERATIONS {
-            let mut force = vec![0.0; n];
-            springs.multiply_add(1.0, &shape, &mut force);
-            let whole = dot(&shape, &force).sqrt();
-            if !(whole.is_finite() && whole > 0.0) {
-                return None;
-            }
-            for f in &mut force {
-                *f /= whole;
-            }
-            shape.copy_from_slice(&force);
-            factor.solve(&mut shape);
-            let before = std::mem::replace(&mut ratio, 1.0 / springs.form(&shape, &shape).sqrt());
-            if (before / ratio - 1.0).abs() < CONVERGED {
-                break;
-            }
-        }
-        if !ratio.is_finite() {
-            return None;
-        }
-        let mut energies = vec![0.0; faces(base).count()];
-        for (point, rows) in base.deviations() {
-            let own = faces(base).position(|(.., own)| own.contains(&point.element));
-            for (component, row) in rows.iter().enumerate() {
-                let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
-                let modulus = moduli[layout.place(component, point.element)];
-                energies[own.unwrap_or(0)] += modulus * point.area * value * value;
-            }
-        }
-        let most = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        Some(Self { ratio, face: most.map_or(0, |(face, _)| face) })
-    }
-}
-
-/// Stiffness of the soil under each element in each component, Pa/m.
-///
-/// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements; from one
-/// of its `halves`, a base and its compliance, to the other where a face has one element.
-fn moduli(base: &PlacedBase, soil: &[f64], halves: Option<&(PlacedBase, Vec<f64>)>) -> Vec<f64> {
-    let layout = base.layout();
-    let faces: Vec<_> = faces(base).map(|(.., own)| own).collect();
-    let modulus = |i: usize| {
-        let [component, e] = layout.origin(i);
-        let face = faces.iter().position(|own| own.contains(&e));
-        let own = face.map_or(e..e + 1, |face| faces[face].clone());
-        let around = [e.checked_sub(1), Some(e + 1)].into_iter().flatten();
-        let mut compliance = around
-            .filter(|other| own.contains(other))
-            .map(|other| alternating(base, soil, component, [e, other]))
-            .fold(soil[i * layout.len() + i], f64::min);
-        if let (1, Some((base, soil)), Some(face)) = (own.len(), halves, face) {
-            let halves = self::faces(base).nth(face).map_or(0..1, |(.., own)| own);
-            let others = (halves.start + 1..halves.end)
-                .map(|other| alternating(base, soil, component, [halves.start, other]));
-            compliance = others.fold(compliance, f64::min);
-        }
-        if compliance > 0.0 { compliance.recip() } else { 0.0 }
-    };
-    (0..layout.len()).map(modulus).collect()
-}
-
-/// Compliance of the soil for equal and opposite tractions on two elements, m/Pa.
-fn alternating(base: &PlacedBase, soil: &[f64], component: usize, elements: [usize; 2]) -> f64 {
-    let [i, j] = elements.map(|e| base.layout().place(component, e));
-    let entry = |i: usize, j: usize| soil[i * base.layout().len() + j];
-    0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i))
 }

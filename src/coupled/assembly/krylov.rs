@@ -14,16 +14,20 @@
 //! With many forces the space holds vibration modes up to a frequency, the static responses to all forces, and powers
 //! of K_eff of what they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
+use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::scheme::SchemeCoefficients;
+use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
-use crate::structure::{BaseNode, HeldBase, stiffest};
+use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, lowest_modes};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
@@ -37,6 +41,8 @@ const MODES: usize = 600;
 const ROUNDS_OF_MODES: usize = 5;
 /// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
 const STATIC: [f64; 2] = [1e-2, 0.5];
+/// Smallest square of a shift for vibration modes, relative to the scheme's: θ of a rigid motion leaves digits for others.
+const FAR: f64 = 1e-9;
 /// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
 const SMOOTH: usize = 32;
 /// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
@@ -61,16 +67,20 @@ const DYNAMIC: &str = "dynamic stiffness matrix";
 /// Number of times at which the structure's own load is sampled.
 const SAMPLES: u32 = 16;
 
+/// Factors an effective stiffness.
+pub(crate) type Factored<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
+
 /// Input of a reduction.
 ///
 /// Rows have an entry for every degree of freedom.
 pub(crate) struct Reduction<'a> {
     assembled: &'a Assembled,
     coefficients: &'a SchemeCoefficients,
-    /// K_eff, factored.
-    factor: &'a SparseFactor,
-    /// K with its base held, factored.
-    held: &'a SparseFactor,
+    /// Factors K_eff.
+    factored: &'a Factored<'a>,
+    held: HeldResponses,
+    /// Factored K + εM, until it is used.
+    floating: Cell<Option<Rc<Floating>>>,
     /// Steps of the run.
     steps: usize,
     /// Rows of the probes that are not zero.
@@ -82,14 +92,14 @@ pub(crate) struct Reduction<'a> {
 impl<'a> Reduction<'a> {
     /// Collects forces and probes of a structure.
     ///
-    /// `factor`: of its effective stiffness. `held`: of its stiffness with the base held.
+    /// `factored`: factors its effective stiffness. `floating`: its stiffness without supports, if it is known.
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        [factor, held]: [&'a SparseFactor; 2],
+        (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
         steps: usize,
     ) -> Result<Self> {
-        let (given, base) = (&parts.given, &assembled.base);
+        let (given, base, coefficients) = (&parts.given, &assembled.base, &parts.coefficients);
         let (n, size) = (assembled.dofs(), base.layout().len());
         let mut rows = ResponseRows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
         for load in &given.loads {
@@ -140,8 +150,8 @@ impl<'a> Reduction<'a> {
                 places[kind] = kept.then_some(place);
             }
         }
-        let coefficients = &parts.coefficients;
-        Ok(Self { assembled, coefficients, factor, held, steps, rows, motions })
+        let floating = Cell::new(floating);
+        Ok(Self { assembled, coefficients, factored, held, floating, steps, rows, motions })
     }
 
     /// The Ritz modes whose responses to forces are within `tolerance`.
@@ -156,37 +166,34 @@ impl<'a> Reduction<'a> {
         self.modes_of_few(tolerance, matrices)
     }
 
-    /// The rigid motions, and the lowest frequency with the base held.
-    fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> (Subspace<'m>, f64) {
+    /// The rigid motions.
+    fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> Subspace<'m> {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
-        let (rotations, lowest) = self.held(&translations, matrices);
         let mut space = Subspace::new(matrices, translations);
-        space.extend(rotations, LEAST_NEW);
-        (space, lowest)
+        space.extend(self.held.rotations.clone(), LEAST_NEW);
+        space
     }
 
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
     ///
     /// Few reductions need a third round, which makes the factor again: kept, it would add to the peak of memory of all.
     fn modes_of_many(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let (mut space, lowest) = self.rigid(matrices);
+        let mut space = self.rigid(matrices);
         let (rows, c) = (&self.rows.all, self.coefficients);
         let count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), LEAST_NEW);
         let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        let shift = lowest.clamp(STATIC[0] * own, STATIC[1] * own);
         // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
         let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
-        let mut products = Vec::new();
         let mut last: Option<(Ritz, StepResponses)> = None;
-        let mut change = f64::INFINITY;
+        let (mut products, mut change, mut effective) = (Vec::new(), f64::INFINITY, None);
         for round in 0..ROUNDS_OF_MODES {
             // One more power alone is the comparison.
             if round != 1 {
-                let factor = self.shifted(shift, matrices)?;
-                let whole = limit * limit + shift * shift;
-                let found = lowest_modes(&factor, matrices[0], MODES, whole);
+                let floating = self.on_springs(own)?;
+                let (factor, whole) = (&floating.factor, limit * limit + floating.springs);
+                let found = lowest_modes(factor, matrices[0], MODES, whole);
                 let found = found.filter(|(squares, _)| squares.len() < MODES);
                 let Some((_, modes)) = found else {
                     return Err(inaccurate(change, tolerance, space.count()));
@@ -198,12 +205,14 @@ impl<'a> Reduction<'a> {
                     let before = space.count();
                     space.extend(std::mem::take(&mut block), LEAST_NEW);
                     block.extend_from_slice(space.momenta(before));
+                    drop(floating);
+                    effective = Some((self.factored)()?);
                 }
             }
             for momentum in &mut block {
                 *momentum *= c.acceleration[0];
             }
-            self.factor.solve_many(&mut block);
+            effective = effective.inspect(|factor| factor.solve_many(&mut block));
             let before = space.count();
             space.extend_by_length(std::mem::take(&mut block), 0.5 * tolerance.sqrt());
             block.extend_from_slice(space.momenta(before));
@@ -229,14 +238,27 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(change, tolerance, space.count()))
     }
 
+    /// Factored K + σ²M: of the static state, if it is known; `own`: shift of the scheme.
+    fn on_springs(&self, own: f64) -> Result<Rc<Floating>> {
+        let known = self
+            .floating
+            .take()
+            .filter(|known| known.factor.is_positive_definite() && known.springs > FAR * own * own);
+        let shift = self.held.lowest.clamp(STATIC[0] * own, STATIC[1] * own);
+        let shifted = || Floating::new(self.assembled, &SparseMatrix::default(), shift * shift);
+        known.map_or_else(|| shifted().map(Rc::new), Ok)
+    }
+
     /// Ritz modes for few forces: powers of several shifts.
     fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let (mut space, lowest) = self.rigid(matrices);
+        let (mut space, lowest) = (self.rigid(matrices), self.held.lowest);
         space.extend(self.motions.clone(), LEAST_NEW);
         let rows = &self.rows.all;
         let count = (rows.len() / self.assembled.dofs()).max(1);
+        self.floating.take();
+        let effective = (self.factored)()?;
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
-        let factors: Vec<_> = std::iter::once(self.factor).chain(&factors).collect();
+        let factors: Vec<_> = std::iter::once(&*effective).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         // Rows in terms of the vectors.
         let mut products = Vec::new();
@@ -246,7 +268,8 @@ impl<'a> Reduction<'a> {
         for round in 1..=ROUNDS {
             if !grow(&mut space, &factors, &mut blocks, least) {
                 if least <= LEAST_NEW {
-                    return Ok(space.basis(&space.ritz()?));
+                    let modes = space.ritz()?;
+                    return Ok(space.basis(&modes));
                 }
                 // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
@@ -296,8 +319,9 @@ impl<'a> Reduction<'a> {
                 return Err(error.within(REDUCED));
             }
         }
-        let factor = SparseFactor::of(names[0], matrices[0], &self.assembled.elimination);
-        if !factor.is_ok_and(|factor| factor.is_positive_definite()) {
+        let has_mass = matrices[0].diagonal().iter().all(|mass| *mass > 0.0);
+        let order = &self.assembled.elimination;
+        if !has_mass || indefinite_row(matrices[0], 0.0, 0.0, order).is_some() {
             let needed = "it must be positive definite";
             let error = Error::Scene { quantity: names[0], needed };
             return Err(error.within(REDUCED));
@@ -329,37 +353,6 @@ impl<'a> Reduction<'a> {
         let terms = [(shift * shift, mass), (1.0, stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
         SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
-    }
-
-    /// Responses to a rotation of each part's base, and an estimate of the lowest frequency with the base held.
-    ///
-    /// The responses are rigid rotations of parts that stand on one level. The estimate is Rayleigh's quotient.
-    fn held(
-        &self,
-        translations: &[f64],
-        [mass, _, stiffness]: [&SparseMatrix; 3],
-    ) -> (Vec<f64>, f64) {
-        let n = self.assembled.dofs();
-        let held = HeldBase::new(self.assembled.base.nodes(), stiffness, stiffest(stiffness));
-        let mut rotations = Vec::new();
-        for part in self.assembled.influence.parts() {
-            let nodes = part.nodes(&self.assembled.base);
-            let mean = |place: fn(&BaseNode) -> f64| {
-                nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
-            };
-            let middle = [mean(|node| node.x), mean(|node| node.y)];
-            rotations.extend(held.turns(nodes.iter().copied(), middle).concat());
-        }
-        self.held.solve_many(&mut rotations);
-        let mut inertia = vec![0.0; translations.len()];
-        for (row, force) in translations.chunks_exact(n).zip(inertia.chunks_exact_mut(n)) {
-            mass.multiply_add(1.0, row, force);
-        }
-        let mut bent = inertia.clone();
-        self.held.solve_many(&mut bent);
-        let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
-        let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
-        (rotations, squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt())
     }
 }
 

@@ -11,18 +11,22 @@
 mod at_rest;
 mod backfilled;
 mod flexible_base;
+mod held_responses;
 mod initial_motion;
 mod krylov;
 mod static_stages;
 mod step_response;
 mod stepped;
 mod subspace;
+mod unseen_shape;
 mod vibration_modes;
 
+use std::cell::RefCell;
 use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
+use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
@@ -38,12 +42,14 @@ use crate::coupled::serviceability::Serviceability;
 use crate::coupled::simulation::Simulation;
 use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
+use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
 use crate::coupled::step::solver::Solver;
 use crate::error::{Progress, Result};
 use crate::interface::InterfaceLaw;
+use crate::linalg::SparseFactor;
 use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
@@ -318,9 +324,14 @@ impl SimulationBuilder {
     /// * [`crate::Error::Stopped`] by the observer.
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
-        let (assembled, mut held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let at_rest = at_rest::solve(&mut parts, &assembled)?;
-        let coarse = flexible_base::check(&parts, &assembled, &at_rest)?;
+        let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let (period, is_firm, held) = with_base_held(&parts, &assembled, held);
+        let shared = RefCell::default();
+        let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
+        let coarse = flexible_base::check(&parts, &assembled, &at_rest, &shared)?;
+        let floating = shared.take().map(|own: Compliance| own.floating);
+        let known = floating.as_ref().and_then(|own| own.positive_definite());
+        assembled.check_damping(parts.structure.as_ref(), known)?;
         let joined = supports::joined_by_force(
             parts.structure.as_ref(),
             &assembled.stiffness,
@@ -328,7 +339,7 @@ impl SimulationBuilder {
             [&at_rest.displacement, &at_rest.force],
         )?;
         let Stepped { model, base, operators } =
-            Stepped::choose(&parts, &assembled, &held, &at_rest)?;
+            Stepped::choose(&parts, &assembled, (held, floating), &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
@@ -341,7 +352,6 @@ impl SimulationBuilder {
         let books = given.energy_balance.then(books).transpose()?;
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
-        let period = assembled.period_on_fixed_base(&mut held);
         let mut warnings =
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
         let pressure = given.gravity * assembled.mass_over_area();
@@ -352,10 +362,8 @@ impl SimulationBuilder {
         warnings.extend(Warning::of_triangles(structure.triangle_sides()));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
-        if scene.model.linear {
-            // Last, since stiffnesses too far apart for double precision look like a mechanism.
-            assembled.at_rest(structure.as_ref()).check(&mut held)?;
-        }
+        // Last, since stiffnesses too far apart for double precision look like a mechanism.
+        is_firm?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, compliant && given.energy_balance),
@@ -374,4 +382,19 @@ impl SimulationBuilder {
             prepared: given.steps,
         })
     }
+}
+
+/// Period on a fixed base, whether there is no mechanism, and responses for reduced coordinates.
+///
+/// Releases the factored stiffness with the base held: factors of large structures take most of the memory.
+fn with_base_held(
+    parts: &Parts,
+    assembled: &Assembled,
+    mut held: SparseFactor,
+) -> (f64, Result<()>, Option<HeldResponses>) {
+    let period = assembled.period_on_fixed_base(&mut held);
+    let at_rest = assembled.at_rest(parts.structure.as_ref());
+    let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
+    let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
+    (period, is_firm, is_reduced.then(|| HeldResponses::new(assembled, &held)))
 }

@@ -1,7 +1,10 @@
 //! The structure in its stepping coordinates: the choice between degrees of freedom, modes and Ritz modes.
 
+use std::rc::Rc;
+
 use super::vibration_modes::vibration_modes;
-use crate::coupled::assembly::krylov::Reduction;
+use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::krylov::{Factored, Reduction};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::coordinates::Coordinates;
@@ -10,6 +13,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::mechanism::unresisted;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::parts::Parts;
+use crate::coupled::statics::compliance::Floating;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix};
@@ -48,11 +52,11 @@ impl Stepped {
     /// Chooses the coordinates, and factors the effective stiffness in them.
     ///
     /// The effective stiffness of the degrees of freedom is factored only if they are stepped or the choice needs
-    /// it. `held`: factored stiffness with the base held.
+    /// it. `held`, `floating`: as for [`Reduction`], for reduced coordinates.
     pub(crate) fn choose(
         parts: &Parts,
         assembled: &Assembled,
-        held: &SparseFactor,
+        (held, floating): (Option<HeldResponses>, Option<Rc<Floating>>),
         at_rest: &StaticState,
     ) -> Result<Self> {
         let Parts { given, coefficients, .. } = parts;
@@ -80,8 +84,9 @@ impl Stepped {
                 Chosen::Modes(modes)
             }
             Coordinates::Reduced { tolerance } => {
-                let factor = factored()?;
-                let reduction = Reduction::new(parts, assembled, [&factor, held], steps)?;
+                let held = held.unwrap_or_default();
+                let responses = (held, floating, &factored as &Factored<'_>);
+                let reduction = Reduction::new(parts, assembled, responses, steps)?;
                 let modes = reduction.modes(tolerance);
                 Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, error))?)
             }
@@ -121,9 +126,9 @@ fn cause(
     error: Error,
 ) -> Error {
     let Assembled { mass, damping, stiffness, .. } = assembled;
-    let terms = [(1.0, stiffness), (1.0, tangent)];
+    let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass]));
+    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass].map(|own| &**own)));
     found.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 

@@ -10,6 +10,7 @@
 
 use crate::coupled::base::transformation::ModalBasis;
 use crate::error::{Error, Result};
+use crate::linalg::orthonormal::{Least, OrthonormalRows};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
 
 /// Residual of the eigenproblem, and of damping that counts as diagonal, relative to its terms.
@@ -26,11 +27,10 @@ const INDEPENDENT: f64 = 1e-7;
 
 /// V and the matrices in it.
 pub(crate) struct Subspace<'a> {
-    /// Mass, damping, stiffness.
-    matrices: [&'a SparseMatrix; 3],
-    /// V and V M.
-    vectors: Vec<f64>,
-    momenta: Vec<f64>,
+    /// Damping, stiffness.
+    matrices: [&'a SparseMatrix; 2],
+    /// V.
+    rows: OrthonormalRows<'a>,
     /// V C Vᵀ and V K Vᵀ.
     projected: [Vec<f64>; 2],
     translations: usize,
@@ -47,10 +47,13 @@ pub(crate) struct Ritz {
 
 impl<'a> Subspace<'a> {
     /// The space of these rigid translations.
-    pub(crate) fn new(matrices: [&'a SparseMatrix; 3], translations: Vec<f64>) -> Self {
+    pub(crate) fn new(
+        [mass, damping, stiffness]: [&'a SparseMatrix; 3],
+        translations: Vec<f64>,
+    ) -> Self {
+        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass));
         let projected = [Vec::new(), Vec::new()];
-        let (vectors, momenta) = (Vec::new(), Vec::new());
-        let mut space = Self { matrices, vectors, momenta, projected, translations: usize::MAX };
+        let mut space = Self { matrices, rows, projected, translations: usize::MAX };
         space.extend(translations, INDEPENDENT);
         space.translations = space.count();
         space
@@ -58,7 +61,7 @@ impl<'a> Subspace<'a> {
 
     /// Number of vectors.
     pub(crate) fn count(&self) -> usize {
-        self.vectors.len() / self.order()
+        self.rows.count()
     }
 
     fn order(&self) -> usize {
@@ -67,73 +70,29 @@ impl<'a> Subspace<'a> {
 
     /// V M of the vectors from number `first` on.
     pub(crate) fn momenta(&self, first: usize) -> &[f64] {
-        &self.momenta[first * self.order()..]
+        &self.rows.momenta()[first * self.order()..]
     }
 
     /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
-    ///
-    /// Rows are scaled to a length of one.
     pub(crate) fn extend(&mut self, block: Vec<f64>, least: f64) {
-        self.extend_by(block, least, true);
+        let before = self.count();
+        self.rows.extend(block, Least::Fraction(least));
+        self.project(before);
     }
 
     /// Adds the directions of `block` with a length of more than `least` outside the subspace.
     pub(crate) fn extend_by_length(&mut self, block: Vec<f64>, least: f64) {
-        self.extend_by(block, least, false);
+        let before = self.count();
+        self.rows.extend(block, Least::Length(least));
+        self.project(before);
     }
 
-    fn extend_by(&mut self, mut block: Vec<f64>, least: f64, by_fraction: bool) {
-        let (n, before) = (self.order(), self.count());
-        let mut momenta = Vec::new();
-        // Two passes remove rounding.
-        for pass in 0..2 {
-            let count = block.len() / n;
-            let shares = row_products(&self.momenta, &block, n);
-            if before > 0 {
-                add_combined_rows(&shares, &self.vectors, n, -1.0, &mut block);
-            }
-            let images = self.images(0, &block);
-            let mut products = row_products(&images, &block, n);
-            let scales: Vec<f64> = (0..count)
-                .map(|i| match pass {
-                    0 if by_fraction => {
-                        let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
-                        let length = (inside + products[i * (count + 1)]).sqrt();
-                        if length > 0.0 { length.recip() } else { 0.0 }
-                    }
-                    _ => 1.0,
-                })
-                .collect();
-            for (k, product) in products.iter_mut().enumerate() {
-                *product *= scales[k / count] * scales[k % count];
-            }
-            let least = if pass == 0 { least } else { 0.5 };
-            let mut weights = independent(products, count, least * least);
-            let kept = weights.len() / count.max(1);
-            for row in weights.chunks_exact_mut(count.max(1)) {
-                row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
-            }
-            let combine = |rows: &[f64]| {
-                let mut combined = vec![0.0; kept * n];
-                add_combined_rows(&transpose(&weights, count), rows, n, 1.0, &mut combined);
-                combined
-            };
-            block = combine(&block);
-            if pass == 1 {
-                momenta = combine(&images);
-            }
-        }
-        self.vectors.extend_from_slice(&block);
-        self.momenta.extend(momenta);
-        self.project(&block, before);
-    }
-
-    /// Adds the rows and columns of the `new` vectors to C and K.
-    fn project(&mut self, new: &[f64], before: usize) {
+    /// Adds the rows and columns of the vectors from number `before` on to C and K.
+    fn project(&mut self, before: usize) {
         let (n, count) = (self.order(), self.count());
         for k in 0..2 {
-            let images = self.images(k + 1, new);
-            let products = row_products(&images, &self.vectors, n);
+            let images = self.matrices[k].times(&self.rows.vectors()[before * n..]);
+            let products = row_products(&images, self.rows.vectors(), n);
             let mut grown = vec![0.0; count * count];
             for i in 0..before {
                 let row = &self.projected[k][i * before..(i + 1) * before];
@@ -148,16 +107,6 @@ impl<'a> Subspace<'a> {
             }
             self.projected[k] = grown;
         }
-    }
-
-    /// Products of rows with matrix `which`.
-    fn images(&self, which: usize, rows: &[f64]) -> Vec<f64> {
-        let mut images = vec![0.0; rows.len()];
-        let n = self.order();
-        for (row, image) in rows.chunks_exact(n).zip(images.chunks_exact_mut(n)) {
-            self.matrices[which].multiply_add(1.0, row, image);
-        }
-        images
     }
 
     /// The modes of the subspace.
@@ -207,15 +156,15 @@ impl<'a> Subspace<'a> {
     ///
     /// If these are rigid motions, responses to the rest do not hide deformations behind them.
     pub(crate) fn balanced(&self, mut forces: Vec<f64>) -> Vec<f64> {
-        let resultants = row_products(&self.vectors, &forces, self.order());
-        add_combined_rows(&resultants, &self.momenta, self.order(), -1.0, &mut forces);
-        forces.extend_from_slice(&self.momenta);
+        let resultants = row_products(self.rows.vectors(), &forces, self.order());
+        add_combined_rows(&resultants, self.rows.momenta(), self.order(), -1.0, &mut forces);
+        forces.extend_from_slice(self.rows.momenta());
         forces
     }
 
     /// Products of the vectors from number `first` on with the rows of F, a row for each vector.
     pub(crate) fn products(&self, first: usize, rows: &[f64]) -> Vec<f64> {
-        row_products(&self.vectors[first * self.order()..], rows, self.order())
+        row_products(&self.rows.vectors()[first * self.order()..], rows, self.order())
     }
 
     /// F Φᵀ: the rows of F in terms of the modes, from the products of all vectors.
@@ -227,44 +176,12 @@ impl<'a> Subspace<'a> {
     }
 
     /// The modes in degrees of freedom; of the first vectors, if some were added later.
-    pub(crate) fn basis(&self, modes: &Ritz) -> ModalBasis {
+    pub(crate) fn basis(self, modes: &Ritz) -> ModalBasis {
         let count = modes.stiffness.len();
-        let own = &self.vectors[..count * self.order()];
+        let mut own = self.rows.into_vectors();
+        own.truncate(count * self.matrices[0].order());
         let mut vectors = vec![0.0; own.len()];
-        add_combined_rows(own, &modes.combinations, count, 1.0, &mut vectors);
+        add_combined_rows(&own, &modes.combinations, count, 1.0, &mut vectors);
         ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), vectors)
     }
-}
-
-/// Weights, a row each, of orthonormal combinations of vectors with these scalar products.
-///
-/// Gram–Schmidt, the longest remainder first, while its square exceeds `least`. Vectors of separate parts stay
-/// separate.
-fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
-    let mut rest: Vec<Vec<f64>> =
-        (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    let mut weights = Vec::new();
-    let mut left: Vec<usize> = (0..count).collect();
-    let length = |products: &[f64], i: usize| products[i * (count + 1)];
-    while let Some(at) = (0..left.len())
-        .max_by(|a, b| length(&products, left[*a]).total_cmp(&length(&products, left[*b])))
-        .filter(|at| length(&products, left[*at]) > least)
-    {
-        let chosen = left.swap_remove(at);
-        let scale = length(&products, chosen).sqrt().recip();
-        let own: Vec<f64> = rest[chosen].iter().map(|weight| scale * weight).collect();
-        let shares: Vec<f64> = (0..count).map(|j| scale * products[chosen * count + j]).collect();
-        for &i in &left {
-            rest[i].iter_mut().zip(&own).for_each(|(weight, own)| *weight -= shares[i] * own);
-            let row = &mut products[i * count..(i + 1) * count];
-            row.iter_mut().zip(&shares).for_each(|(product, share)| *product -= shares[i] * share);
-        }
-        weights.extend(own);
-    }
-    weights
-}
-
-/// The columns of a row-major matrix, one after the other.
-pub(crate) fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
-    (0..columns).flat_map(|j| rows.iter().skip(j).step_by(columns).copied()).collect()
 }

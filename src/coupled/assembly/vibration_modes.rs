@@ -8,9 +8,10 @@
 //!
 //! The rigid translations are exact modes: R spans the first modes, and deforming modes have no part of them.
 
-use crate::coupled::assembly::subspace::{DECOUPLED, transpose};
+use crate::coupled::assembly::subspace::DECOUPLED;
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
+use crate::linalg::orthonormal::transpose;
 use crate::linalg::{Partition, dot, generalised_modes, largest};
 
 /// Eigenvalues below this, relative to the largest, count as zero.

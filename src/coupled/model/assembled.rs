@@ -20,7 +20,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
-    check_stiffness, stiffest,
+    check_stiffness, is_combination, stiffest,
 };
 
 /// Number of passes that refine the influence vectors.
@@ -31,9 +31,9 @@ const SWAY: f64 = 0.1;
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
     pub(crate) linear: bool,
-    pub(crate) mass: SparseMatrix,
-    pub(crate) damping: SparseMatrix,
-    pub(crate) stiffness: SparseMatrix,
+    pub(crate) mass: Arc<SparseMatrix>,
+    pub(crate) damping: Arc<SparseMatrix>,
+    pub(crate) stiffness: Arc<SparseMatrix>,
     /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
     at_rest: Option<SparseMatrix>,
     pub(crate) base: PlacedBase,
@@ -55,21 +55,20 @@ impl Assembled {
             SparseMatrix::assembled(name, dofs, fill)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
-        // Masses and dampings may couple far fewer degrees of freedom: they do not choose the order of the stiffness.
-        check_mass(&mass, &Elimination::default())?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
-        if !structure.has_active_damping() {
-            check_damping(&damping, &Elimination::default())?;
-        }
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
-        if !structure.has_active_stiffness() {
-            check_stiffness(&stiffness, &mass)?;
-        }
         let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
         let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
         let sum = || SparseMatrix::sum("stiffness matrix", dofs, &terms);
         let at_rest = if linear { None } else { Some(sum()?) };
-        let (influence, elimination) = (Arc::default(), Elimination::default());
+        // Masses and dampings may couple far fewer degrees of freedom: the stiffness chooses the order.
+        let elimination = Elimination::of(at_rest.as_ref().unwrap_or(&stiffness));
+        check_mass(&mass, &elimination)?;
+        if !structure.has_active_stiffness() {
+            check_stiffness(&stiffness, &mass)?;
+        }
+        let influence = Arc::default();
+        let [mass, damping, stiffness] = [mass, damping, stiffness].map(Arc::new);
         let own = Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination };
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
@@ -80,9 +79,25 @@ impl Assembled {
         Ok((Self { influence: Arc::new(influence), ..own }, held))
     }
 
+    /// Error for a damping that is not positive semi-definite, unless it may be.
+    ///
+    /// `floating`: K + εM, if it is known to be positive definite. Proportional damping then needs no factor.
+    pub(crate) fn check_damping(
+        &self,
+        structure: &dyn Structure,
+        floating: Option<&SparseMatrix>,
+    ) -> Result<()> {
+        let is_proportional =
+            floating.is_some_and(|own| is_combination(&self.damping, [own, &self.mass]));
+        if structure.has_active_damping() || is_proportional {
+            return Ok(());
+        }
+        check_damping(&self.damping, &self.elimination)
+    }
+
     /// The same structure on other elements.
     pub(crate) fn on(&self, base: PlacedBase) -> Self {
-        let [mass, damping, stiffness] = self.matrices().map(Clone::clone);
+        let [mass, damping, stiffness] = self.shared();
         let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
         let (linear, elimination) = (self.linear, self.elimination.clone());
         Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination }
@@ -91,6 +106,11 @@ impl Assembled {
     /// Number of degrees of freedom.
     pub(crate) fn dofs(&self) -> usize {
         self.mass.order()
+    }
+
+    /// Mass, damping, stiffness, to be kept.
+    pub(crate) fn shared(&self) -> [Arc<SparseMatrix>; 3] {
+        [&self.mass, &self.damping, &self.stiffness].map(Arc::clone)
     }
 
     /// Mass, damping, stiffness.
@@ -195,7 +215,7 @@ impl Assembled {
         let firmer = spring / stiffest;
         supports::check(stiffness, &self.mass, firmer, &self.base, &mut translations)?;
         let mut parts = Partition::new(n);
-        for matrix in [stiffness, &self.mass, &self.damping] {
+        for matrix in [stiffness, &*self.mass, &*self.damping] {
             parts.couple(matrix);
         }
         for (nodes, _) in self.base.foundations() {

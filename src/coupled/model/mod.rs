@@ -38,8 +38,7 @@ pub(crate) struct Model {
 impl Model {
     /// The structure in its degrees of freedom.
     pub(crate) fn new(assembled: &Assembled) -> Self {
-        let [mass, damping, stiffness] =
-            assembled.matrices().map(|matrix| Matrix::Sparse(matrix.clone()));
+        let [mass, damping, stiffness] = assembled.shared().map(Matrix::Sparse);
         Self {
             dofs: assembled.dofs(),
             coordinates: assembled.dofs(),

@@ -8,8 +8,8 @@ use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::linalg::Thinned;
+use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
-use crate::structure::Triplets;
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
 pub(crate) struct Operators {
@@ -64,12 +64,11 @@ impl Operators {
     }
 
     /// Condition of K_eff, scaled by its diagonal.
-    pub(crate) fn condition(&mut self, model: &Model, c: &SchemeCoefficients) -> Result<f64> {
-        match &mut self.factor {
+    pub(crate) fn condition(&self, model: &Model, c: &SchemeCoefficients) -> Result<f64> {
+        match &self.factor {
             Factor::Diagonal(_) => Ok(1.0),
             Factor::Sparse(factor) => {
-                let matrix = effective_stiffness(model, c, &self.tangent);
-                Ok(sparse_condition(&SparseMatrix::new(NAME, &matrix)?, factor))
+                Ok(sparse_condition(&effective_stiffness(model, c, &self.tangent)?, factor))
             }
         }
     }
@@ -77,24 +76,23 @@ impl Operators {
     /// Diagonal of K_eff without its inertia.
     pub(crate) fn stiffness_diagonal(&self, model: &Model, c: &SchemeCoefficients) -> Vec<f64> {
         let massless = SchemeCoefficients { acceleration: [0.0; 3], ..*c };
-        let mut diagonal = vec![0.0; model.coordinates];
-        for &(row, column, k) in effective_stiffness(model, &massless, &self.tangent).entries() {
-            if row == column {
-                diagonal[row] += k;
-            }
-        }
-        diagonal
+        let matrix = effective_stiffness(model, &massless, &self.tangent);
+        matrix.map_or_else(|_| Vec::new(), |matrix| matrix.diagonal())
     }
 }
 
 /// K_eff: M, C, K + ∂f/∂u, each with the scheme's coefficient of Δu.
-fn effective_stiffness(model: &Model, c: &SchemeCoefficients, tangent: &SparseMatrix) -> Triplets {
-    let mut matrix = Triplets::new(model.coordinates);
-    model.mass.add_to(c.acceleration[0], &mut matrix);
-    model.damping.add_to(c.velocity[0], &mut matrix);
-    model.stiffness.add_to(c.displacement[0], &mut matrix);
-    tangent.add_to(c.displacement[0], &mut matrix);
-    matrix
+fn effective_stiffness(
+    model: &Model,
+    c: &SchemeCoefficients,
+    tangent: &SparseMatrix,
+) -> Result<SparseMatrix> {
+    let [mass, damping, stiffness] =
+        [&model.mass, &model.damping, &model.stiffness].map(Matrix::as_sparse);
+    let k = c.displacement[0];
+    let terms =
+        [(c.acceleration[0], &*mass), (c.velocity[0], &*damping), (k, &*stiffness), (k, tangent)];
+    SparseMatrix::sum(NAME, model.coordinates, &terms)
 }
 
 impl Factor {
@@ -104,15 +102,14 @@ impl Factor {
         coefficients: &SchemeCoefficients,
         tangent: &SparseMatrix,
     ) -> Result<Box<SparseFactor>> {
-        let matrix = SparseMatrix::new(NAME, &effective_stiffness(model, coefficients, tangent))?;
+        let matrix = effective_stiffness(model, coefficients, tangent)?;
         SparseFactor::of(NAME, &matrix, &model.elimination).map(Box::new)
     }
 
     /// Inverts K_eff of modes.
     pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
-        let mut inverse = vec![0.0; model.coordinates];
-        let matrix = effective_stiffness(model, coefficients, &SparseMatrix::default());
-        matrix.entries().iter().for_each(|&(i, _, k)| inverse[i] += k);
+        let tangent = SparseMatrix::default();
+        let mut inverse = effective_stiffness(model, coefficients, &tangent)?.diagonal();
         for k in &mut inverse {
             *k = 1.0 / *k;
         }

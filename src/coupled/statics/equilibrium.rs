@@ -1,19 +1,17 @@
 //! Equilibrium with contact conditions and a soil at rest, by proximal point iteration.
 
-use crate::contact::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch};
-use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::UP;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::model::operators::condense;
+use crate::coupled::statics::compliance::{Compliance, Floating, NAME, PROXIMAL_SHARE, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
-use crate::linalg::{
-    SparseFactor, SparseMatrix, dot, largest, sparse_condition, transposed_multiply_add,
-};
+use crate::linalg::{SparseMatrix, dot, largest, transposed_multiply_add};
 use crate::structure::{Structure, Tangent, nonlinear_state};
 
-const NAME: &str = "static stiffness matrix";
 /// Largest unbalanced force of an equilibrium, relative to the load.
 const EQUILIBRIUM: f64 = 1e-7;
 /// Condition beyond which rounding of K u exceeds that force (`tests/coupled/conditioning.rs`).
@@ -26,8 +24,6 @@ const LATE: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
 /// Largest unbalanced force of a steady drift, relative to the load.
 const DRIFT: f64 = 1e-8;
-/// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
-const PROXIMAL_SHARE: f64 = 1e-4;
 /// Softest springs, as a fraction of their initial stiffness.
 const SOFTEST: f64 = 1e-9;
 /// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
@@ -52,6 +48,8 @@ pub(crate) struct Standing<'a> {
     pub(crate) frictionless: bool,
     /// Jumps in addition to those by displacements and tractions; empty for none.
     pub(crate) offset: &'a [f64],
+    /// Compliance of a linear structure on its initial springs, which stages share.
+    pub(crate) shared: &'a RefCell<Option<Compliance>>,
 }
 
 impl Standing<'_> {
@@ -68,13 +66,12 @@ impl Standing<'_> {
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
-        let Self { assembled, structure, soil, .. } = *self;
-        let base = &assembled.base;
-        let mut springs = Springs::new(assembled, soil)?;
+        let Self { assembled, structure, shared, .. } = *self;
+        let (base, mut springs) = (&assembled.base, self.springs()?);
         let stiffest = springs.stiffness;
+        let is_first = |own: &Compliance| assembled.linear && own.floating.springs == stiffest;
         let mut solver = ContactSolver::new(base.layout());
-        let kind = ContactSearch::Robust;
-        let mut search = ModeSearch::new(base.layout(), base.areas(), false, kind);
+        let mut search = ModeSearch::new(base.layout(), base.areas(), false, ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
         let (mut change, mut iterations) = (f64::INFINITY, 0);
@@ -101,6 +98,7 @@ impl Standing<'_> {
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
                     state.stand_in = solver.stand_in.or(state.stand_in);
+                    shared.replace(compliance.filter(is_first));
                     state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));
                 }
@@ -117,8 +115,8 @@ impl Standing<'_> {
             }
         }
         // With the initial springs: softened springs leave a matrix of rounding, which has no condition.
-        let first = Compliance::new(assembled, &tangent.matrix, soil, stiffest);
-        let condition = first.map_or(1.0, |mut first| first.condition());
+        let first = Floating::new(assembled, &tangent.matrix, stiffest);
+        let condition = first.map_or(1.0, |first| first.condition());
         Err(failure(condition, iterations, change))
     }
 
@@ -127,7 +125,7 @@ impl Standing<'_> {
     /// The tractions are in `solver`.
     fn next(
         &self,
-        current: &mut Compliance,
+        current: &Compliance,
         search: &mut ModeSearch,
         solver: &mut ContactSolver,
         (laws, start): (&[Box<dyn InterfaceLaw>], &PreviousContacts),
@@ -167,17 +165,25 @@ impl Standing<'_> {
     /// and the system is solved only for the unbalanced force.
     fn without_traction(
         &self,
-        current: &mut Compliance,
+        current: &Compliance,
         load: &[f64],
         state: &StaticState,
     ) -> Result<Vec<f64>> {
         let mut displacement = out_of_balance(self.assembled, self.structure, load, state)?;
-        current.factor.solve(&mut displacement);
+        current.floating.factor.solve_many(&mut displacement);
         for (d, u) in displacement.iter_mut().zip(&state.displacement) {
             *d += u;
         }
         transposed_multiply_add(&current.columns, 1.0, &state.traction, &mut displacement);
         Ok(displacement)
+    }
+
+    /// The springs of the shared compliance, or the initial ones.
+    fn springs(&self) -> Result<Springs> {
+        let known = self.shared.borrow().as_ref().map(|own| own.floating.springs);
+        let known = known.filter(|_| self.assembled.linear);
+        let stiffness = known.map_or_else(|| springs(self.assembled, self.soil), Ok)?;
+        Ok(Springs { stiffness, softest: SOFTEST * stiffness })
     }
 
     /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground.
@@ -186,15 +192,26 @@ impl Standing<'_> {
     /// fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or rounding is the cause, they stay
     /// unchanged.
     fn held(&self, springs: &mut Springs, tangent: &SparseMatrix, most: f64) -> Result<Compliance> {
-        let with = |stiffness| Compliance::new(self.assembled, tangent, self.soil, stiffness);
-        let mut found = with(springs.stiffness)?;
-        if found.factor.is_positive_definite() || found.condition() > STIFFEST_CONDITION {
+        let Self { assembled, soil, shared, .. } = *self;
+        let is_shared = |own: &mut Compliance| own.floating.springs == springs.stiffness;
+        if assembled.linear
+            && let Some(shared) = shared.borrow_mut().take_if(is_shared)
+        {
+            return Ok(shared);
+        }
+        let with = |stiffness| -> Result<Compliance> {
+            let floating = Rc::new(Floating::new(assembled, tangent, stiffness)?);
+            Ok(Compliance::new(floating, &assembled.base, soil))
+        };
+        let found = with(springs.stiffness)?;
+        let is_definite = |found: &Compliance| found.floating.factor.is_positive_definite();
+        if is_definite(&found) || found.floating.condition() > STIFFEST_CONDITION {
             return Ok(found);
         }
         let mut stiffer = 10.0 * springs.stiffness;
         while stiffer <= most {
             let next = with(stiffer)?;
-            if next.factor.is_positive_definite() {
+            if is_definite(&next) {
                 *springs = Springs { stiffness: stiffer, softest: stiffer };
                 return Ok(next);
             }
@@ -213,15 +230,6 @@ struct Springs {
 }
 
 impl Springs {
-    fn new(assembled: &Assembled, soil: &[f64]) -> Result<Self> {
-        let foundation = vertical_stiffness(soil, &assembled.base);
-        let stiffness = PROXIMAL_SHARE * foundation / total_mass(assembled);
-        if !stiffness.is_finite() {
-            return Err(Error::Singular { matrix: NAME, order: assembled.dofs() });
-        }
-        Ok(Self { stiffness, softest: SOFTEST * stiffness })
-    }
-
     /// Force of the springs between two displacements.
     fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
         let moved: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
@@ -241,27 +249,25 @@ impl Springs {
 }
 
 /// Whether the last two forces of the springs, relative to the load, show convergence.
-fn has_converged(
-    [previous, change]: [f64; 2],
-    iterations: usize,
-    current: &mut Compliance,
-) -> bool {
+fn has_converged([previous, change]: [f64; 2], iterations: usize, current: &Compliance) -> bool {
     // The force of the springs has the accuracy of the solution.
     let stalled = change <= 1e-10 && change >= 0.5 * previous;
     // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same amount under
     // the rounding of the sums of K, a fraction that grows with its size.
     let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
-    let mut late = || {
-        iterations > LATE && change <= LATE_CHANGE && change <= current.condition() * f64::EPSILON
+    let late = || {
+        iterations > LATE
+            && change <= LATE_CHANGE
+            && change <= current.floating.condition() * f64::EPSILON
     };
     change <= 1e-13 || stalled || drifts || late()
 }
 
 /// Force of the springs, relative to the load, that counts as rounding after so many iterations.
-fn rounding(iterations: usize, current: &mut Compliance) -> f64 {
+fn rounding(iterations: usize, current: &Compliance) -> f64 {
     match iterations {
         0..LONG => ROUNDING,
-        _ => ROUNDING.min(current.condition() * f64::EPSILON),
+        _ => ROUNDING.min(current.floating.condition() * f64::EPSILON),
     }
 }
 
@@ -336,47 +342,4 @@ impl Measure {
         let sum: f64 = force.iter().sum();
         if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
     }
-}
-
-/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
-struct Compliance {
-    matrix: SparseMatrix,
-    factor: SparseFactor,
-    columns: Vec<f64>,
-    delassus: Delassus,
-}
-
-impl Compliance {
-    fn new(
-        assembled: &Assembled,
-        tangent: &SparseMatrix,
-        soil: &[f64],
-        epsilon: f64,
-    ) -> Result<Self> {
-        let terms = [(1.0, &assembled.stiffness), (1.0, tangent), (epsilon, &assembled.mass)];
-        let matrix = SparseMatrix::sum(NAME, assembled.dofs(), &terms)?;
-        let factor = SparseFactor::of(NAME, &matrix, &assembled.elimination)?;
-        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, &assembled.base, soil, assembled.dofs());
-        Ok(Self { matrix, factor, columns, delassus: delassus.into() })
-    }
-
-    fn condition(&mut self) -> f64 {
-        sparse_condition(&self.matrix, &mut self.factor)
-    }
-}
-
-/// Mass that moves in a vertical translation.
-fn total_mass(assembled: &Assembled) -> f64 {
-    let up = assembled.influence.of(UP, assembled.dofs());
-    assembled.mass.form(&up, &up)
-}
-
-/// Vertical force per settlement of the soil under a uniform pressure.
-fn vertical_stiffness(soil: &[f64], base: &PlacedBase) -> f64 {
-    let (areas, size) = (base.areas(), base.layout().len());
-    let (count, area) = (areas.len(), areas.iter().sum::<f64>());
-    let settled: f64 =
-        (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum();
-    area * area / settled
 }

@@ -30,7 +30,7 @@ pub(crate) fn cause(
     let Standing { assembled, structure, .. } = *stage;
     let at_rest = assembled.at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
-    let others = [&assembled.damping, &assembled.mass];
+    let others = [&*assembled.damping, &assembled.mass];
     let massless = || unresisted(structure, at_rest.stiffness, others);
     at_rest
         .mechanism()

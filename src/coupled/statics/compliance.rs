@@ -1,0 +1,85 @@
+//! Compliance of a structure without supports, for its static state.
+
+use std::rc::Rc;
+
+use crate::contact::Delassus;
+use crate::coupled::base::PlacedBase;
+use crate::coupled::base::influence::UP;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::operators::condense;
+use crate::error::{Error, Result};
+use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
+
+pub(super) const NAME: &str = "static stiffness matrix";
+/// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
+pub(super) const PROXIMAL_SHARE: f64 = 1e-4;
+
+/// Factored K + D + εM.
+pub(crate) struct Floating {
+    /// ε.
+    pub(crate) springs: f64,
+    matrix: SparseMatrix,
+    pub(crate) factor: SparseFactor,
+}
+
+/// Factored K + D + εM, its response to unit tractions, and the static Delassus operator.
+pub(crate) struct Compliance {
+    pub(crate) floating: Rc<Floating>,
+    pub(crate) columns: Vec<f64>,
+    pub(crate) delassus: Delassus,
+}
+
+impl Floating {
+    /// Factors the matrix for springs of stiffness `springs` per mass.
+    pub(crate) fn new(assembled: &Assembled, tangent: &SparseMatrix, springs: f64) -> Result<Self> {
+        let Assembled { stiffness, mass, .. } = assembled;
+        let terms = [(1.0, &**stiffness), (1.0, tangent), (springs, mass)];
+        let matrix = SparseMatrix::sum(NAME, assembled.dofs(), &terms)?;
+        let factor = SparseFactor::of(NAME, &matrix, &assembled.elimination)?;
+        Ok(Self { springs, matrix, factor })
+    }
+
+    /// The matrix, if it is positive definite.
+    pub(crate) fn positive_definite(&self) -> Option<&SparseMatrix> {
+        self.factor.is_positive_definite().then_some(&self.matrix)
+    }
+
+    /// Condition of the matrix, scaled by its diagonal.
+    pub(crate) fn condition(&self) -> f64 {
+        sparse_condition(&self.matrix, &self.factor)
+    }
+}
+
+impl Compliance {
+    /// Compliance on a base, over a soil of this static compliance.
+    pub(crate) fn new(floating: Rc<Floating>, base: &PlacedBase, soil: &[f64]) -> Self {
+        let solve = |rhs: &mut [f64]| floating.factor.solve_many(rhs);
+        let (columns, delassus) = condense(solve, base, soil, floating.matrix.order());
+        Self { floating, columns, delassus: delassus.into() }
+    }
+}
+
+/// Initial stiffness of the fictitious springs per mass, ε.
+pub(crate) fn springs(assembled: &Assembled, soil: &[f64]) -> Result<f64> {
+    let foundation = vertical_stiffness(soil, &assembled.base);
+    let stiffness = PROXIMAL_SHARE * foundation / total_mass(assembled);
+    if stiffness.is_finite() {
+        return Ok(stiffness);
+    }
+    Err(Error::Singular { matrix: NAME, order: assembled.dofs() })
+}
+
+/// Mass that moves in a vertical translation.
+fn total_mass(assembled: &Assembled) -> f64 {
+    let up = assembled.influence.of(UP, assembled.dofs());
+    assembled.mass.form(&up, &up)
+}
+
+/// Vertical force per settlement of the soil under a uniform pressure.
+fn vertical_stiffness(soil: &[f64], base: &PlacedBase) -> f64 {
+    let (areas, size) = (base.areas(), base.layout().len());
+    let (count, area) = (areas.len(), areas.iter().sum::<f64>());
+    let settled: f64 =
+        (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum();
+    area * area / settled
+}

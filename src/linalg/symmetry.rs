@@ -1,0 +1,70 @@
+//! Symmetry of sparse matrices.
+
+use super::matrix::SparseMatrix;
+
+impl SparseMatrix {
+    /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
+    pub(crate) fn asymmetry(&self) -> f64 {
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
+        for (_, _, value, mirrored) in self.mirrored() {
+            largest = largest.max(value.abs());
+            difference = difference.max((value - mirrored).abs());
+        }
+        if largest > 0.0 { difference / largest } else { 0.0 }
+    }
+
+    /// Row, column, a_ij and a_ji of the pair whose difference most exceeds the difference `allowed` in its row and
+    /// column.
+    pub(crate) fn unsymmetric_pair(
+        &self,
+        allowed: impl Fn(usize, usize) -> f64,
+    ) -> Option<(usize, usize, [f64; 2])> {
+        let pairs = self.mirrored().map(|(row, column, value, mirrored)| {
+            let pair = [value, mirrored];
+            let excess = (pair[0] - pair[1]).abs() - allowed(row, column);
+            (excess, (row, column, pair))
+        });
+        let beyond = pairs.filter(|(excess, _)| *excess > 0.0);
+        // Of equal ones the first.
+        beyond.reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, pair)| pair)
+    }
+
+    /// All stored entries: (row, column, a_ij, a_ji).
+    fn mirrored(&self) -> impl Iterator<Item = (usize, usize, f64, f64)> {
+        // Rows ascend: the place in a row where the search for the mirrored entry starts moves forward.
+        let mut next = self.row_start.clone();
+        self.entries().map(move |(row, column, value)| {
+            let places = next[column]..self.row_start[column + 1];
+            next[column] += self.column[places.clone()].iter().take_while(|j| **j < row).count();
+            let is_stored = places.end > next[column] && self.column[next[column]] == row;
+            (row, column, value, if is_stored { self.value[next[column]] } else { 0.0 })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::Triplets;
+
+    /// REFERENCE: the dense matrix.
+    #[test]
+    fn entries_meet_their_mirrored_ones() {
+        let mut triplets = Triplets::new(7);
+        (0..25).for_each(|k| triplets.add(k * k % 7, (5 * k + 2) % 7, k as f64 - 9.5));
+        let matrix = SparseMatrix::new("test", &triplets).unwrap();
+        let mut dense = [[0.0; 7]; 7];
+        matrix.entries().for_each(|(i, j, value)| dense[i][j] = value);
+        let (mut most, mut apart) = (0.0_f64, 0.0_f64);
+        for (i, j, value) in matrix.entries() {
+            most = most.max(value.abs());
+            apart = apart.max((value - dense[j][i]).abs());
+        }
+        assert!(apart > 0.0);
+        assert_eq!(matrix.asymmetry(), apart / most);
+        let (i, j, pair) = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
+        assert_eq!(pair, [dense[i][j], dense[j][i]]);
+        assert_eq!((pair[0] - pair[1]).abs(), apart);
+    }
+}
