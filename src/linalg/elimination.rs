@@ -201,7 +201,7 @@ mod tests {
     /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.
     #[test]
     fn separate_parts_are_eliminated_one_after_the_other() {
-        let one = cube(9, 2.0);
+        let one = cube(13, 2.0);
         let [mut apart, mut coupled] = [(); 2].map(|()| Triplets::new(3 * one.order()));
         for (row, column, value) in one.entries() {
             (0..3).for_each(|k| apart.add(3 * row + k, 3 * column + k, value));

@@ -93,6 +93,8 @@ pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) 
     } else {
         (ac / aa, 0.0)
     };
+    // A β below zero is rounding, or is left as a difference.
+    let (beta, alpha) = if beta < 0.0 { (0.0, bc / bb) } else { (beta, alpha) };
     let mut left = vec![[0.0; 2]; diagonal.len()];
     for (((i, _, own), (.., a)), (.., b)) in entries() {
         left[i][0] += (own - beta * a - alpha * b).abs();
@@ -101,7 +103,7 @@ pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) 
     let is_rounding = |(left, own): (&[f64; 2], &f64)| {
         left[0] <= SYMMETRIC * own && left[1] <= SEMI_DEFINITE * own
     };
-    beta >= 0.0 && left.iter().zip(&diagonal).all(is_rounding)
+    left.iter().zip(&diagonal).all(is_rounding)
 }
 
 fn check_semi_definite(
