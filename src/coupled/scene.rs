@@ -16,9 +16,8 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
-use crate::linalg::Thinned;
 use crate::linalg::matrix::spread;
-use crate::linalg::mixed;
+use crate::linalg::{Thinned, mixed};
 use crate::structure::probe::Probe;
 
 /// Structure, base, laws and static state for steps; read-only once built.

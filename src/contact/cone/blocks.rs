@@ -38,7 +38,7 @@ struct Links {
 
 /// W = G + L Lᵀ: soil and structure.
 pub(super) struct Blocks {
-    /// Elements of each group; the number of elements where there is none.
+    /// Elements of each group; the number of all elements marks a free place.
     pub(super) groups: Vec<[usize; LANES]>,
     near: Links,
     /// G without the near links; `None` if it is zero.
@@ -82,9 +82,7 @@ impl Blocks {
             return None;
         }
         let far = far(cells, is_near, block)?;
-        let modes = find_modes(w, 3 * count, |row, column| {
-            soil(row, column) + if row == column { layer(row) } else { 0.0 }
-        })?;
+        let modes = find_modes(w, 3 * count, &soil, &layer)?;
         let groups = near.groups();
         let of_group = |group: &[usize; LANES], mode: &[f64]| {
             [0, 1, 2].map(|k| group.map(|e| if e < count { mode[k * count + e] } else { 0.0 }))

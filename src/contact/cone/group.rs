@@ -69,7 +69,7 @@ impl Group {
         if sum.is_nan() { sum } else { simd.reduce_max_f64s(most) }
     }
 
-    /// Solves as many elements as an instruction takes; returns the sums of their changes.
+    /// Solves the elements of one vector register; returns the sums of their changes.
     #[inline(always)]
     fn solve_part<S: Simd>(
         &mut self,

@@ -7,7 +7,6 @@ use crate::linalg::{LatticeProduct, LatticeScratch, Simd};
 
 /// W = G + L Lᵀ: soil and structure.
 pub(super) struct Wide {
-    cells: Vec<[usize; 2]>,
     /// Columns and rows of the lattice.
     counts: [usize; 2],
     /// For each direction of motion and of force, G of all offsets: rows of twice the columns less one.
@@ -55,13 +54,9 @@ impl Wide {
                 }
             }
         }
-        let rest = |row: usize, column: usize| {
-            soil(row, column) + if row == column { layer(row) } else { 0.0 }
-        };
-        let modes = find_modes(w, 3 * count, rest)?;
+        let modes = find_modes(w, 3 * count, &soil, &layer)?;
         let own = |e: usize| [e, count + e, 2 * count + e];
         Some(Self {
-            cells: cells.to_vec(),
             counts,
             tables,
             scratch: product.scratch(),
@@ -78,7 +73,8 @@ impl Wide {
 
     /// Sets the motions to W r.
     pub(super) fn respond(&mut self, forces: &[f64]) {
-        let Self { product, scratch, motions, cells, counts, amplitudes, modes, rank, .. } = self;
+        let Self { product, scratch, motions, counts, amplitudes, modes, rank, .. } = self;
+        let cells = product.cells();
         product.multiply(forces, scratch, |k, e, value| {
             motions[k][cells[e][1] * counts[0] + cells[e][0]] = value;
         });
@@ -94,7 +90,8 @@ impl Wide {
     /// Motion of an element with the force `change`.
     #[inline(always)]
     pub(super) fn motion(&self, e: usize, change: [f64; 3]) -> [f64; 3] {
-        let place = self.cells[e][1] * self.counts[0] + self.cells[e][0];
+        let [i, j] = self.product.cells()[e];
+        let place = j * self.counts[0] + i;
         let mut motion = [0.0; 3];
         for k in 0..3 {
             motion[k] = self.motions[k][place] + self.layers[e][k] * change[k];
@@ -110,7 +107,7 @@ impl Wide {
     /// Adds the motion of all elements by a force on one.
     #[inline(always)]
     pub(super) fn push<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
-        let ([columns, rows], [i, j]) = (self.counts, self.cells[e]);
+        let ([columns, rows], [i, j]) = (self.counts, self.product.cells()[e]);
         let width = 2 * columns - 1;
         for (motions, tables) in self.motions.iter_mut().zip(&self.tables) {
             for row in 0..rows {

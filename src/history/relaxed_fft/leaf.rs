@@ -176,26 +176,8 @@ fn times<S: Simd>(
             simd.mul_f64s(zy, c),
         ),
     ];
-    let along = [
-        simd.add_f64s(
-            simd.add_f64s(simd.mul_f64s(xx, a), simd.mul_f64s(xy, c)),
-            simd.mul_f64s(zx, q),
-        ),
-        simd.sub_f64s(
-            simd.add_f64s(simd.mul_f64s(xx, b), simd.mul_f64s(xy, d)),
-            simd.mul_f64s(zx, p),
-        ),
-    ];
-    let away = [
-        simd.add_f64s(
-            simd.add_f64s(simd.mul_f64s(xy, a), simd.mul_f64s(yy, c)),
-            simd.mul_f64s(zy, q),
-        ),
-        simd.sub_f64s(
-            simd.add_f64s(simd.mul_f64s(xy, b), simd.mul_f64s(yy, d)),
-            simd.mul_f64s(zy, p),
-        ),
-    ];
+    let along = shear(simd, [xx, xy, zx], [p, q, a, b, c, d]);
+    let away = shear(simd, [xy, yy, zy], [p, q, a, b, c, d]);
     [
         simd.add_f64s(total[0], down[0]),
         simd.add_f64s(total[1], down[1]),
@@ -204,4 +186,16 @@ fn times<S: Simd>(
         simd.add_f64s(total[4], away[0]),
         simd.add_f64s(total[5], away[1]),
     ]
+}
+
+/// A component along the surface of ĝ x, for its coefficients of both shears and of the pressure.
+#[inline(always)]
+fn shear<S: Simd>(
+    simd: S,
+    [first, second, coupling]: [S::f64s; SPACE],
+    [p, q, a, b, c, d]: [S::f64s; PARTS],
+) -> [S::f64s; 2] {
+    let re = simd.add_f64s(simd.mul_f64s(first, a), simd.mul_f64s(second, c));
+    let im = simd.add_f64s(simd.mul_f64s(first, b), simd.mul_f64s(second, d));
+    [simd.add_f64s(re, simd.mul_f64s(coupling, q)), simd.sub_f64s(im, simd.mul_f64s(coupling, p))]
 }
