@@ -22,6 +22,8 @@ type Pattern<'a> = SymbolicSparseColMatRef<'a, usize>;
 ///
 /// Below, numeric factors cost less than that order.
 const LARGE: usize = 1_500_000;
+/// Smallest number of entries of a factor over the square of the number of rows on which it is condensed.
+const SQUARES: usize = 4;
 
 /// Order of elimination that matrices of one structure share.
 ///
@@ -34,6 +36,8 @@ pub(crate) struct Elimination(Arc<OnceLock<Order>>);
 struct Order {
     rows: Vec<usize>,
     places: Vec<usize>,
+    /// Entries of the factor for which the order was chosen.
+    entries: usize,
 }
 
 impl Elimination {
@@ -44,6 +48,16 @@ impl Elimination {
             own.analyse(by_columns(matrix).symbolic());
         }
         own
+    }
+
+    /// The shared order with the rows `last` at the end, if the factor has many more entries than their square.
+    pub(crate) fn ending_with(&self, last: &[usize]) -> Option<Self> {
+        let order = self.0.get().filter(|order| SQUARES * last.len().pow(2) <= order.entries)?;
+        let mut is_last = vec![false; order.rows.len()];
+        last.iter().for_each(|row| is_last[*row] = true);
+        let others = order.rows.iter().filter(|row| !is_last[**row]);
+        let own = Order::new(others.chain(last).copied().collect(), order.entries);
+        Some(Self(Arc::new(OnceLock::from(own))))
     }
 
     /// Symbolic factor in the shared order, or in the order of minimum degree while there is none.
@@ -59,10 +73,12 @@ impl Elimination {
         }
         let Some(dissected) = Order::by_dissection(pattern) else { return Some(found) };
         let other = symbolic_in(pattern, dissected.as_symmetric())?;
+        let dissected = Order { entries: other.len_val(), ..dissected };
         let is_better = other.len_val() < found.len_val();
         let by_degree = |found: &SymbolicCholesky<usize>| {
             let (rows, places) = found.perm()?.arrays();
-            Some(Order { rows: rows.to_vec(), places: places.to_vec() })
+            let (rows, places) = (rows.to_vec(), places.to_vec());
+            Some(Order { rows, places, entries: found.len_val() })
         };
         let order = if is_better { Some(dissected) } else { by_degree(&found) };
         if let Some(order) = order {
@@ -80,13 +96,13 @@ impl Order {
             |column| pattern.row_idx_of_col_raw(column),
             by_minimum_degree,
         )?;
-        Some(Self::new(rows))
+        Some(Self::new(rows, 0))
     }
 
-    fn new(rows: Vec<usize>) -> Self {
+    fn new(rows: Vec<usize>, entries: usize) -> Self {
         let mut places = vec![0; rows.len()];
         rows.iter().enumerate().for_each(|(place, &row)| places[row] = place);
-        Self { rows, places }
+        Self { rows, places, entries }
     }
 
     /// This order, in separate parts of a matrix one after the other.
@@ -100,7 +116,7 @@ impl Order {
         }
         let mut rows = self.rows.clone();
         rows.sort_by_key(|row| parts.root(*row));
-        Self::new(rows)
+        Self::new(rows, self.entries)
     }
 
     fn as_symmetric(&self) -> SymmetricOrdering<'_, usize> {
@@ -196,6 +212,29 @@ mod tests {
         assert!(amd.len_val() > LARGE && 5 * stored[0] < 4 * amd.len_val(), "{stored:?}");
         // A matrix of another order chooses its own.
         SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
+    }
+
+    /// REFERENCE: a solve in another order, S (A⁻¹ f)_b = f for forces f on the last rows b.
+    #[test]
+    fn factors_are_condensed_on_their_last_rows() {
+        let matrix = cube(20, 2.0);
+        let elimination = Elimination::of(&matrix);
+        let last: Vec<usize> = (0..400).map(|k| k * k % 20 + 20 * k).collect();
+        let ending = elimination.ending_with(&last).unwrap();
+        let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
+        let condensed = factor.condensed(&last).unwrap();
+        let force: Vec<f64> = (0..400).map(|i| f64::from(i).cos()).collect();
+        let mut moved = vec![0.0; 8000];
+        last.iter().zip(&force).for_each(|(row, force)| moved[*row] = *force);
+        SparseFactor::of("cube", &matrix, &Elimination::default()).unwrap().solve(&mut moved);
+        let on_last: Vec<f64> = last.iter().map(|row| moved[*row]).collect();
+        let found = SparseMatrix::full(400, condensed).times(&on_last);
+        assert!(found.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
+        // Other rows are not last, and too many rows do not pay.
+        assert!(factor.condensed(&last[1..]).is_none_or(|own| own.len() == 399 * 399));
+        assert!(factor.condensed(&[last[0]]).is_none());
+        assert!(elimination.ending_with(&(0..4000).collect::<Vec<_>>()).is_none());
+        assert!(Elimination::default().ending_with(&last).is_none());
     }
 
     /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.

@@ -16,7 +16,7 @@ use super::sparse::SparseFactor;
 use crate::linalg::SparseMatrix;
 
 /// Vectors of a block.
-const BLOCK: usize = 8;
+const BLOCK: usize = 16;
 
 /// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
 const TOLERANCE: f64 = 1e-9;

@@ -75,34 +75,55 @@ impl SparseMatrix {
     pub(crate) fn sum(name: &'static str, order: usize, terms: &[(f64, &Self)]) -> Result<Self> {
         let sum = Self::by_rows(order, |row, own| {
             for (factor, matrix) in terms.iter().filter(|(_, matrix)| row < matrix.order) {
-                let places = matrix.row_start[row]..matrix.row_start[row + 1];
-                own.extend(places.map(|k| (matrix.column[k], factor * matrix.value[k])));
+                own.extend(matrix.row(row).map(|(column, value)| (column, factor * value)));
             }
         });
         sum.value.iter().try_for_each(|value| finite(name, *value).map(drop))?;
         Ok(sum)
     }
 
+    /// Matrix of all its values, row-major.
+    pub(crate) fn full(order: usize, value: Vec<f64>) -> Self {
+        let column = (0..value.len()).map(|k| k % order).collect();
+        Self { order, row_start: (0..=order).map(|row| row * order).collect(), column, value }
+    }
+
     /// Matrix whose rows `fill` writes as (column, value); entries at the same place are summed.
-    fn by_rows(order: usize, mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>)) -> Self {
+    pub(super) fn by_rows(
+        order: usize,
+        mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>),
+    ) -> Self {
         let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
-        let mut entries = Vec::new();
+        let (mut entries, mut sums) = (Vec::new(), Vec::<(usize, f64)>::new());
+        // Place of each column in the sums of the row, if the row has the column.
+        let mut places = vec![usize::MAX; order];
         for row in 0..order {
             entries.clear();
             fill(row, &mut entries);
-            entries.sort_by_key(|&(column, _)| column);
-            let start = matrix.column.len();
             for &(column, value) in &entries {
-                if matrix.column.len() > start && matrix.column.last() == Some(&column) {
-                    *matrix.value.last_mut().unwrap_or(&mut 0.0) += value;
-                } else {
-                    matrix.column.push(column);
-                    matrix.value.push(value);
+                match sums.get_mut(places[column]) {
+                    Some((_, sum)) => *sum += value,
+                    None => {
+                        places[column] = sums.len();
+                        sums.push((column, value));
+                    }
                 }
+            }
+            sums.sort_unstable_by_key(|&(column, _)| column);
+            for (column, sum) in sums.drain(..) {
+                places[column] = usize::MAX;
+                matrix.column.push(column);
+                matrix.value.push(sum);
             }
             matrix.row_start.push(matrix.column.len());
         }
         matrix
+    }
+
+    /// Entries of a row: columns and values.
+    pub(super) fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let places = self.row_start[row]..self.row_start[row + 1];
+        self.column[places.clone()].iter().copied().zip(self.value[places].iter().copied())
     }
 
     /// Replaces the values by the sums of `triplets`, without allocating.

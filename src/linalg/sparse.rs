@@ -2,12 +2,14 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMat;
-use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky};
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymbolicCholeskyRaw};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
-use faer::{Conj, MatMut, Par, Side, Spec};
+use faer::{Accum, Conj, MatMut, MatRef, Par, Side, Spec};
 
 use crate::error::{Error, Result};
 use crate::linalg::elimination::{Elimination, by_columns};
@@ -159,6 +161,41 @@ impl SparseFactor {
         }
     }
 
+    /// The matrix condensed on `last`, row-major: the product L Lᵀ of its last rows.
+    ///
+    /// `None` unless `last` are the last rows in the order of elimination, of a factor by Cholesky in blocks.
+    pub(crate) fn condensed(&self, last: &[usize]) -> Option<Vec<f64>> {
+        let Factors::Cholesky { symbolic, values } = &self.factors else { return None };
+        let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
+        let (count, first) = (last.len(), self.order.checked_sub(last.len())?);
+        if symbolic.perm()?.arrays().0[first..] != *last {
+            return None;
+        }
+        let factor = SupernodalLltRef::new(blocks, values);
+        let mut lower = vec![0.0; count * count];
+        for k in (0..blocks.n_supernodes()).rev() {
+            let (begin, end) = (blocks.supernode_begin()[k], blocks.supernode_end()[k]);
+            let block = factor.supernode(k);
+            for column in begin.max(first)..end {
+                let rows = (begin..end).chain(block.pattern().iter().copied()).enumerate();
+                for (place, row) in rows.filter(|(_, row)| *row >= column) {
+                    lower[(row - first) * count + column - first] =
+                        block.val()[(place, column - begin)];
+                }
+            }
+        }
+        let mut product = vec![0.0; count * count];
+        let lower = MatRef::from_row_major_slice(&lower, count, count);
+        let [below, above] = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
+        let sum = MatMut::from_row_major_slice_mut(&mut product, count, count);
+        let (replace, upper) = (Accum::Replace, lower.transpose());
+        triangular::matmul(sum, below, replace, lower, below, upper, above, 1.0, Par::Seq);
+        for (row, column) in (0..count).flat_map(|row| (0..row).map(move |column| (row, column))) {
+            product[column * count + row] = product[row * count + column];
+        }
+        Some(product)
+    }
+
     fn solve_with(
         factors: &Factors,
         order: usize,
@@ -208,23 +245,24 @@ pub(crate) fn indefinite_row(
         return Some(row);
     }
     let diagonal: Vec<f64> = given.iter().map(|value| value.max(floor)).collect();
-    let mut scaled = Triplets::new(matrix.order());
+    let scale = |row: usize, column: usize| diagonal[row].sqrt() * diagonal[column].sqrt();
     let mut coupled = false;
     for (row, column, value) in matrix.entries() {
-        let scale = diagonal[row].sqrt() * diagonal[column].sqrt();
         if row != column && value != 0.0 {
             coupled = true;
-            if value.abs() > (1.0 + tolerance) * scale {
+            if value.abs() > (1.0 + tolerance) * scale(row, column) {
                 return Some(if given[column] < given[row] { column } else { row });
             }
-            scaled.add(row, column, value / scale);
         }
     }
     if !coupled {
         return None;
     }
-    (0..matrix.order()).for_each(|row| scaled.add(row, row, 1.0 + tolerance));
-    let scaled = SparseMatrix::new("scaled matrix", &scaled).ok()?;
+    let scaled = SparseMatrix::by_rows(matrix.order(), |row, own| {
+        let beside = matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
+        own.extend(beside.map(|(column, value)| (column, value / scale(row, column))));
+        own.push((row, 1.0 + tolerance));
+    });
     SparseFactor::cholesky(&by_columns(&scaled), elimination).err()
 }
 

@@ -38,7 +38,7 @@ impl DofCombination {
     }
 
     /// This sum with other numbers of its degrees of freedom.
-    pub(super) fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
+    pub(crate) fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }
 

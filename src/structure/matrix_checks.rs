@@ -54,14 +54,22 @@ fn check_symmetric(
     matrix.unsymmetric_pair(allowed).map_or(Ok(()), |pair| Err(refused(pair)))
 }
 
-/// Error unless the mass matrix is symmetric and positive semi-definite.
-pub(crate) fn check_mass(mass: &SparseMatrix, elimination: &Elimination) -> Result<()> {
-    check_semi_definite("mass matrix", mass, elimination)
+/// Whether the mass matrix is positive definite; an error unless it is symmetric and positive semi-definite.
+pub(crate) fn check_mass(mass: &SparseMatrix, elimination: &Elimination) -> Result<bool> {
+    const NAME: &str = "mass matrix";
+    check_mirrored(NAME, mass)?;
+    let has_mass = mass.diagonal().iter().all(|mass| *mass > 0.0);
+    if has_mass && indefinite_row(mass, 0.0, 0.0, elimination).is_none() {
+        return Ok(true);
+    }
+    check_semi_definite(NAME, mass, elimination).map(|()| false)
 }
 
 /// Error unless the damping matrix is symmetric and positive semi-definite.
 pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -> Result<()> {
-    check_semi_definite("damping matrix", damping, elimination)
+    const NAME: &str = "damping matrix";
+    check_mirrored(NAME, damping)?;
+    check_semi_definite(NAME, damping, elimination)
 }
 
 /// Whether a matrix is βA + αB up to rounding and therefore positive semi-definite, as its check by factors.
@@ -111,7 +119,6 @@ fn check_semi_definite(
     matrix: &SparseMatrix,
     elimination: &Elimination,
 ) -> Result<()> {
-    check_mirrored(name, matrix)?;
     let largest = matrix.entries().fold(0.0, |m: f64, (_, _, value)| m.max(value.abs()));
     match indefinite_row(matrix, SEMI_DEFINITE, MASSLESS * largest, elimination) {
         Some(row) => Err(Error::Indefinite { matrix: name, row, diagonal: matrix.diagonal()[row] }),

@@ -28,7 +28,10 @@ pub(crate) fn solve(
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     if parts.given.is_static() {
         let soil = compliance(parts)?;
-        state = under_loads(parts, assembled, (&soil, shared), &parts.given.laws)?;
+        let [own, weight, load] = loads(parts, assembled)?;
+        let laws = &parts.given.laws;
+        state = under_loads(parts, assembled, (&soil, shared), laws, [&weight, &load])?;
+        state.load = own;
         if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
         }
@@ -51,15 +54,8 @@ pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
     Ok(soil)
 }
 
-/// The state under weight and the loads at t = 0 on elements of this static compliance, with these laws.
-///
-/// The structure's internal variables stay unchanged. `shared`: the structure's compliance on them, if it is known.
-pub(crate) fn under_loads(
-    parts: &Parts,
-    assembled: &Assembled,
-    (soil, shared): (&[f64], &RefCell<Option<Compliance>>),
-    laws: &[Box<dyn InterfaceLaw>],
-) -> Result<StaticState> {
+/// The structure's own load at t = 0, the weight, and all loads at t = 0.
+pub(crate) fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
     let Parts { structure, given, .. } = parts;
     let n = assembled.dofs();
     let mut own = vec![0.0; n];
@@ -75,11 +71,25 @@ pub(crate) fn under_loads(
     assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
     all_finite("weight", &weight)?;
     all_finite("load at t = 0", &load)?;
+    Ok([own, weight, load])
+}
+
+/// The state under weight and loads at t = 0 on elements of this static compliance, with these laws.
+///
+/// The structure's internal variables stay unchanged. `shared`: the structure's compliance on them, if it is known.
+pub(crate) fn under_loads(
+    parts: &Parts,
+    assembled: &Assembled,
+    (soil, shared): (&[f64], &RefCell<Option<Compliance>>),
+    laws: &[Box<dyn InterfaceLaw>],
+    [weight, load]: [&[f64]; 2],
+) -> Result<StaticState> {
+    let Parts { structure, given, .. } = parts;
     let (structure, frictionless) = (structure.as_ref(), false);
     let stage = Standing { assembled, structure, soil, frictionless, offset: &[], shared };
     let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
-    let mut state = if walls && given.gravity_stage != GravityStage::WishedInPlace {
-        backfilled::state(parts, &stage, laws, [&weight, &load])?
+    if walls && given.gravity_stage != GravityStage::WishedInPlace {
+        backfilled::state(parts, &stage, laws, [weight, load])
     } else {
         let mut offset = vec![];
         if walls {
@@ -89,9 +99,7 @@ pub(crate) fn under_loads(
             dense_multiply_add(soil, -1.0, &traction, &mut offset);
         }
         let stage = Standing { offset: &offset, ..stage };
-        let placed = placed(&stage, laws, given.gravity_stage, &weight)?;
-        loaded(&stage, laws, placed, [&weight, &load])?
-    };
-    state.load = own;
-    Ok(state)
+        let placed = placed(&stage, laws, given.gravity_stage, weight)?;
+        loaded(&stage, laws, placed, [weight, load])
+    }
 }

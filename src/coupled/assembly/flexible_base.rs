@@ -22,13 +22,14 @@ use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
 use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends, in_a_row};
-use crate::linalg::{dot, magnitude};
+use crate::linalg::{SparseFactor, dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
@@ -48,30 +49,73 @@ const MOST: usize = 3600;
 /// Asymmetry of K that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
+/// A structure condensed on its base, and the weight and loads at t = 0 there.
+pub(super) type CondensedScene = (Condensed, [Vec<f64>; 2]);
+
+/// The structure condensed for [`check`]; `None` unless its factor `held` eliminates the base last.
+pub(super) fn condensed(
+    parts: &Parts,
+    assembled: &Assembled,
+    held: &SparseFactor,
+) -> Result<Option<CondensedScene>> {
+    let is_checked = assembled.base.is_flexible() && !holds(parts.ground.as_ref());
+    // An error of the loads is an error of the static state.
+    let Some(loads) = loads(parts, assembled).ok().filter(|_| is_checked) else { return Ok(None) };
+    Condensed::new(assembled, held, &loads)
+}
+
+/// Weight and loads at t = 0; empty without a static state.
+fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
+    if !parts.given.is_static() {
+        return Ok([vec![], vec![]]);
+    }
+    at_rest::loads(parts, assembled).map(|[_, weight, load]| [weight, load])
+}
+
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
 /// `at_rest`: the static state. `shared`: the structure's compliance in it, if it is known. A rigid base costs nothing.
-pub(crate) fn check(
+pub(super) fn check(
     parts: &Parts,
-    assembled: &Assembled,
+    (assembled, condensed): (&Assembled, Option<CondensedScene>),
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
-    let base = &assembled.base;
-    if !base.is_flexible() || holds(parts.ground.as_ref()) {
+    if !assembled.base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
+    let Some((condensed, loads)) = condensed else {
+        let (loads, finer) = (loads(parts, assembled)?, |base: &_| finer(parts, base));
+        return check_on(parts, (assembled, loads), at_rest, shared, finer);
+    };
+    let mut on_base = at_rest.clone();
+    on_base.displacement = condensed.on_base(&at_rest.displacement);
+    let finer = |base: &_| finer(parts, base).map(|(base, soil)| (condensed.base(&base), soil));
+    check_on(parts, (&condensed.assembled, loads), &on_base, &RefCell::default(), finer)
+}
+
+/// The check of a structure or a condensed one under its weight and loads at t = 0.
+///
+/// `finer`: the base on twice the elements, four times in plan, and their static compliance.
+fn check_on(
+    parts: &Parts,
+    (assembled, [weight, load]): (&Assembled, [Vec<f64>; 2]),
+    at_rest: &StaticState,
+    shared: &RefCell<Option<Compliance>>,
+    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, Vec<f64>)>,
+) -> Result<Option<Warning>> {
+    let base = &assembled.base;
     let own_soil = at_rest::compliance(parts)?;
     let own = (own_soil.as_slice(), shared);
     let Some(floating) = floating(parts, assembled, own)? else { return Ok(None) };
     // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
     let alone = faces(base).any(|(.., own)| own.len() == 1);
-    let halves = if alone { finer(parts, base) } else { None };
+    let halves = if alone { finer(base) } else { None };
     let shape = UnseenShape::softest(assembled, base, own, halves.as_ref())
         .filter(|shape| shape.ratio < STIFF);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
     let (mut power, mut difference) = (POWERS[1], None);
-    if let Some((finer, soil)) = if alone { halves } else { finer(parts, base) } {
+    if let Some((finer, soil)) = if alone { halves } else { finer(base) } {
         // If twice the elements leave no such shape, they are enough.
         let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)));
         let halved = (soil.as_slice(), &compliance);
@@ -81,7 +125,7 @@ pub(crate) fn check(
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
             let under = |assembled: &Assembled, soil| {
-                at_rest::under_loads(parts, assembled, soil, law).ok()
+                at_rest::under_loads(parts, assembled, soil, law, [&weight, &load]).ok()
             };
             let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, own));
             let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
@@ -229,4 +273,53 @@ fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
     let ((_, count), axis) = shorter.unwrap_or_default();
     (foundation, axis_name(patch.is_plan(), axis), count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bem::ElasticGround;
+    use crate::bem::plan::Plan;
+    use crate::error::Error;
+    use crate::fem::{Hex8, Material, Mesh};
+    use crate::interface::Coulomb;
+    use crate::structure::FemModel;
+    use crate::{Simulation, Soil};
+
+    /// Bricks, 16 × 16 × 12, on 3 × 3 elements.
+    fn parts() -> Result<Parts> {
+        let mut mesh = Mesh::in_space();
+        let line = |k: usize| 10.0 * (k as f64 / 16.0 - 0.5);
+        let foot = mesh.add_grid(17, 17, |row, column| [line(column), line(row), 0.0])?;
+        let heights: Vec<f64> = (1..=12).map(|k| 0.4 * f64::from(k)).collect();
+        for (k, brick) in foot.extrude(&mut mesh, &heights)?.into_iter().enumerate() {
+            // A stiff column on one side.
+            let modulus = if k % 256 == 37 { 3e10 } else { 3e8 };
+            mesh.add(Hex8::new(brick, Material::new(modulus, 0.2, 2000.0)?))?;
+        }
+        let plan = Plan::rectangle(-5.0..5.0, -5.0..5.0, 3)?;
+        let ground = ElasticGround::in_plan(Soil::new(3e8, 0.3, 1900.0)?, plan)?;
+        let scene = Simulation::builder(0.01).structure(FemModel::on_base(mesh)?).ground(ground);
+        Parts::new(scene.interface(Coulomb::new(0.4)?))
+    }
+
+    /// REFERENCE: the check of the structure in all of its degrees of freedom.
+    #[test]
+    fn a_condensed_structure_has_the_same_check() -> Result<()> {
+        let mut parts = parts()?;
+        let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
+        let condensed = condensed(&parts, &assembled, &held)?;
+        assert!(condensed.is_some());
+        let shared = RefCell::default();
+        let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
+        let [own, whole] = [condensed, None].map(|condensed| {
+            match check(&parts, (&assembled, condensed), &at_rest, &shared) {
+                Err(Error::CoarseBase(own)) => (own.needed, own.difference.unwrap()),
+                other => panic!("{other:?}"),
+            }
+        });
+        assert!(own.0 == whole.0 && own.1 > ANOTHER);
+        assert!((own.1 - whole.1).abs() < 1e-7 * whole.1, "{own:?} for {whole:?}");
+        Ok(())
+    }
 }

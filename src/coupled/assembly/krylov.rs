@@ -27,7 +27,7 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, indefinite_row, lowest_modes};
+use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
@@ -319,9 +319,7 @@ impl<'a> Reduction<'a> {
                 return Err(error.within(REDUCED));
             }
         }
-        let has_mass = matrices[0].diagonal().iter().all(|mass| *mass > 0.0);
-        let order = &self.assembled.elimination;
-        if !has_mass || indefinite_row(matrices[0], 0.0, 0.0, order).is_some() {
+        if !self.assembled.is_massive {
             let needed = "it must be positive definite";
             let error = Error::Scene { quantity: names[0], needed };
             return Err(error.within(REDUCED));

@@ -26,6 +26,7 @@ use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
+use crate::coupled::assembly::flexible_base::CondensedScene;
 use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
@@ -325,10 +326,10 @@ impl SimulationBuilder {
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
         let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let (period, is_firm, held) = with_base_held(&parts, &assembled, held);
+        let (period, is_firm, (held, condensed)) = with_base_held(&parts, &assembled, held)?;
         let shared = RefCell::default();
         let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
-        let coarse = flexible_base::check(&parts, &assembled, &at_rest, &shared)?;
+        let coarse = flexible_base::check(&parts, (&assembled, condensed), &at_rest, &shared)?;
         let floating = shared.take().map(|own: Compliance| own.floating);
         let known = floating.as_ref().and_then(|own| own.positive_definite());
         assembled.check_damping(parts.structure.as_ref(), known)?;
@@ -384,17 +385,18 @@ impl SimulationBuilder {
     }
 }
 
-/// Period on a fixed base, whether there is no mechanism, and responses for reduced coordinates.
+/// Period on a fixed base, whether there is no mechanism, and what reduced coordinates and the check of the base need.
 ///
 /// Releases the factored stiffness with the base held: factors of large structures take most of the memory.
 fn with_base_held(
     parts: &Parts,
     assembled: &Assembled,
     mut held: SparseFactor,
-) -> (f64, Result<()>, Option<HeldResponses>) {
+) -> Result<(f64, Result<()>, (Option<HeldResponses>, Option<CondensedScene>))> {
     let period = assembled.period_on_fixed_base(&mut held);
     let at_rest = assembled.at_rest(parts.structure.as_ref());
     let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
     let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
-    (period, is_firm, is_reduced.then(|| HeldResponses::new(assembled, &held)))
+    let responses = is_reduced.then(|| HeldResponses::new(assembled, &held));
+    Ok((period, is_firm, (responses, flexible_base::condensed(parts, assembled, &held)?)))
 }

@@ -138,9 +138,30 @@ impl PlacedBase {
         Self { rows: transformation.rows(&self.rows), foundations, points, ..self.clone() }
     }
 
-    /// The degrees of freedom that move a contact node, some more than once.
+    /// This base with other numbers of the degrees of freedom; not in stepping coordinates.
+    pub(crate) fn renumbered(&self, number: impl Fn(usize) -> usize) -> Self {
+        let mut own = self.clone();
+        let footings = own.foundations.iter_mut();
+        let weights =
+            footings.flat_map(|own| own.rotations.iter_mut().chain([&mut own.settlement]));
+        let of_weights = weights.filter_map(Weights::terms_mut);
+        let of_rows = match &mut own.rows {
+            Rows::Sparse(rows) => &mut rows[..],
+            Rows::Dense(_) => &mut [],
+        };
+        for (dof, _) in of_weights.chain(of_rows).flatten() {
+            *dof = number(*dof);
+        }
+        own.nodes.iter_mut().for_each(|node| node.map_rows(|row| row.map_dofs(&number)));
+        own
+    }
+
+    /// The degrees of freedom that move contact nodes, ascending.
     pub(crate) fn dofs(&self) -> Vec<usize> {
-        self.nodes.iter().flat_map(BaseNode::dofs).collect()
+        let mut dofs: Vec<_> = self.nodes.iter().flat_map(BaseNode::dofs).collect();
+        dofs.sort_unstable();
+        dofs.dedup();
+        dofs
     }
 
     /// The contact nodes and the elements of each foundation.

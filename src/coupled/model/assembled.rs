@@ -31,11 +31,13 @@ const SWAY: f64 = 0.1;
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
     pub(crate) linear: bool,
+    /// Whether the mass is positive definite.
+    pub(crate) is_massive: bool,
     pub(crate) mass: Arc<SparseMatrix>,
     pub(crate) damping: Arc<SparseMatrix>,
     pub(crate) stiffness: Arc<SparseMatrix>,
     /// K with the tangent of the nonlinear force at rest; `None` for a linear structure.
-    at_rest: Option<SparseMatrix>,
+    pub(super) at_rest: Option<SparseMatrix>,
     pub(crate) base: PlacedBase,
     pub(crate) influence: Arc<Influence>,
     /// Order in which the factors of these matrices are eliminated.
@@ -63,13 +65,23 @@ impl Assembled {
         let at_rest = if linear { None } else { Some(sum()?) };
         // Masses and dampings may couple far fewer degrees of freedom: the stiffness chooses the order.
         let elimination = Elimination::of(at_rest.as_ref().unwrap_or(&stiffness));
-        check_mass(&mass, &elimination)?;
+        let is_massive = check_mass(&mass, &elimination)?;
         if !structure.has_active_stiffness() {
             check_stiffness(&stiffness, &mass)?;
         }
         let influence = Arc::default();
         let [mass, damping, stiffness] = [mass, damping, stiffness].map(Arc::new);
-        let own = Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination };
+        let own = Self {
+            linear,
+            is_massive,
+            mass,
+            damping,
+            stiffness,
+            at_rest,
+            base,
+            influence,
+            elimination,
+        };
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
         let (influence, held) = own.find_influence().map_err(|error| match error {
@@ -99,8 +111,9 @@ impl Assembled {
     pub(crate) fn on(&self, base: PlacedBase) -> Self {
         let [mass, damping, stiffness] = self.shared();
         let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
-        let (linear, elimination) = (self.linear, self.elimination.clone());
-        Self { linear, mass, damping, stiffness, at_rest, base, influence, elimination }
+        let (linear, is_massive, elimination) =
+            (self.linear, self.is_massive, self.elimination.clone());
+        Self { linear, is_massive, mass, damping, stiffness, at_rest, base, influence, elimination }
     }
 
     /// Number of degrees of freedom.
@@ -182,6 +195,11 @@ impl Assembled {
         inertia.fold(0.0, f64::max)
     }
 
+    /// Stiffness of the springs at the contact nodes that hold the base.
+    pub(super) fn spring(&self) -> f64 {
+        stiffest(self.stiffness_at_rest()).max(self.base_inertia() / (SWAY * SWAY))
+    }
+
     /// The influence vectors, and the factored stiffness with its base held.
     ///
     /// A rigid translation leaves K u = 0 and moves the contact nodes by one. It is therefore the solution r of
@@ -190,28 +208,29 @@ impl Assembled {
     fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
         let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
         let stiffest = stiffest(stiffness);
-        let spring = stiffest.max(self.base_inertia() / (SWAY * SWAY));
+        let spring = self.spring();
         let held = HeldBase::new(self.base.nodes(), stiffness, spring);
         let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
-        let mut factor = SparseFactor::of(HeldBase::NAME, &matrix, &self.elimination)?;
+        let is_condensed =
+            self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
+        let ending = self.elimination.ending_with(&self.base.dofs()).filter(|_| is_condensed);
+        let elimination = ending.as_ref().unwrap_or(&self.elimination);
+        let factor = SparseFactor::of(HeldBase::NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
-        let solved = held.pulls().into_iter().map(|pull| {
-            let mut found = pull.clone();
-            factor.solve(&mut found);
-            for _ in 0..REFINEMENTS {
-                let mut rest = pull.clone();
-                matrix.multiply_add(-1.0, &found, &mut rest);
-                factor.solve(&mut rest);
-                found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
-            }
-            found
-        });
-        let mut translations: Vec<_> = solved.collect();
-        if translations.iter().flatten().any(|r| !r.is_finite()) {
+        let pulls = held.pulls().concat();
+        let mut found = vec![0.0; pulls.len()];
+        for _ in 0..=REFINEMENTS {
+            let mut rest = matrix.times(&found);
+            rest.iter_mut().zip(&pulls).for_each(|(rest, pull)| *rest = pull - *rest);
+            factor.solve_many(&mut rest);
+            found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
+        }
+        if found.iter().any(|r| !r.is_finite()) {
             return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
         }
+        let mut translations: Vec<_> = found.chunks_exact(n).map(<[f64]>::to_vec).collect();
         let firmer = spring / stiffest;
         supports::check(stiffness, &self.mass, firmer, &self.base, &mut translations)?;
         let mut parts = Partition::new(n);

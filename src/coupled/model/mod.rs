@@ -1,6 +1,7 @@
 //! A structure in its stepping coordinates.
 
 pub(crate) mod assembled;
+pub(crate) mod condensed;
 pub(crate) mod kinematics;
 pub(crate) mod load;
 pub(crate) mod mechanism;
