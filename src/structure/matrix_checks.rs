@@ -72,19 +72,19 @@ pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -
     check_semi_definite(NAME, damping, elimination)
 }
 
-/// Whether a matrix is βA + αB up to rounding and therefore positive semi-definite, as its check by factors.
+/// β and α, if a matrix is βA + αB up to rounding.
 ///
-/// A is positive definite, B positive semi-definite, and A has all places of B. An α below zero may leave negative
-/// values as small as the check allows.
-pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> bool {
-    let Ok(b) = SparseMatrix::sum("matrix", a.order(), &[(0.0, a), (1.0, b)]) else { return false };
+/// A has all places of B. If A is positive definite and B positive semi-definite, the matrix is positive semi-definite,
+/// as its check by factors: an α below zero may leave negative values as small as the check allows.
+pub(crate) fn combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> Option<[f64; 2]> {
+    let b = SparseMatrix::sum("matrix", a.order(), &[(0.0, a), (1.0, b)]).ok()?;
     let entries = || matrix.entries().zip(a.entries()).zip(b.entries());
     let is_alike = |own: &SparseMatrix| {
         let places = |of| SparseMatrix::entries(of).map(|(i, j, _)| (i, j));
         places(own).eq(places(matrix))
     };
     if !(is_alike(a) && is_alike(&b)) {
-        return false;
+        return None;
     }
     let diagonal = matrix.diagonal();
     // Least squares, of entries in a matrix scaled to a unit diagonal.
@@ -111,7 +111,7 @@ pub(crate) fn is_combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) 
     let is_rounding = |(left, own): (&[f64; 2], &f64)| {
         left[0] <= SYMMETRIC * own && left[1] <= SEMI_DEFINITE * own
     };
-    left.iter().zip(&diagonal).all(is_rounding)
+    left.iter().zip(&diagonal).all(is_rounding).then_some([beta, alpha])
 }
 
 fn check_semi_definite(
@@ -150,11 +150,15 @@ mod tests {
         let sum = |terms: &[(f64, &SparseMatrix)]| SparseMatrix::sum("sum", 30, terms).unwrap();
         // In proportion to both, to the stiffness, and to the mass in the places of the stiffness.
         for [beta, alpha] in [[1e-3, 0.7], [1e-3, 0.0], [0.0, 0.7], [1e-3, -1e-6]] {
-            assert!(is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+            let found = combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating);
+            let [own, other] = found.unwrap();
+            assert!((own - beta).abs() < 1e-12 * (beta + alpha.abs()), "{own} for {beta}");
+            assert!((other - alpha).abs() < 1e-9 * alpha.abs() + 1e-11, "{other} for {alpha}");
         }
         // Negative, by more than rounding or in part.
         for [beta, alpha] in [[-1e-3, 0.7], [1e-3, -0.7], [0.0, -0.7]] {
-            assert!(!is_combination(&sum(&[(beta, &stiffness), (alpha, &mass)]), floating));
+            let damping = sum(&[(beta, &stiffness), (alpha, &mass)]);
+            assert!(combination(&damping, floating).is_none());
         }
         // A dashpot more, between neighbours or elsewhere.
         for place in [17, 25] {
@@ -162,7 +166,7 @@ mod tests {
             dashpot.add_spring(16, place, 1.0);
             let dashpot = SparseMatrix::new("dashpot", &dashpot).unwrap();
             let damping = sum(&[(1e-3, &stiffness), (0.7, &mass), (1.0, &dashpot)]);
-            assert!(!is_combination(&damping, floating));
+            assert!(combination(&damping, floating).is_none());
         }
     }
 }

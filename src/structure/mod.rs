@@ -49,7 +49,7 @@ pub use hysteresis::{
     PendulumBearing, SpringResponse, WithSprings,
 };
 pub(crate) use matrix_checks::{
-    UNNOTICED, check_damping, check_mass, check_stiffness, is_combination, massless,
+    UNNOTICED, check_damping, check_mass, check_stiffness, combination, massless,
 };
 pub use modal_damping::{ModalDamping, WithModalDamping};
 #[cfg(feature = "embedded")]

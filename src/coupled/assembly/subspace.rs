@@ -12,6 +12,7 @@ use crate::coupled::base::transformation::ModalBasis;
 use crate::error::{Error, Result};
 use crate::linalg::orthonormal::{Least, OrthonormalRows};
 use crate::linalg::{SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes};
+use crate::structure::combination;
 
 /// Residual of the eigenproblem, and of damping that counts as diagonal, relative to its terms.
 pub(crate) const DECOUPLED: f64 = 1e-10;
@@ -33,6 +34,8 @@ pub(crate) struct Subspace<'a> {
     rows: OrthonormalRows<'a>,
     /// V C Vᵀ and V K Vᵀ.
     projected: [Vec<f64>; 2],
+    /// β and α of damping βK + αM.
+    proportional: Option<[f64; 2]>,
     translations: usize,
 }
 
@@ -53,7 +56,9 @@ impl<'a> Subspace<'a> {
     ) -> Self {
         let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass));
         let projected = [Vec::new(), Vec::new()];
-        let mut space = Self { matrices, rows, projected, translations: usize::MAX };
+        let undamped = damping.is_empty().then_some([0.0; 2]);
+        let proportional = undamped.or_else(|| combination(damping, [stiffness, mass]));
+        let mut space = Self { matrices, rows, projected, proportional, translations: usize::MAX };
         space.extend(translations, INDEPENDENT);
         space.translations = space.count();
         space
@@ -90,7 +95,7 @@ impl<'a> Subspace<'a> {
     /// Adds the rows and columns of the vectors from number `before` on to C and K.
     fn project(&mut self, before: usize) {
         let (n, count) = (self.order(), self.count());
-        for k in 0..2 {
+        for k in usize::from(self.proportional.is_some())..2 {
             let images = self.matrices[k].times(&self.rows.vectors()[before * n..]);
             let products = row_products(&images, self.rows.vectors(), n);
             let mut grown = vec![0.0; count * count];
@@ -106,6 +111,10 @@ impl<'a> Subspace<'a> {
                 }
             }
             self.projected[k] = grown;
+        }
+        if let Some([beta, alpha]) = self.proportional {
+            self.projected[0] = self.projected[1].iter().map(|k| beta * k).collect();
+            self.projected[0].iter_mut().step_by(count + 1).for_each(|own| *own += alpha);
         }
     }
 

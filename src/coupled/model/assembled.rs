@@ -20,7 +20,7 @@ use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
     BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
-    check_stiffness, is_combination, stiffest,
+    check_stiffness, combination, stiffest,
 };
 
 /// Number of passes that refine the influence vectors.
@@ -100,7 +100,7 @@ impl Assembled {
         floating: Option<&SparseMatrix>,
     ) -> Result<()> {
         let is_proportional =
-            floating.is_some_and(|own| is_combination(&self.damping, [own, &self.mass]));
+            floating.is_some_and(|own| combination(&self.damping, [own, &self.mass]).is_some());
         if structure.has_active_damping() || is_proportional {
             return Ok(());
         }
