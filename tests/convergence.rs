@@ -2,10 +2,11 @@
 //! SCENE: rigid block on the half-plane under a Ricker pulse, bonded, rocking and sliding.
 //! REFERENCE: finer runs, and the frequency-domain table. CI runs this binary in release.
 
+use basemat::Soil;
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::soil::Elastic;
-use basemat::structure::RigidBlock;
+use basemat::structure::{RigidBlock, RigidBody};
 
 use basemat_problems::profiles::{gmb, p1, p3};
 use basemat_problems::sampled_block::{
@@ -60,6 +61,32 @@ fn time_step_bonded() {
     let runs = [0.2, 0.1, 0.05, 0.025]
         .map(|step| history(PulsedBlock::BONDED, (Grading::Cosine, 8), step));
     check("time step", orders("time step", &successive(&runs), 1), 1.8..2.2);
+}
+
+/// GOAL: second order in the time step where the outline cuts cells, whose springs have no history of their own.
+/// SCENE: bonded cylinder on six cells across, Ricker pulse, steps 0.2, 0.1, 0.05, 0.025.
+/// REFERENCE: each run against the next finer one.
+#[test]
+fn time_step_on_a_disc() {
+    let runs = [0.2, 0.1, 0.05, 0.025].map(|step| {
+        let cylinder = RigidBody::cylinder(1.0, 2.0, 1.0).unwrap();
+        let soil = Soil::new(1.0, 1.0 / 3.0, 1.0).unwrap();
+        let ground = ElasticGround::under(soil, &cylinder, 6).unwrap();
+        let mut simulation = under_pulse(cylinder, ground, step);
+        let (steps, every) = (whole(20.0 / step), whole(SAMPLE / step));
+        let (mut history, mut shear) = ([const { Vec::new() }; 3], 0.0);
+        let run = simulation.run(steps, |state| {
+            shear += state.base_shear / every as f64;
+            if state.step % every == 0 {
+                let displacement = state.absolute_displacement();
+                let values = [displacement[0], displacement[4], std::mem::take(&mut shear)];
+                history.iter_mut().zip(values).for_each(|(own, value)| own.push(value));
+            }
+        });
+        assert!(run.unwrap().energy_error < 1e-9);
+        history
+    });
+    check("disc", orders("disc", &successive(&runs), 1), 1.8..2.2);
 }
 
 /// GOAL: the order that contact leaves, at least one. It is not smooth: events fall on steps.

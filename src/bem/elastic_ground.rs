@@ -320,7 +320,7 @@ impl Ground for ElasticGround {
         let (profile, tolerance) = (&source.profile, source.tolerance);
         let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);
         match plan.unions(profile, tolerance)? {
-            Some(unions) => unions.reduce(&mut matrix, find)?,
+            Some(unions) => unions.reduce(&mut matrix, 1.0, find)?,
             None => find(&mut matrix)?,
         }
         Ok(Some(matrix))

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::plan::Unions;
+use super::plan::{AT_END, Unions};
 use super::{Ground, GroundDescription, NOT_PREPARED, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
 use crate::geometry::{ContactElement, PLANE, check_order};
@@ -228,13 +228,14 @@ impl Ground for WeightsGround {
             None => weights.prepare(1, observer)?,
         }
         self.prepared = Some(Prepared { time_step, weights, chosen });
+        self.unions.iter_mut().for_each(|unions| unions.last.fill(0.0));
         Ok(())
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(Prepared { weights, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
         match &self.unions {
-            Some(unions) => unions.reduce(matrix, |cells| weights.step_compliance(cells)),
+            Some(unions) => unions.reduce(matrix, AT_END, |cells| weights.step_compliance(cells)),
             None => weights.step_compliance(matrix),
         }
     }
@@ -268,25 +269,30 @@ impl Ground for WeightsGround {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()
+        let saved = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
+        Ok([&saved[..], self.unions.as_ref().map_or(&[], |unions| &unions.last)].concat())
     }
 
     /// Restores a history of the same kind; exponentials are fitted again if they had another horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
-        let Some(horizon) = prepared.chosen.restore(steps, values)? else { return Ok(()) };
-        let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
-        if chosen.restore(steps, values)?.is_some() {
-            return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
+        let last = self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last);
+        let (values, kept) = values.split_at(values.len().saturating_sub(last.len()));
+        if let Some(horizon) = prepared.chosen.restore(steps, values)? {
+            let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
+            if chosen.restore(steps, values)?.is_some() {
+                return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
+            }
+            prepared.chosen = chosen;
         }
-        prepared.chosen = chosen;
+        last.copy_from_slice(kept);
         Ok(())
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let find = |matrix: &mut [f64]| self.source.static_compliance(&self.elements, matrix);
         match &self.unions {
-            Some(unions) => unions.reduce(matrix, find),
+            Some(unions) => unions.reduce(matrix, 1.0, find),
             None => find(matrix),
         }
     }

@@ -122,7 +122,7 @@ fn step_compliance_and_history_add_up_to_statics() {
     }
 }
 
-/// Four grounds under a square and an L, in steps from short to long: tractions that take out all they can get.
+/// Four grounds under a square, an L and a disc, in steps from short to long: tractions that take out all they can get.
 /// `PLAN_STEPS=300` makes so many.
 #[test]
 fn tractions_never_take_energy_from_a_ground_in_plan() {
@@ -130,7 +130,8 @@ fn tractions_never_take_energy_from_a_ground_in_plan() {
     let thin = SoilProfile::on_rigid_bedrock().with_layer(Soil::new(1.0, 0.45, 1.0).unwrap(), 0.4);
     let mut least = f64::INFINITY;
     for profile in [half_space(), p1(gmb(5), gmb(1)), p3(gmb(5)), thin.unwrap()] {
-        for plan in [Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap(), l_shape()] {
+        let square = Plan::rectangle(-1.0..1.0, -1.0..1.0, 4).unwrap();
+        for plan in [square, l_shape(), Plan::disc([0.0; 2], 1.0, 4).unwrap()] {
             for step in [0.05, 0.3, 1.5] {
                 let mut ground = ElasticGround::in_plan(profile.clone(), plan.clone()).unwrap();
                 ground.prepare(step, Some(steps), &mut unobserved).unwrap();

@@ -33,4 +33,4 @@ mod unions;
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan};
 pub(super) use kernel::{LatticeKernel, gate_sample, static_compliance};
-pub(super) use unions::Unions;
+pub(super) use unions::{AT_END, Unions};

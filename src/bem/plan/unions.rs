@@ -3,6 +3,10 @@
 //! All cells of an element have its traction, and the element's displacement is the mean of its cells. With the
 //! incidence P of cells and elements, integrals over elements are PᵀFP, so they are passive too. The traction of a part
 //! of a cell is spread over the cell, and the part has a spring in series.
+//!
+//! A step has one traction, its mean τ(n), but the displacement belongs to its end. The spring with the compliance f moves
+//! by f (3 τ(n) − τ(n−1))/2, which is of second order and passive: its work f τ(n) (3 τ(n) − 4 τ(n−1) + τ(n−2))/2 has the
+//! symbol f (1 − cos θ)² ≥ 0.
 
 use crate::error::{Error, Result, memory, require, same_length};
 use crate::geometry::SPACE;
@@ -18,9 +22,14 @@ pub(in crate::bem) struct Unions {
     fractions: Vec<f64>,
     /// Compliance of the spring under each element, component by component, m/Pa; empty without springs.
     springs: Vec<f64>,
+    /// Traction of each spring in the last step, component by component, Pa.
+    pub(in crate::bem) last: Vec<f64>,
     /// A contact vector of cells.
     cells: Vec<f64>,
 }
+
+/// Displacement at the end of a step of a spring by the step's traction, relative to its static one.
+pub(in crate::bem) const AT_END: f64 = 1.5;
 
 impl Unions {
     /// Element of each cell of a lattice whose columns and rows are united.
@@ -113,6 +122,7 @@ impl Unions {
             sizes,
             fractions: vec![1.0; owners.len()],
             springs: vec![],
+            last: vec![],
         }
     }
 
@@ -123,13 +133,12 @@ impl Unions {
         own: [f64; SPACE],
     ) -> Self {
         let count = self.sizes.len();
-        self.springs = vec![0.0; SPACE * count];
+        [self.springs, self.last] = [(); 2].map(|()| vec![0.0; SPACE * count]);
         for (cell, (fraction, softness)) in cuts.enumerate() {
             let owner = self.owners[cell];
             self.fractions[cell] = fraction;
-            for (component, own) in own.into_iter().enumerate() {
-                let spring = softness * own * fraction / self.sizes[owner];
-                self.springs[component * count + owner] += spring;
+            for (k, own) in own.into_iter().enumerate() {
+                self.springs[k * count + owner] += softness * own * fraction / self.sizes[owner];
             }
         }
         self
@@ -141,7 +150,7 @@ impl Unions {
         elements: &mut [f64],
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
-        let Self { owners, sizes, cells, .. } = self;
+        let Self { owners, sizes, cells, springs, last, .. } = self;
         same_length("displacement of the history", elements.len(), SPACE * sizes.len())?;
         find(cells)?;
         elements.fill(0.0);
@@ -151,11 +160,15 @@ impl Unions {
                 elements[*owner] += value / sizes[*owner];
             }
         }
+        let own = elements.iter_mut().zip(springs.iter().zip(last));
+        own.for_each(|(value, (spring, last))| *value += (1.0 - AT_END) * spring * *last);
         Ok(())
     }
 
     /// Tractions of the cells; missing values of elements count as zero.
     pub(in crate::bem) fn spread(&mut self, elements: &[f64]) -> &[f64] {
+        self.last.fill(0.0);
+        self.last.iter_mut().zip(elements).for_each(|(last, value)| *last = *value);
         let parts = self.cells.chunks_exact_mut(self.owners.len());
         for (component, cells) in parts.enumerate() {
             for ((owner, fraction), value) in self.owners.iter().zip(&self.fractions).zip(cells) {
@@ -167,9 +180,12 @@ impl Unions {
     }
 
     /// Calls `find` to fill the compliance of cells, and overwrites the compliance of elements.
+    ///
+    /// `spring_share` of the springs' static compliance: 1, or [`AT_END`] for a step.
     pub(in crate::bem) fn reduce(
         &self,
         matrix: &mut [f64],
+        spring_share: f64,
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
         let [width, size] = [self.owners.len(), self.sizes.len()].map(|count| SPACE * count);
@@ -191,9 +207,42 @@ impl Unions {
                 matrix[to * size + place(column)] += share * value;
             }
         }
-        for (place, spring) in self.springs.iter().enumerate() {
-            matrix[place * (size + 1)] += spring;
-        }
+        let springs = self.springs.iter().enumerate();
+        springs.for_each(|(place, spring)| matrix[place * (size + 1)] += spring_share * spring);
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Means over the steps of a traction that grows steadily, from rest at t = 0 on.
+    #[test]
+    fn springs_are_at_the_end_of_the_step() {
+        let zero = |cells: &mut [f64]| {
+            cells.fill(0.0);
+            Ok(())
+        };
+        let cuts = [(1.0, 0.0), (0.5, 0.8)].into_iter();
+        let mut unions = Unions::new(&[0, 1]).with_cuts(cuts, [2.0, 3.0, 5.0]);
+        let [at_rest, step] = [1.0, AT_END].map(|share| {
+            let mut matrix = vec![0.0; 36];
+            unions.reduce(&mut matrix, share, zero).unwrap();
+            [0, 1, 2, 3, 4, 5].map(|place| matrix[7 * place])
+        });
+        // Half of 0.8 of 2, 3 and 5.
+        for (found, wanted) in at_rest.iter().zip([0.0, 0.8, 0.0, 1.2, 0.0, 2.0]) {
+            assert!((found - wanted).abs() < 1e-15);
+        }
+        for time in 1..9 {
+            let (mean, mut displacement) = (f64::from(time) - 0.5, vec![0.0; 6]);
+            unions.gather(&mut displacement, zero).unwrap();
+            for (place, displacement) in displacement.iter().enumerate().filter(|_| time > 1) {
+                let found = displacement + step[place] * mean;
+                assert!((found - at_rest[place] * f64::from(time)).abs() < 1e-14, "{time}");
+            }
+            unions.spread(&[mean; 6]);
+        }
     }
 }

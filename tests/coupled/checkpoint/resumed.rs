@@ -10,7 +10,7 @@ use basemat::coupled::CheckpointError;
 use basemat::coupled::{SimulationBuilder, State};
 use basemat::history::HistoryMethod;
 use basemat::interface::Bonded;
-use basemat::structure::{NonlinearForce, RigidBlock, Structure, Triplets};
+use basemat::structure::{NonlinearForce, RigidBlock, RigidBody, Structure, Triplets};
 use basemat::{Result, Simulation};
 
 use super::{STEPS, carried, half_plane, spring_bed};
@@ -91,6 +91,11 @@ fn kinds() -> Vec<Kind> {
         kind("spring bed", move || base().structure(block(SI)).ground(spring_bed())),
         kind("nonlinear", move || {
             base().structure(Rider { block: block(SI) }).ground(spring_bed())
+        }),
+        kind("cells cut by a disc", move || {
+            let cylinder = RigidBody::cylinder(2.0, 6.0, 2000.0).unwrap();
+            let ground = ElasticGround::under(soil(SI), &cylinder, 4).unwrap();
+            base().structure(cylinder).ground(ground)
         }),
         kind("memory of its own", move || {
             let sticky = Sticky { block: block(SI), anchor: 0.0 };
