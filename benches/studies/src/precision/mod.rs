@@ -17,6 +17,7 @@ mod report;
 mod scene;
 mod settings;
 mod space;
+mod space_models;
 mod sweep;
 
 use std::path::PathBuf;
@@ -31,6 +32,7 @@ use sweep::Sweep;
 ///
 /// Prints tables, and writes points.csv, tables.md and SVG plots.
 #[derive(Debug, Clone, clap::Args)]
+#[allow(clippy::struct_excessive_bools, reason = "flags of a command")]
 pub(crate) struct Options {
     /// Folder for the files.
     #[arg(long, default_value = "target/study/precision")]
@@ -45,9 +47,12 @@ pub(crate) struct Options {
     /// Only the lines of error against time of structures of 300 to 30 000 degrees of freedom.
     #[arg(long)]
     pub(crate) front: bool,
-    /// Only structures of shells in three directions, raft and cells refined together.
+    /// Only structures of shells in three directions.
     #[arg(long)]
     pub(crate) space: bool,
+    /// With `--space`: only its references, in a quarter of an hour.
+    #[arg(long, requires = "space")]
+    pub(crate) reference: bool,
     /// Runs of each setting, of which the fastest counts; one only where a run takes over a second.
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u8).range(1..=100))]
     pub(crate) repeats: u8,
@@ -56,7 +61,7 @@ pub(crate) struct Options {
 pub(crate) fn run(options: &Options) -> Result<(), AnyError> {
     std::fs::create_dir_all(&options.out)?;
     if options.space {
-        return space::run(options.short, options.docs.is_some());
+        return space::run(options.short, options.docs.is_some(), options.reference);
     }
     if options.front {
         let bar = ProgressBar::new(0);
