@@ -78,7 +78,7 @@ impl Plan {
         check_faces(faces.len())?;
         let faces: Result<Vec<_>> =
             faces.iter().enumerate().map(|(number, corners)| Face::new(number, corners)).collect();
-        Self::covering(faces?, cells, OVERHANG)
+        Self::on(faces?, cells, OVERHANG, true)
     }
 
     /// A disc, as a polygon of the same area, with `cells` along its diameter.
@@ -184,10 +184,11 @@ impl Plan {
             });
         }
         let (faces, cells) = self.faces;
-        Self::covering(faces, cells, 0.0)
+        Self::on(faces, cells, 0.0, false)
     }
 
-    pub(super) fn covering(faces: Vec<Face>, cells: usize, overhang: f64) -> Result<Self> {
+    /// Cells under faces; whether mats are `rigid` decides on edges oblique to the cells.
+    pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigid: bool) -> Result<Self> {
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
         let shorter = sides[0].min(sides[1]);
@@ -202,17 +203,15 @@ impl Plan {
         if (pitch[0] / pitch[1] - 1.0).abs() < ROUNDING {
             pitch[1] = pitch[0];
         }
-        let corner = [0, 1].map(|axis| {
-            let middle = 0.5 * (bounds[axis][0] + bounds[axis][1]);
-            middle - 0.5 * pitch[axis] * counts[axis] as f64
-        });
+        let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
         let mats = Face::mats(&faces);
-        let (owners, mut found) = cut(&faces, &mats, Grid { corner, pitch, counts }, overhang);
+        let grid = Grid { corner, pitch, counts };
+        let (owners, mut found) = cut(&faces, &mats, grid, overhang, rigid);
         apart(&owners, counts[0], pitch)?;
         if let Some(mat) = found.iter().position(|(cells, _)| cells.is_empty()) {
             return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        let error = if overhang > 0.0 { error(&faces, &mats, pitch) } else { 0.0 };
+        let error = if rigid { error(&faces, &mats, pitch) } else { 0.0 };
         found.sort_by_key(|(cells, _)| cells.first().map(|[i, j]| [*j, *i]));
         let (own, cuts): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         let area = faces.iter().map(Face::area).sum();
@@ -225,11 +224,6 @@ impl Plan {
             return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
         }
         Ok(plan)
-    }
-
-    /// The plan without the error by oblique edges: its estimate holds for rigid mats only.
-    pub(super) fn under_flexible_mats(self) -> Self {
-        Self { error: 0.0, ..self }
     }
 
     /// Number of cells.

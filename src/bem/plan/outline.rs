@@ -17,10 +17,12 @@ pub(super) const OVERHANG: f64 = 0.105;
 /// Distance in cells by which oblique edges of rigid mats move outwards: the first number, plus the second over √n for n
 /// cells along the shorter side. Found with discs and squares at several angles.
 const SHIFT: [f64; 2] = [0.03, 0.15];
-/// The same for flexible mats: a multiple of the overhang, and the largest distance.
+/// The same for flexible mats: a multiple of the overhang, and the largest distance for few cells; the third number, plus
+/// the fourth over n, for many.
 ///
-/// Found with circular plates and turned square ones under loads on the edge, on walls and everywhere.
-const FLEXIBLE_SHIFT: [f64; 2] = [2.0, 0.12];
+/// Found with circular plates and turned square ones under loads on the edge, on walls and everywhere, and with containments
+/// that rock on rafts of D/(G R³) from 0.002 to 1.
+const FLEXIBLE: [f64; 4] = [2.0, 0.12, 0.0875, 0.75];
 /// Sine of the angle to the lattice from which an edge is oblique.
 const OBLIQUE: f64 = 0.1;
 /// Smallest fraction of a cell inside that makes it a contact element.
@@ -72,12 +74,13 @@ pub(super) fn cut(
     mats: &[usize],
     grid: Grid,
     overhang: f64,
+    rigid: bool,
 ) -> (Vec<Option<usize>>, Vec<Cells>) {
     let along = grid.counts[0].min(grid.counts[1]) as f64;
-    let oblique = if overhang < OVERHANG {
-        (FLEXIBLE_SHIFT[0] * overhang).min(FLEXIBLE_SHIFT[1])
-    } else {
+    let oblique = if rigid {
         (SHIFT[0] + SHIFT[1] / along.sqrt()).min(OVERHANG)
+    } else {
+        (FLEXIBLE[0] * overhang).min(FLEXIBLE[1]).min(FLEXIBLE[2] + FLEXIBLE[3] / along)
     };
     let distance = |normal: [f64; 2]| {
         let parallel = (1.0 - normal[0].abs().min(normal[1].abs()) / OBLIQUE).max(0.0);

@@ -74,7 +74,7 @@ impl Plan {
             most = most.max(along.min(limit));
         }
         if flexible.is_empty() {
-            return Self::covering(faces, most, OVERHANG).map(Some);
+            return Self::on(faces, most, OVERHANG, true).map(Some);
         }
         let mut least = if soil.is_some() { OVERHANG } else { 0.0 };
         if let Some(soil) = soil {
@@ -86,6 +86,6 @@ impl Plan {
                 least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
             }
         }
-        Self::covering(faces, most, least).map(|plan| Some(plan.under_flexible_mats()))
+        Self::on(faces, most, least, false).map(Some)
     }
 }
