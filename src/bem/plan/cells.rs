@@ -187,7 +187,7 @@ impl Plan {
         Self::on(faces, cells, 0.0, false)
     }
 
-    /// Cells under faces; whether mats are `rigid` decides on edges oblique to the cells.
+    /// Cells under faces; whether mats are `rigid` or nearly so decides on edges oblique to the cells.
     pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigid: bool) -> Result<Self> {
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
@@ -224,6 +224,11 @@ impl Plan {
             return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
         }
         Ok(plan)
+    }
+
+    /// The plan without the error by oblique edges: its estimate holds for rigid mats only.
+    pub(super) fn under_flexible_mats(self) -> Self {
+        Self { error: 0.0, ..self }
     }
 
     /// Number of cells.

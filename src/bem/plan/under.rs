@@ -9,6 +9,8 @@ use crate::linalg::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{Base, BaseNode, Structure, Triplets};
 
+/// Overhang of a single cell on half the width from which a mat is stiff as a whole: D/(G R³) ≥ 0.14.
+const STIFF: f64 = 0.2 * OVERHANG;
 /// Largest number of cells to which the number under flexible faces is raised.
 const MOST_RAISED: f64 = 1000.0;
 
@@ -76,7 +78,7 @@ impl Plan {
         if flexible.is_empty() {
             return Self::on(faces, most, OVERHANG, true).map(Some);
         }
-        let mut least = if soil.is_some() { OVERHANG } else { 0.0 };
+        let (mut least, mut is_stiff) = (if soil.is_some() { OVERHANG } else { 0.0 }, false);
         if let Some(soil) = soil {
             let mut stiffness = Triplets::new(structure.dofs());
             base.check(structure.dofs())?;
@@ -85,7 +87,9 @@ impl Plan {
             for own in &flexible {
                 least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
             }
+            let as_a_whole = |own| overhang(&stiffness, own, soil, 0.5 * shorter) >= STIFF;
+            is_stiff = least >= OVERHANG && flexible.iter().all(|own| as_a_whole(own));
         }
-        Self::on(faces, most, least, false).map(Some)
+        Self::on(faces, most, least, is_stiff).map(|plan| Some(plan.under_flexible_mats()))
     }
 }
