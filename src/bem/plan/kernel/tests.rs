@@ -1,10 +1,13 @@
 //! Weights of cells against a table, statics, and themselves.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::Error;
 use crate::bem::layered::test_profiles::{gmb, p1};
 use crate::history::ConvolutionWeights;
-use crate::soil::Soil;
+use crate::soil::{GeneralizedMaxwell, Relaxation, Soil};
 use crate::unobserved;
 
 const STEP: f64 = 0.2;
@@ -137,6 +140,34 @@ fn weights_of_short_steps_are_sums_over_directions() {
         println!("{step} {:e}", worst / largest);
         assert!(0.0 < worst && worst < 1e-12 * largest, "{step} {:e}", worst / largest);
     }
+}
+
+/// A damping law that counts the Laplace variables of its soil.
+#[derive(Debug)]
+struct Counted(GeneralizedMaxwell, Arc<AtomicUsize>);
+
+impl Relaxation for Counted {
+    fn modulus(&self, s: Complex) -> Complex {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.modulus(s)
+    }
+}
+
+/// Errors of the integrals do not halve panels of the contour: variables for 5 s grow less than the steps.
+#[test]
+fn shorter_steps_need_few_more_variables() {
+    let variables = [(0.02, 256), (0.01, 512), (0.005, 1024)].map(|(step, lags)| {
+        let count = Arc::default();
+        let profile = p1(Counted(gmb(5), Arc::clone(&count)), gmb(1));
+        let plan = Plan::masked([0.0; 2], [0.5; 2], 2, &[true; 4]).unwrap();
+        let steps = [step, 1e-10];
+        let kernel = LatticeKernel::in_plan(profile, &plan, Stages::Two, steps, None).unwrap();
+        kernel.prepare(lags, &mut unobserved).unwrap();
+        count.load(Ordering::Relaxed)
+    });
+    println!("{variables:?}");
+    let [long, middle, short] = variables.map(|count| count as f64);
+    assert!(middle < 1.7 * long && short < 1.7 * middle, "{variables:?}");
 }
 
 /// The passivity check takes some of many cells, each once.
