@@ -57,8 +57,8 @@ pub(crate) struct Compliance {
     layers: Vec<Layer>,
     rigid: bool,
     moduli: Vec<Complex>,
-    /// α, β of the layers down to the last that affects the surface, and e^(−βh) of thick ones.
-    roots: Vec<[Complex; 3]>,
+    /// α, β of the layers down to the last that affects the surface.
+    roots: Vec<[Complex; 2]>,
 }
 
 /// |β|h below which a layer is thin.
@@ -156,7 +156,7 @@ impl Compliance {
         for layer in &self.layers {
             let square = Complex::real(k * k);
             let (alpha, beta) = ((square + layer.q1).sqrt(), (square + layer.q2).sqrt());
-            self.roots.push([alpha, beta, Complex::default()]);
+            self.roots.push([alpha, beta]);
             decay += alpha.re.min(beta.re) * layer.thickness;
             if decay > OPAQUE {
                 break;
@@ -174,9 +174,9 @@ impl Compliance {
         } else {
             let waves = waves();
             let up = waves.u.mirrored();
-            waves.above(lowest.thickness, up.solve(waves.u).negative(), &mut self.roots[last])
+            waves.above(lowest, up.solve(waves.u).negative())
         };
-        for (layer, roots) in self.layers[..last].iter().zip(&mut self.roots).rev() {
+        for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
             let z = t.times_inverse(u);
             if layer.is_thin(k) {
                 (u, t) = layer.carry(k, (Square::UNIT, z));
@@ -185,7 +185,7 @@ impl Compliance {
             let waves = Waves::new(layer, k, *roots);
             let (u_up, t_up) = (waves.u.mirrored(), waves.t.mirrored().negative());
             let reflected = t_up.minus(z.times(u_up)).solve(z.times(waves.u).minus(waves.t));
-            (u, t) = waves.above(layer.thickness, reflected, roots);
+            (u, t) = waves.above(layer, reflected);
         }
         let c = u.times_inverse(t);
         SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
@@ -195,13 +195,13 @@ impl Compliance {
     pub(crate) fn across(&self) -> Complex {
         // Below the last layer that affects the surface any base is valid, so it starts as rigid.
         let mut below = None;
-        for (layer, [_, beta, fall]) in self.layers.iter().zip(&self.roots).rev() {
+        for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {
             let own = layer.modulus * *beta;
             if layer.thickness.is_infinite() {
                 below = Some(own);
                 continue;
             }
-            let missing = one_less_square(*fall, beta.scale(2.0 * layer.thickness));
+            let missing = one_less_exponential(beta.scale(2.0 * layer.thickness));
             let rest = Complex::real(2.0) - missing;
             let (above, under) = match below {
                 Some(z) => (own * missing + z * rest, own * rest + z * missing),
@@ -213,13 +213,13 @@ impl Compliance {
     }
 }
 
-/// |x| up to which 1 − e^(−x) is summed as a series: of all thin layers.
-const SERIES: f64 = 2.01 * THIN;
+/// |x| below which 1 − e^(−x) is summed as a series.
+const SERIES: f64 = 0.3;
 
-/// 1 − `root`² = 1 − e^(−x) for Re x ≥ 0; small x need no `root`.
-fn one_less_square(root: Complex, x: Complex) -> Complex {
+/// 1 − e^(−x) for Re x ≥ 0.
+fn one_less_exponential(x: Complex) -> Complex {
     if x.square() > SERIES * SERIES {
-        return Complex::real(1.0) - root * root;
+        return Complex::real(1.0) - (-x).exp();
     }
     let terms = (2..=13).rev().map(f64::from);
     let one = Complex::real(1.0);
@@ -237,7 +237,7 @@ struct Waves {
 }
 
 impl Waves {
-    fn new(layer: &Layer, k: f64, [alpha, beta, _]: [Complex; 3]) -> Self {
+    fn new(layer: &Layer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
         let wave = Complex::real(k);
         let sum = alpha + beta;
         let rest = 1.0 / (1.0 - layer.a2);
@@ -260,16 +260,9 @@ impl Waves {
         }
     }
 
-    /// Displacements and stresses at the layer's top for the reflection R at its bottom; stores e^(−βh) in `roots`.
-    fn above(
-        &self,
-        thickness: f64,
-        reflection: Square,
-        roots: &mut [Complex; 3],
-    ) -> (Square, Square) {
-        let transfer = self.transfer(thickness);
-        let x = transfer.around(reflection);
-        roots[2] = transfer.shear;
+    /// Displacements and stresses at the layer's top for the reflection R at its bottom.
+    fn above(&self, layer: &Layer, reflection: Square) -> (Square, Square) {
+        let x = self.transfer(layer.thickness).around(reflection);
         let (u_up, t_up) = (self.u.mirrored(), self.t.mirrored().negative());
         (self.u.plus(u_up.times(x)), self.t.plus(t_up.times(x)))
     }
