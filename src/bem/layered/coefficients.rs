@@ -40,7 +40,7 @@ pub(crate) const BLOCKS: usize = 25;
 /// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
 const POINTS_PER_LAG: usize = 4;
 /// Tolerance of the integrals relative to the tolerance of the weights: integration errors must not cause halving.
-const FINER: f64 = 0.03;
+pub(crate) const FINER: f64 = 0.03;
 /// A panel is sampled only if it is predicted as resolved to this multiple of the tolerance.
 ///
 /// Half of the panels at this limit are resolved.
@@ -215,25 +215,28 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             .map(|point| on_circle(logarithm, circle.angle(point))[1].inverse())
             .collect();
         let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
-        let mut input = transform.make_input_vec();
-        let (mut output, mut scratch) = (transform.make_output_vec(), transform.make_scratch_vec());
         let growth: Vec<_> =
             (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();
-        let mut values = Vec::with_capacity(self.classes * KINDS);
-        for row in spectra.chunks_exact(circle.points()) {
+        let mut values = vec![vec![]; self.classes * KINDS];
+        let turn = |buffers: &mut Option<_>, (row, lags): (&[Complex], &mut Vec<f64>)| {
+            let (input, output, scratch) = buffers.get_or_insert_with(|| {
+                let [input, scratch] = [transform.make_input_vec(), transform.make_scratch_vec()];
+                (input, transform.make_output_vec(), scratch)
+            });
             for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
                 // The transform has the opposite sign in its exponent.
                 *input = (*value * *over).conj().inner();
             }
-            samples.reach(0)?;
             // The values at both ends of the half circle are real.
             [input[0].im, input[length / 2].im] = [0.0; 2];
-            transform.process_with_scratch(&mut input, &mut output, &mut scratch).map_err(
-                |_| Error::Singular { matrix: "spectrum of convolution weights", order: length },
-            )?;
-            let lags = output[first..].iter().zip(&growth);
-            values.push(lags.map(|(value, scale)| value * scale).collect());
-        }
+            transform.process_with_scratch(input, output, scratch).map_err(|_| {
+                Error::Singular { matrix: "spectrum of convolution weights", order: length }
+            })?;
+            lags.extend(output[first..].iter().zip(&growth).map(|(value, scale)| value * scale));
+            Ok(())
+        };
+        let rows = spectra.chunks_exact(circle.points()).zip(&mut values);
+        on_threads(threads, rows, turn, |_| samples.reach(0))?;
         samples.end()?;
         Ok(Block { values })
     }

@@ -29,7 +29,7 @@ mod threads;
 mod wavenumber;
 mod weights;
 
-pub(super) use coefficients::Quadrature;
+pub(super) use coefficients::{FINER, Quadrature};
 pub(super) use compliance::{Compliance, SurfaceCompliance};
 #[cfg(feature = "embedded")]
 pub(super) use contour::own_classes;
@@ -42,7 +42,7 @@ pub(super) use passivity::margin;
 pub use runge_kutta::Stages;
 pub(super) use runge_kutta::on_circle;
 pub(super) use static_compliance::static_compliance;
-pub(super) use tail::{REACH, on_grid, surface_series};
+pub(super) use tail::{on_grid, surface_series};
 pub(super) use threads::{on_threads, threads};
 pub(super) use wavenumber::{Compliances, deep, surface_outlook, unresolved};
 pub(super) use weights::{QuadratureWeights, StripWeights};

@@ -14,14 +14,18 @@ use std::sync::OnceLock;
 
 use super::corner_waves::{CornerWaves, Scratch};
 use super::forms::{AngularMeans, FORMS, integrals};
-use crate::bem::layered::{DEGREES, POINTS, REACH, legendre, on_grid, on_threads, threads};
+use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid, on_threads, threads};
 use crate::error::{GroundError, Result, Watch, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 use crate::linalg::gauss::Rule;
 
 /// Terms of the series beyond K, including the static one.
-pub(super) const TERMS: usize = 7;
+///
+/// At the smallest K the next is 2e-11 of the first or less for Poisson's ratios from 0 on, 1e-8 for -0.9.
+pub(super) const TERMS: usize = 16;
+/// Smallest K relative to |√q₂|.
+const REACH: f64 = 2.5;
 /// Angle by which forms turn over a panel.
 const TURN: f64 = 16.0;
 /// Smallest K × shorter side of a cell: static forms beyond it are small enough.
@@ -29,7 +33,7 @@ const SHORT: f64 = 8.0;
 /// K* × shorter side, where |√q₂| is 2/side.
 const END: f64 = 64.0;
 /// Smallest ratio of K* to |√q₂|.
-const SPREAD: f64 = 16.0;
+const SPREAD: f64 = 4.0;
 /// Number of panels whose forms are computed before they are summed.
 const BATCH: usize = 32;
 /// Number of panels on which forms are sums over directions; beyond, they are waves from corners.
@@ -170,8 +174,9 @@ impl FormTable {
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
         let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
         let reach = (SHORT / side).max(deep).max(REACH * root);
-        // Beyond K* an error of about q₂ K*⁻⁵ is left.
-        let end = END / side * (0.5 * root * side).min(1.0).powf(0.4);
+        // Beyond K* an error of about q₂ K*⁻⁵ is left. Compliances fall like 1/|√q₂| from |√q₂| = 2/side on.
+        let size = 0.5 * root * side;
+        let end = END / side * size.powf(if size < 1.0 { 0.4 } else { 0.6 });
         let end = end.max(SPREAD * root).max(1.2 * reach);
         let span = lattice.diagonal();
         let begin = direct as f64 * width;
@@ -181,7 +186,8 @@ impl FormTable {
         if end.is_nan() || end > most {
             return Err(GroundError::TooFine { span, wavenumber: end, most }.into());
         }
-        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 1.2 * reach / width;
+        // Values at all points, and rows of tails, which are fewer.
+        let bytes = 8.0 * (FORMS * POINTS * classes) as f64 * 2.0 * reach / width;
         memory::check("cells of a mat", cells, bytes)?;
         let last = table.panels(root);
         table.legendre = (0..last).map(|_| OnceLock::new()).collect();

@@ -48,7 +48,7 @@ const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
 pub(in crate::bem) struct Integrals {
     pub(super) table: FormTable,
     pub(super) finest: f64,
-    tolerance: f64,
+    pub(super) tolerance: f64,
 }
 
 /// Scratch of one thread.

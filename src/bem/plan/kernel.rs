@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::cells::Plan;
 use super::integrals::{Integrals, Workspace};
 use super::unions::Unions;
-use crate::bem::layered::{Compliances, Quadrature, QuadratureWeights, Stages, on_circle};
+use crate::bem::layered::{Compliances, FINER, Quadrature, QuadratureWeights, Stages, on_circle};
 use crate::error::{Result, Watch, positive, same_length};
 use crate::geometry::{Lattice, SERIES, SPACE};
 use crate::history::PairClasses;
@@ -100,7 +100,7 @@ impl LatticeKernel {
             stages.nodes(z, rest)
         });
         let list = nodes.map(|node| node.lambda.scale(REACH_MARGIN / time_step));
-        let integrals = Integrals::sketch(&plan.lattice, &profile, list, tolerance)?;
+        let integrals = Integrals::sketch(&plan.lattice, &profile, list, FINER * tolerance)?;
         let classes = plan.classes()?;
         let own = vec![[0; 2]; classes.count()];
         let quadrature = Quadrature::over(profile, integrals, own, stages, [time_step, tolerance]);

@@ -1,10 +1,14 @@
 //! Compliances of cells against a table and themselves.
 
+use std::f64::consts::PI;
+
 use realfft::num_complex::Complex64;
 
+use super::super::forms::{AngularMeans, integrals};
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1};
 use crate::geometry::offset;
+use crate::linalg::gauss::Rule;
 use crate::soil::Soil;
 
 fn all(
@@ -78,6 +82,63 @@ fn cut_half_space_is_whole() {
             println!("{s:?} {thickness} {error:e}");
             assert!(error < 2e-9, "{s:?} {thickness} {error:e}");
         }
+    }
+}
+
+/// Short waves: panels up to a far wavenumber and a static rest in closed form, without tables, tails or halved panels.
+#[test]
+fn compliances_of_short_waves_are_plain_sums() {
+    let (lattice, rule) = (Lattice { pitch: [0.5, 0.4], counts: [2, 1] }, Rule::new(16));
+    let (width, panels) = (8.0, 750);
+    for (profile, s) in [
+        (half_space(), Complex::real(30.0)),
+        (half_space(), Complex::new(12.0, 25.0)),
+        (p1(gmb(5), gmb(1)), Complex::new(10.0, 40.0)),
+    ] {
+        let (found, _) = all(&lattice, &profile, s, 3e-12);
+        let mut ground = Compliance::default();
+        ground.set(&profile, s).unwrap();
+        let (modulus, _, a2) = ground.top();
+        let unit = modulus.inverse();
+        // zz, rr, tt and zr at rest, times k.
+        let rest = [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| unit.scale(0.5 * d / (1.0 - a2)));
+        let mut wanted = vec![[Complex::default(); SERIES]; found.len()];
+        let add = |wanted: &mut [Complex; SERIES], [zz, rr, tt, zr]: Kernel, form: [f64; FORMS]| {
+            let [all, along, across, both, x, y] = form.map(|form| 0.5 * form / PI);
+            let parts = [
+                zz.scale(all),
+                rr.scale(along) + tt.scale(across),
+                rr.scale(across) + tt.scale(along),
+                (rr - tt).scale(both),
+                zr.scale(-x),
+                zr.scale(-y),
+            ];
+            wanted.iter_mut().zip(parts).for_each(|(wanted, part)| *wanted += part);
+        };
+        for (wanted, offset) in wanted.iter_mut().zip(lattice.classes()) {
+            add(wanted, rest, integrals(lattice.pitch, offset));
+        }
+        let mut means = AngularMeans::new(&lattice);
+        for panel in 0..panels {
+            for (x, weight) in rule.points_on_unit_interval() {
+                let k = width * (f64::from(panel) + x);
+                let SurfaceCompliance { xx, zz, xz } = ground.at(k);
+                let dynamic = [zz, xx, ground.across(), xz];
+                let kernel: Kernel =
+                    std::array::from_fn(|i| (dynamic[i].scale(k) - rest[i]).scale(width * weight));
+                let forms = means.at(k);
+                for (class, wanted) in wanted.iter_mut().enumerate() {
+                    add(
+                        wanted,
+                        kernel,
+                        std::array::from_fn(|form| forms[form * found.len() + class]),
+                    );
+                }
+            }
+        }
+        let error = largest_difference(&found, &wanted);
+        println!("{s:?} {error:e}");
+        assert!(error < 3e-10, "{s:?} {error:e}");
     }
 }
 

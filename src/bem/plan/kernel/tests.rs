@@ -1,10 +1,13 @@
 //! Weights of cells against a table, statics, and themselves.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::Error;
 use crate::bem::layered::test_profiles::{gmb, p1};
 use crate::history::ConvolutionWeights;
-use crate::soil::Soil;
+use crate::soil::{GeneralizedMaxwell, Relaxation, Soil};
 use crate::unobserved;
 
 const STEP: f64 = 0.2;
@@ -137,6 +140,39 @@ fn weights_of_short_steps_are_sums_over_directions() {
         println!("{step} {:e}", worst / largest);
         assert!(0.0 < worst && worst < 1e-12 * largest, "{step} {:e}", worst / largest);
     }
+}
+
+/// A damping law that counts the Laplace variables of its soil.
+#[derive(Debug)]
+struct Counted(GeneralizedMaxwell, Arc<AtomicUsize>);
+
+impl Relaxation for Counted {
+    fn modulus(&self, s: Complex) -> Complex {
+        self.1.fetch_add(1, Ordering::Relaxed);
+        self.0.modulus(s)
+    }
+}
+
+/// Integrals as coarse as the weights would halve panels of the contour by their errors: many more variables.
+#[test]
+fn errors_of_integrals_halve_no_panels() {
+    let [soil, rock] = [[60.0e6, 1.0 / 3.0, 1900.0], [600.0e6, 0.3, 2200.0]]
+        .map(|[modulus, ratio, density]| Soil::new(modulus, ratio, density).unwrap());
+    let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0).unwrap();
+    let plan = Plan::rectangle(0.0..10.0, 0.0..10.0, 8).unwrap();
+    let steps = [0.24 * plan.pitch()[0] / soil.pressure_wave_speed(), 1e-10];
+    let variables = [None, Some(steps[1])].map(|tolerance| {
+        let count = Arc::default();
+        let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0).unwrap();
+        let profile = layer.with_damping(Counted(law.clone(), Arc::clone(&count)));
+        let mut kernel = LatticeKernel::in_plan(profile, &plan, Stages::Two, steps, None).unwrap();
+        let own = &mut kernel.quadrature.integrals.tolerance;
+        *own = tolerance.unwrap_or(*own);
+        kernel.prepare(4096, &mut unobserved).unwrap();
+        count.load(Ordering::Relaxed)
+    });
+    println!("{variables:?}");
+    assert!(5 * variables[0] < 4 * variables[1], "{variables:?}");
 }
 
 /// The passivity check takes some of many cells, each once.
