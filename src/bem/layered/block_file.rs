@@ -14,7 +14,7 @@ const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 /// Version of the rule by which contours are sampled.
 ///
 /// 1: every point of the circles; 2: panels; 3: panels divided by powers of z; 4: only panels predicted as resolved; 5:
-/// integrals more accurate than the weights; 6: also in plan, and panels evaluated by products of matrices.
+/// integrals more accurate than the weights; 6: also in plan.
 const FORMAT: u64 = 6;
 
 const HEADER: usize = 5;

@@ -26,7 +26,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::runge_kutta::on_circle;
 use crate::error::Result;
 use crate::history::PairClasses;
-use crate::linalg::{Complex, add_combined_rows};
+use crate::linalg::Complex;
 
 /// Number of Chebyshev points of a panel.
 pub(crate) const POINTS: usize = 24;
@@ -42,7 +42,7 @@ const LAST: f64 = 0.3;
 /// Responses come late and never early, so the powers are not negative.
 const TURNS: [f64; 2] = [0.0, 4.0];
 /// Number of points of a circle evaluated together.
-const LANES: usize = 128;
+const LANES: usize = 32;
 
 /// Circle |z| = r for the transform of a block.
 #[derive(Debug, Clone, Copy)]
@@ -303,8 +303,7 @@ pub(super) fn evaluate(
             (last, value) = (value, x.scale(2.0) * value - last);
         }
     }
-    let panel: Vec<_> = transformed(&moved).into_iter().flat_map(|c| [c.re, c.im]).collect();
-    let mut sums = vec![0.0; 2 * count * LANES];
+    let panel = transformed(&moved);
     let between = (HEARD / (LANES * count)).max(1);
     for first in points.clone().step_by(LANES) {
         if ((first - points.start) / LANES).is_multiple_of(between) {
@@ -319,11 +318,15 @@ pub(super) fn evaluate(
             turned * factor(node, [circle.logarithm, circle.angle(first + lane)])
         });
         let end = points.end.min(first + LANES);
-        sums.fill(0.0);
-        add_combined_rows(&panel, polynomials.as_flattened(), LANES, 1.0, &mut sums);
-        let rows = spectra.chunks_exact_mut(circle.points()).zip(sums.chunks_exact(2 * LANES));
-        for (row, sums) in rows {
-            let (re, im) = sums.split_at(LANES);
+        for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {
+            let [mut re, mut im] = [[0.0; LANES]; 2];
+            for (polynomial, row) in polynomials.iter().zip(panel.chunks_exact(count)) {
+                let coefficient = row[function];
+                for lane in 0..LANES {
+                    re[lane] += coefficient.re * polynomial[lane];
+                    im[lane] += coefficient.im * polynomial[lane];
+                }
+            }
             for (lane, value) in row[first..end].iter_mut().enumerate() {
                 *value += factors[lane] * Complex::new(re[lane], im[lane]);
             }

@@ -332,13 +332,11 @@ impl SimulationBuilder {
         let coarse = flexible_base::check(&parts, (&assembled, condensed), &at_rest, &shared)?;
         let floating = shared.take().map(|own: Compliance| own.floating);
         let known = floating.as_ref().and_then(|own| own.positive_definite());
-        assembled.check_damping(parts.structure.as_ref(), known)?;
-        let joined = supports::joined_by_force(
-            parts.structure.as_ref(),
-            &assembled.stiffness,
-            &assembled.influence,
-            [&at_rest.displacement, &at_rest.force],
-        )?;
+        let own = parts.structure.as_ref();
+        assembled.check_damping(own, known)?;
+        let Assembled { stiffness, influence, .. } = &assembled;
+        let motion: [&[f64]; 2] = [&at_rest.displacement, &at_rest.force];
+        let joined = supports::joined_by_force(own, stiffness, influence, motion)?;
         let Stepped { model, base, operators } =
             Stepped::choose(&parts, &assembled, (held, floating), &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
