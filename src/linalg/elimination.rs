@@ -54,7 +54,9 @@ impl Elimination {
     pub(crate) fn ending_with(&self, last: &[usize]) -> Option<Self> {
         let order = self.0.get().filter(|order| SQUARES * last.len().pow(2) <= order.entries)?;
         let mut is_last = vec![false; order.rows.len()];
-        last.iter().for_each(|row| is_last[*row] = true);
+        for row in last {
+            is_last[*row] = true;
+        }
         let others = order.rows.iter().filter(|row| !is_last[**row]);
         let own = Order::new(others.chain(last).copied().collect(), order.entries);
         Some(Self(Arc::new(OnceLock::from(own))))

@@ -101,12 +101,11 @@ impl SparseMatrix {
             entries.clear();
             fill(row, &mut entries);
             for &(column, value) in &entries {
-                match sums.get_mut(places[column]) {
-                    Some((_, sum)) => *sum += value,
-                    None => {
-                        places[column] = sums.len();
-                        sums.push((column, value));
-                    }
+                if let Some((_, sum)) = sums.get_mut(places[column]) {
+                    *sum += value;
+                } else {
+                    places[column] = sums.len();
+                    sums.push((column, value));
                 }
             }
             sums.sort_unstable_by_key(|&(column, _)| column);

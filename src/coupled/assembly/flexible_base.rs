@@ -18,6 +18,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::at_rest;
+use super::held_responses::HeldResponses;
 use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
@@ -51,6 +52,9 @@ const ROUNDING: f64 = 1e-9;
 
 /// A structure condensed on its base, and the weight and loads at t = 0 there.
 pub(super) type CondensedScene = (Condensed, [Vec<f64>; 2]);
+
+/// Results of a structure with its base held, for reduced coordinates and for [`check`].
+pub(super) type OfHeldBase = (Option<HeldResponses>, Option<CondensedScene>);
 
 /// The structure condensed for [`check`]; `None` unless its factor `held` eliminates the base last.
 pub(super) fn condensed(

@@ -26,7 +26,7 @@ use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
-use crate::coupled::assembly::flexible_base::CondensedScene;
+use crate::coupled::assembly::flexible_base::OfHeldBase;
 use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
@@ -390,7 +390,7 @@ fn with_base_held(
     parts: &Parts,
     assembled: &Assembled,
     mut held: SparseFactor,
-) -> Result<(f64, Result<()>, (Option<HeldResponses>, Option<CondensedScene>))> {
+) -> Result<(f64, Result<()>, OfHeldBase)> {
     let period = assembled.period_on_fixed_base(&mut held);
     let at_rest = assembled.at_rest(parts.structure.as_ref());
     let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
