@@ -62,10 +62,11 @@ pub(super) fn condensed(
     assembled: &Assembled,
     held: &SparseFactor,
 ) -> Result<Option<CondensedScene>> {
-    let is_checked = assembled.base.is_flexible() && !holds(parts.ground.as_ref());
+    if !assembled.base.is_flexible() || holds(parts.ground.as_ref()) {
+        return Ok(None);
+    }
     // An error of the loads is an error of the static state.
-    let Some(loads) = loads(parts, assembled).ok().filter(|_| is_checked) else { return Ok(None) };
-    Condensed::new(assembled, held, &loads)
+    loads(parts, assembled).map_or(Ok(None), |loads| Condensed::new(assembled, held, &loads))
 }
 
 /// Weight and loads at t = 0; empty without a static state.

@@ -7,7 +7,7 @@
 //! | γ | stiffness of the springs |
 
 use crate::bem::Ground;
-use crate::coupled::base::PlacedBase;
+use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{SparseMatrix, dot};
@@ -70,9 +70,7 @@ fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
     // Rows of N in the degrees of freedom of the base, and their remainders without rigid motions.
     let rows: Vec<_> =
         nodes.iter().flat_map(|node| node.rows().into_iter().take(directions)).collect();
-    let mut dofs: Vec<usize> = nodes.iter().flat_map(BaseNode::dofs).collect();
-    dofs.sort_unstable();
-    dofs.dedup();
+    let dofs = dofs_of(nodes);
     let dense = |row: usize| {
         let mut values = vec![0.0; dofs.len()];
         for &(dof, weight) in rows[row] {

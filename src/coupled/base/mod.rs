@@ -144,7 +144,10 @@ impl PlacedBase {
         let footings = own.foundations.iter_mut();
         let weights =
             footings.flat_map(|own| own.rotations.iter_mut().chain([&mut own.settlement]));
-        let of_weights = weights.filter_map(Weights::terms_mut);
+        let of_weights = weights.filter_map(|weights| match weights {
+            Weights::Sparse(terms) => Some(terms),
+            Weights::Dense(_) => None,
+        });
         let of_rows = match &mut own.rows {
             Rows::Sparse(rows) => &mut rows[..],
             Rows::Dense(_) => &mut [],
@@ -158,10 +161,7 @@ impl PlacedBase {
 
     /// The degrees of freedom that move contact nodes, ascending.
     pub(crate) fn dofs(&self) -> Vec<usize> {
-        let mut dofs: Vec<_> = self.nodes.iter().flat_map(BaseNode::dofs).collect();
-        dofs.sort_unstable();
-        dofs.dedup();
-        dofs
+        dofs_of(&self.nodes)
     }
 
     /// The contact nodes and the elements of each foundation.
@@ -312,6 +312,14 @@ impl PlacedBase {
     pub(crate) fn nodes(&self) -> &[BaseNode] {
         &self.nodes
     }
+}
+
+/// The degrees of freedom that move contact nodes, ascending.
+fn dofs_of(nodes: &[BaseNode]) -> Vec<usize> {
+    let mut dofs: Vec<_> = nodes.iter().flat_map(BaseNode::dofs).collect();
+    dofs.sort_unstable();
+    dofs.dedup();
+    dofs
 }
 
 /// Mean displacement of `nodes`, downwards.

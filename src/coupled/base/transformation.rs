@@ -85,14 +85,6 @@ pub(crate) enum Weights {
 }
 
 impl Weights {
-    /// The terms, unless there is a weight for every coordinate.
-    pub(super) fn terms_mut(&mut self) -> Option<&mut Terms> {
-        match self {
-            Self::Sparse(terms) => Some(terms),
-            Self::Dense(_) => None,
-        }
-    }
-
     /// The sum at coordinates `x`.
     pub(crate) fn of(&self, x: &[f64]) -> f64 {
         match self {

@@ -213,7 +213,8 @@ impl Assembled {
         let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
         let is_condensed =
             self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
-        let ending = self.elimination.ending_with(&self.base.dofs()).filter(|_| is_condensed);
+        let ending = || self.elimination.ending_with(&self.base.dofs());
+        let ending = if is_condensed { ending() } else { None };
         let elimination = ending.as_ref().unwrap_or(&self.elimination);
         let factor = SparseFactor::of(HeldBase::NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {

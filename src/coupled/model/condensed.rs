@@ -29,11 +29,11 @@ impl Condensed {
     /// Condenses a structure and the forces `loads`, of which it returns these on the base.
     ///
     /// `held`: factored K + γ NᵀN. `None` unless it eliminates the base last.
-    pub(crate) fn new<const LOADS: usize>(
+    pub(crate) fn new(
         whole: &Assembled,
         held: &SparseFactor,
-        loads: &[Vec<f64>; LOADS],
-    ) -> Result<Option<(Self, [Vec<f64>; LOADS])>> {
+        loads: &[Vec<f64>; 2],
+    ) -> Result<Option<(Self, [Vec<f64>; 2])>> {
         let dofs = whole.base.dofs();
         let Some(mut stiffness) = held.condensed(&dofs) else { return Ok(None) };
         let (order, n, spring) = (dofs.len(), whole.dofs(), whole.spring());
