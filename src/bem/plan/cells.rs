@@ -78,7 +78,7 @@ impl Plan {
         check_faces(faces.len())?;
         let faces: Result<Vec<_>> =
             faces.iter().enumerate().map(|(number, corners)| Face::new(number, corners)).collect();
-        Self::on(faces?, cells, OVERHANG, true)
+        Self::on(faces?, cells, OVERHANG, f64::INFINITY)
     }
 
     /// A disc, as a polygon of the same area, with `cells` along its diameter.
@@ -184,11 +184,11 @@ impl Plan {
             });
         }
         let (faces, cells) = self.faces;
-        Self::on(faces, cells, 0.0, false)
+        Self::on(faces, cells, 0.0, 0.0)
     }
 
-    /// Cells under faces; whether mats are `rigid` or nearly so decides on edges oblique to the cells.
-    pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigid: bool) -> Result<Self> {
+    /// Cells under faces of mats with this D/(G R³), infinite for rigid mats.
+    pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigidity: f64) -> Result<Self> {
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
         let shorter = sides[0].min(sides[1]);
@@ -206,12 +206,12 @@ impl Plan {
         let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
         let mats = Face::mats(&faces);
         let grid = Grid { corner, pitch, counts };
-        let (owners, mut found) = cut(&faces, &mats, grid, overhang, rigid);
+        let (owners, mut found) = cut(&faces, &mats, grid, overhang, rigidity);
         apart(&owners, counts[0], pitch)?;
         if let Some(mat) = found.iter().position(|(cells, _)| cells.is_empty()) {
             return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        let error = if rigid { error(&faces, &mats, pitch) } else { 0.0 };
+        let error = if rigidity.is_infinite() { error(&faces, &mats, pitch) } else { 0.0 };
         found.sort_by_key(|(cells, _)| cells.first().map(|[i, j]| [*j, *i]));
         let (own, cuts): (Vec<_>, Vec<_>) = found.into_iter().unzip();
         let area = faces.iter().map(Face::area).sum();
@@ -224,11 +224,6 @@ impl Plan {
             return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
         }
         Ok(plan)
-    }
-
-    /// The plan without the error by oblique edges: its estimate holds for rigid mats only.
-    pub(super) fn under_flexible_mats(self) -> Self {
-        Self { error: 0.0, ..self }
     }
 
     /// Number of cells.

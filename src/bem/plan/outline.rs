@@ -6,7 +6,8 @@
 //!
 //! Oblique edges of rigid mats are moved outwards by less than the overhang, the less the more cells there are. Static
 //! stiffnesses of turned squares, polygons and discs so fall steadily as the number of cells grows. Oblique edges of
-//! flexible mats move further: their bending moments depend on the pressure at the edge itself.
+//! flexible mats move further, the more so the softer the mat is: soil near a load then holds it, and pressures at the edge
+//! count more. The distance is continuous in D and has no limit in the size of a cell, so that results do not jump.
 
 use super::faces::Face;
 use crate::geometry::span;
@@ -17,12 +18,13 @@ pub(super) const OVERHANG: f64 = 0.105;
 /// Distance in cells by which oblique edges of rigid mats move outwards: the first number, plus the second over √n for n
 /// cells along the shorter side. Found with discs and squares at several angles.
 const SHIFT: [f64; 2] = [0.03, 0.15];
-/// The same for flexible mats: a multiple of the overhang, and the largest distance for few cells; the third number, plus
-/// the fourth over n, for many.
+/// Distance in cells by which oblique edges of soft mats move further, and the D/(G R³) that halves it.
 ///
 /// Found with circular plates and turned square ones under loads on the edge, on walls and everywhere, and with containments
-/// that rock on rafts of D/(G R³) from 0.002 to 1.
-const FLEXIBLE: [f64; 4] = [2.0, 0.12, 0.0875, 0.75];
+/// that rock on rafts of D/(G R³) from 0.002 to 1. Rafts that rock under stiff walls confirm it.
+const FURTHER: [f64; 2] = [0.06, 0.15];
+/// Largest distance by which oblique edges of flexible mats move: in cells, and relative to the overhang.
+const MOST: [f64; 2] = [0.12, 2.0];
 /// Sine of the angle to the lattice from which an edge is oblique.
 const OBLIQUE: f64 = 0.1;
 /// Smallest fraction of a cell inside that makes it a contact element.
@@ -74,14 +76,12 @@ pub(super) fn cut(
     mats: &[usize],
     grid: Grid,
     overhang: f64,
-    rigid: bool,
+    rigidity: f64,
 ) -> (Vec<Option<usize>>, Vec<Cells>) {
     let along = grid.counts[0].min(grid.counts[1]) as f64;
-    let oblique = if rigid {
-        (SHIFT[0] + SHIFT[1] / along.sqrt()).min(OVERHANG)
-    } else {
-        (FLEXIBLE[0] * overhang).min(FLEXIBLE[1]).min(FLEXIBLE[2] + FLEXIBLE[3] / along)
-    };
+    let most = if rigidity.is_infinite() { overhang } else { MOST[0].min(MOST[1] * overhang) };
+    let further = FURTHER[0] / (1.0 + rigidity / FURTHER[1]);
+    let oblique = (SHIFT[0] + SHIFT[1] / along.sqrt() + further).min(most);
     let distance = |normal: [f64; 2]| {
         let parallel = (1.0 - normal[0].abs().min(normal[1].abs()) / OBLIQUE).max(0.0);
         let shift = oblique + (overhang - oblique) * parallel;

@@ -11,6 +11,7 @@
 //! | h | side of a cell, m |
 //! | x | (D/(G h³))^(1/3) |
 //! | d | overhang in cells, 0.105 x²/(1 + x²) in steps of 0.015 |
+//! | R | radius of a disc of the mat's area, m |
 //!
 //! The structure's stiffness matrix contains D. Waves of load p with the wavenumber k bend a mat on springs s = G k/(1 − ν),
 //! the stiffness of the soil for these waves, by p/(D k⁴ + s). Degrees of freedom far from the base are held.
@@ -33,13 +34,13 @@ const EDGES: f64 = 1.5;
 const HELD: f64 = 1e-13;
 pub(super) const NAME: &str = "stiffness matrix";
 
-/// Overhang under the flexible mat of these faces on cells with sides of `side` (m), as a fraction of a cell.
+/// Overhang under the flexible mat of these faces on cells with sides of `side` (m), as a fraction of a cell, and D/(G R³).
 pub(super) fn overhang(
     stiffness: &SparseMatrix,
     faces: &[(&[BaseNode], f64)],
     soil: &Soil,
     side: f64,
-) -> f64 {
+) -> [f64; 2] {
     let points = Points::of(faces);
     let wavenumber = std::f64::consts::FRAC_PI_2 / side.max(points.spacing);
     let springs = soil.shear_modulus() * wavenumber / (1.0 - soil.poisson());
@@ -47,7 +48,9 @@ pub(super) fn overhang(
     let cubed = ratio / ((1.0 - soil.poisson()) * (wavenumber * side).powi(3));
     let squared = cubed.powf(2.0 / 3.0);
     let part = if squared.is_finite() { squared / (1.0 + squared) } else { 1.0 };
-    OVERHANG * ((STEPS * part).round() / STEPS)
+    let area: f64 = faces.iter().map(|(_, area)| area).sum();
+    let rigidity = cubed * (side / (area / std::f64::consts::PI).sqrt()).powi(3);
+    [OVERHANG * ((STEPS * part).round() / STEPS), rigidity.min(f64::MAX)]
 }
 
 /// Mean side (m) of the faces of a mat, from corners and area of each; two triangles count as one face.

@@ -9,8 +9,6 @@ use crate::linalg::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{Base, BaseNode, Structure, Triplets};
 
-/// Overhang of a single cell on half the width from which a mat is stiff as a whole: D/(G R³) ≥ 0.14.
-const STIFF: f64 = 0.2 * OVERHANG;
 /// Largest number of cells to which the number under flexible faces is raised.
 const MOST_RAISED: f64 = 1000.0;
 
@@ -76,20 +74,20 @@ impl Plan {
             most = most.max(along.min(limit));
         }
         if flexible.is_empty() {
-            return Self::on(faces, most, OVERHANG, true).map(Some);
+            return Self::on(faces, most, OVERHANG, f64::INFINITY).map(Some);
         }
-        let (mut least, mut is_stiff) = (if soil.is_some() { OVERHANG } else { 0.0 }, false);
+        let mut least = if soil.is_some() { [OVERHANG, f64::MAX] } else { [0.0; 2] };
         if let Some(soil) = soil {
             let mut stiffness = Triplets::new(structure.dofs());
             base.check(structure.dofs())?;
             structure.stiffness(&mut stiffness)?;
             let stiffness = SparseMatrix::new(NAME, &stiffness)?;
             for own in &flexible {
-                least = least.min(overhang(&stiffness, own, soil, shorter / most as f64));
+                let own = overhang(&stiffness, own, soil, shorter / most as f64);
+                least = [0, 1].map(|k| least[k].min(own[k]));
             }
-            let as_a_whole = |own| overhang(&stiffness, own, soil, 0.5 * shorter) >= STIFF;
-            is_stiff = least >= OVERHANG && flexible.iter().all(|own| as_a_whole(own));
         }
-        Self::on(faces, most, least, is_stiff).map(|plan| Some(plan.under_flexible_mats()))
+        let [overhang, rigidity] = least;
+        Self::on(faces, most, overhang, rigidity).map(Some)
     }
 }

@@ -1,9 +1,11 @@
-"""A circular plate on a half-space without friction: settlements of its middle and edge, radial moments, and stiffness.
+"""A circular plate on a half-space without friction: settlements of its middle and edge, radial moments, and stiffness;
+moment over rotation of a plate that rocks under a rigid wall on its edge.
 
 Ritz solution: the plate (Kirchhoff's theory) moves by Legendre polynomials P_2k of √(1 − r²), which are polynomials of r².
 Pressures P_2k/√(1 − r²) cause displacements of the same shape (Popov), so that the soil is exact. Radius 1, G = 1, load 1.
-Limits that it keeps: 4/(1 − ν) of a rigid disc, π/(1 − ν) of a flexible one under an even load, in the middle, and Hogg's
-infinite plate under a force, 3√3 D/l² with l³ = D(1 − ν). Python with numpy: python disc_on_half_space.py
+Plates that rock move by derivatives P′_2k+1 of √(1 − r²), times r cos θ.
+Limits that it keeps: 4/(1 − ν) of a rigid disc, 8/(3(1 − ν)) as it rocks, π/(1 − ν) of a flexible one under an even load, in
+the middle, and Hogg's infinite plate under a force, 3√3 D/l² with l³ = D(1 − ν). Python with numpy: python disc_on_half_space.py
 """
 
 import math
@@ -16,6 +18,8 @@ COUNT, POISSON, SOIL_POISSON = 120, 0.2, 1 / 3
 
 def jacobi(n, a, b, x):
     before, own = np.ones_like(x), 0.5 * (a - b + (a + b + 2) * x)
+    if n < 0:
+        return 0 * x
     if n == 0:
         return before
     for k in range(2, n + 1):
@@ -54,7 +58,33 @@ def stiffness(rigidity):
     return rigidity * plate + np.diag(soil)
 
 
+def antisymmetric(r, order=0):
+    """P′_2k+1 of √(1 − r²), or a derivative with respect to r²."""
+    x = 1 - 2 * np.asarray(r, float) ** 2
+    factor = lambda k: (2 * k + 1) * (-1) ** order * math.prod(k + 1.5 + j for j in range(order))
+    return np.array([factor(k) * jacobi(k - order, order + 1, order - 0.5, x) for k in range(COUNT)])
+
+
+def rocking(rigidity):
+    """The edge moves and turns as the wall does: moment over rotation, by Lagrange's multipliers."""
+    first, second = antisymmetric(RADII, 1), antisymmetric(RADII, 2)
+    radial, around = 6 * RADII * first + 4 * RADII**3 * second, 2 * RADII * first
+    area = 0.5 * np.pi * PARTS
+    plate = (radial * area) @ radial.T + (3 - 2 * POISSON) * (around * area) @ around.T
+    plate += POISSON * ((radial * area) @ around.T + (around * area) @ radial.T)
+    degrees = 2 * np.arange(COUNT) + 1
+    gamma = lambda n: math.lgamma(n / 2)
+    moved = [0.5 * (1 - SOIL_POISSON) * math.exp(gamma(n + 2) + gamma(n) - gamma(n + 3) - gamma(n + 1)) for n in degrees]
+    soil = np.pi * degrees * (degrees + 1) / (2 * degrees + 1) / np.array(moved)
+    edge = antisymmetric(1.0)
+    held = np.array([edge, edge + 2 * antisymmetric(1.0, 1)])
+    compliance = held @ np.linalg.solve(rigidity * plate + np.diag(soil), held.T)
+    return np.linalg.solve(compliance, np.ones(2)).sum()
+
+
 if __name__ == "__main__":
+    for rigidity in [0.002, 0.006, 0.02, 0.06, 0.2, 1, 1e6]:
+        print(f"D {rigidity:g}, rocks under a rigid wall: {rocking(rigidity):.5f}")
     middle, edge, even = shapes(0.0), shapes(1.0), shapes(RADII) @ PARTS
     for rigidity in [0.006, 0.02, 0.06, 0.2]:
         own = np.linalg.solve(stiffness(rigidity), edge)
