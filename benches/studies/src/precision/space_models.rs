@@ -50,13 +50,15 @@ pub(super) fn building([cells, each, ..]: [usize; 4]) -> basemat::Result<(FemMod
 }
 
 /// The containment of the example of that name: sectors, and rows of elements in raft, wall and dome.
+///
+/// The raft bends most near the wall: widths of its rows fall to zero towards it.
 pub(super) fn containment([sectors, rows @ ..]: [usize; 4]) -> basemat::Result<(FemModel, usize)> {
     const RADIUS: f64 = 20.0;
     const HEIGHT: f64 = 30.0;
     let concrete = Material::new(32.0e9, 0.2, 2450.0)?;
     let [raft, wall, dome] = rows;
     let part = |index: usize, rows: usize| index as f64 / rows as f64;
-    let base = (0..raft).map(|i| [RADIUS * part(i, raft), 0.0]);
+    let base = (0..raft).map(|i| [RADIUS * (1.0 - (1.0 - part(i, raft)).powi(2)), 0.0]);
     let shaft = (0..wall).map(|i| [RADIUS, HEIGHT * part(i, wall)]);
     let roof = (0..=dome).map(|i| {
         let angle = std::f64::consts::FRAC_PI_2 * part(i, dome);
