@@ -73,7 +73,7 @@ impl FixedBaseMode {
         let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
-        let found = lowest_modes(&factor, &mass, MODES, f64::INFINITY);
+        let found = lowest_modes(&factor, &mass, MODES, None);
         let Some((squares, modes)) = found else { return Ok(None) };
         let mut momentum = vec![0.0; n];
         mass.multiply_add(1.0, &along, &mut momentum);

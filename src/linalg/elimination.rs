@@ -230,11 +230,25 @@ mod tests {
         last.iter().zip(&force).for_each(|(row, force)| moved[*row] = *force);
         SparseFactor::of("cube", &matrix, &Elimination::default()).unwrap().solve(&mut moved);
         let on_last: Vec<f64> = last.iter().map(|row| moved[*row]).collect();
-        let found = SparseMatrix::full(400, condensed).times(&on_last);
+        let found = SparseMatrix::full(400, condensed.clone()).times(&on_last);
         assert!(found.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
+        // With another matrix on the last rows, which couples all.
+        let shift = |k: usize| if k.is_multiple_of(401) { 0.5 } else { 1e-3 };
+        let shifted = condensed.iter().enumerate().map(|(k, own)| own + shift(k));
+        let shifted: Vec<f64> = shifted.collect();
+        let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
+        let mut moved = matrix.times(&x);
+        for (k, row) in last.iter().enumerate() {
+            let beside = last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
+            moved[*row] += beside.sum::<f64>();
+        }
+        factor.with_condensed(&last, &shifted).unwrap().solve(&mut moved);
+        assert!(moved.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
+        let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
         // Other rows are not last, and too many rows do not pay.
         assert!(factor.condensed(&last[1..]).is_none_or(|own| own.len() == 399 * 399));
         assert!(factor.condensed(&[last[0]]).is_none());
+        assert!(factor.with_condensed(&last, &vec![0.0; 160_000]).is_none());
         assert!(elimination.ending_with(&(0..4000).collect::<Vec<_>>()).is_none());
         assert!(Elimination::default().ending_with(&last).is_none());
     }

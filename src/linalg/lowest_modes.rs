@@ -21,9 +21,6 @@ const BLOCK: usize = 16;
 /// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
 const TOLERANCE: f64 = 1e-9;
 
-/// The same for modes up to a limit: they span a space in which their errors are squared.
-const LOOSE: f64 = 1e-5;
-
 /// The number of vectors grows by one in so many from a search for modes to the next.
 const SEARCHES: usize = 8;
 
@@ -38,7 +35,8 @@ type Pairs = (Vec<f64>, Vec<f64>);
 
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
-/// The search ends at the first eigenvalue above `limit`, which is the last one returned.
+/// `limit`: the search ends at the first eigenvalue above it, which is the last one returned. The modes have this
+/// residual, relative to θ: they span a space in which their errors are squared.
 ///
 /// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
 /// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
@@ -47,13 +45,13 @@ pub(crate) fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
     count: usize,
-    limit: f64,
+    limit: Option<(f64, f64)>,
 ) -> Option<Pairs> {
+    let (limit, tolerance) = limit.unwrap_or((f64::INFINITY, TOLERANCE));
     let basis = OrthonormalRows::new(mass);
     let mut space = Space { stiffness, order: mass.order(), basis, columns: Vec::new(), seed: 1 };
     let count = count.min(space.order);
     let mut next = if limit.is_finite() { 0 } else { count };
-    let tolerance = if limit.is_finite() { LOOSE } else { TOLERANCE };
     loop {
         let applied = space.columns.len();
         if applied == space.basis.count() {
@@ -206,7 +204,7 @@ mod tests {
         for (length, copies, count) in [(300, 1, 20), (100, 2, 12), (60, 5, 23), (40, 12, 30)] {
             let [stiffness, mass] = chains(length, copies, 0);
             let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
-            let (values, modes) = lowest_modes(&factor, &mass, count, f64::INFINITY).unwrap();
+            let (values, modes) = lowest_modes(&factor, &mass, count, None).unwrap();
             assert_eq!(values.len(), count);
             let n = mass.order();
             for (k, value) in values.iter().enumerate() {
@@ -231,7 +229,7 @@ mod tests {
         let [stiffness, mass] = chains(100, 2, 0);
         let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
         for (limit, below) in [(0.5 * exact(100, 1), 0), (1.01 * exact(100, 7), 14)] {
-            let (values, _) = lowest_modes(&factor, &mass, 200, limit).unwrap();
+            let (values, _) = lowest_modes(&factor, &mass, 200, Some((limit, 1e-5))).unwrap();
             assert_eq!(values.len(), below + 1);
             for (k, value) in values.iter().enumerate() {
                 assert!((value / exact(100, k / 2 + 1) - 1.0).abs() < 1e-9, "mode {k}");
@@ -243,9 +241,9 @@ mod tests {
     fn what_has_no_mass_has_no_mode() {
         let [stiffness, mass] = chains(5, 1, 4);
         let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
-        let (values, _) = lowest_modes(&factor, &mass, 9, f64::INFINITY).unwrap();
+        let (values, _) = lowest_modes(&factor, &mass, 9, None).unwrap();
         assert_eq!(values.len(), 5);
-        let (none, _) = lowest_modes(&factor, &mass, 0, f64::INFINITY).unwrap();
+        let (none, _) = lowest_modes(&factor, &mass, 0, None).unwrap();
         assert!(none.is_empty());
     }
 }

@@ -11,8 +11,14 @@ const WIDTH: usize = 16;
 impl SparseMatrix {
     /// A x of many vectors, one after the other.
     pub(crate) fn times(&self, vectors: &[f64]) -> Vec<f64> {
-        let n = self.order.max(1);
         let mut products = vec![0.0; vectors.len()];
+        self.multiply_many(vectors, &mut products);
+        products
+    }
+
+    /// Overwrites `products` with A x of many vectors, one after the other.
+    pub(crate) fn multiply_many(&self, vectors: &[f64], products: &mut [f64]) {
+        let n = self.order.max(1);
         let mut beside = vec![[0.0; WIDTH]; self.order];
         for (x, y) in vectors.chunks(WIDTH * n).zip(products.chunks_mut(WIDTH * n)) {
             for (row, own) in beside.iter_mut().enumerate() {
@@ -20,7 +26,6 @@ impl SparseMatrix {
             }
             vectorized(Times { matrix: self, x: &beside, y });
         }
-        products
     }
 }
 

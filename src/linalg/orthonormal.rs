@@ -5,7 +5,7 @@
 //! | V | rows, V M Vᵀ = 1 |
 
 use super::matrix::SparseMatrix;
-use super::product::{add_combined_rows, row_products};
+use super::product::{add_combined_rows, row_products, symmetric_products};
 
 /// V and V M.
 pub(crate) struct OrthonormalRows<'a> {
@@ -57,7 +57,8 @@ impl<'a> OrthonormalRows<'a> {
     /// Adds the directions of `block` with more than `least` outside V.
     pub(crate) fn extend(&mut self, mut block: Vec<f64>, least: Least) {
         let (n, before) = (self.mass.order().max(1), self.count());
-        let mut momenta = Vec::new();
+        // Large blocks are written into two buffers in turns.
+        let [mut images, mut spare] = [(); 2].map(|()| vec![0.0; block.len()]);
         // Two passes remove rounding.
         for pass in 0..2 {
             let count = block.len() / n;
@@ -65,8 +66,9 @@ impl<'a> OrthonormalRows<'a> {
             if before > 0 {
                 add_combined_rows(&shares, &self.vectors, n, -1.0, &mut block);
             }
-            let images = self.mass.times(&block);
-            let mut products = row_products(&images, &block, n);
+            images.truncate(block.len());
+            self.mass.multiply_many(&block, &mut images);
+            let mut products = symmetric_products(&images, &block, n);
             let scales: Vec<f64> = (0..count)
                 .map(|i| match (pass, least) {
                     (0, Least::Fraction(_)) => {
@@ -89,18 +91,21 @@ impl<'a> OrthonormalRows<'a> {
             for row in weights.chunks_exact_mut(count.max(1)) {
                 row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
             }
-            let combine = |rows: &[f64]| {
-                let mut combined = vec![0.0; kept * n];
-                add_combined_rows(&transpose(&weights, count), rows, n, 1.0, &mut combined);
-                combined
+            let columns = transpose(&weights, count);
+            let combine = |rows: &[f64], sum: &mut Vec<f64>| {
+                let start = sum.len();
+                sum.resize(start + kept * n, 0.0);
+                add_combined_rows(&columns, rows, n, 1.0, &mut sum[start..]);
             };
-            block = combine(&block);
             if pass == 1 {
-                momenta = combine(&images);
+                combine(&block, &mut self.vectors);
+                combine(&images, &mut self.momenta);
+            } else {
+                spare.clear();
+                combine(&block, &mut spare);
+                std::mem::swap(&mut block, &mut spare);
             }
         }
-        self.vectors.extend(block);
-        self.momenta.extend(momenta);
     }
 }
 
@@ -108,7 +113,7 @@ impl<'a> OrthonormalRows<'a> {
 ///
 /// Gram–Schmidt, the longest remainder first, while its square exceeds `least`. Vectors of separate parts stay
 /// separate.
-fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
+pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
     let mut rest: Vec<Vec<f64>> =
         (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     let mut weights = Vec::new();

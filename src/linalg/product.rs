@@ -3,6 +3,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use faer::linalg::matmul::matmul;
+use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::{Accum, MatMut, MatRef, Par};
 
 pub(crate) use pulp::{Scalar, Simd, WithSimd};
@@ -160,6 +161,27 @@ pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
         1.0,
         Par::Seq,
     );
+    products
+}
+
+/// Row-major A Bᵀ as [`row_products`], for as many rows of A as of B and a symmetric product.
+pub(crate) fn symmetric_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
+    let n = a.len() / columns.max(1);
+    let mut products = vec![0.0; n * n];
+    triangular::matmul(
+        MatMut::from_row_major_slice_mut(&mut products, n, n),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        MatRef::from_row_major_slice(a, n, columns),
+        BlockStructure::Rectangular,
+        MatRef::from_column_major_slice(b, columns, n),
+        BlockStructure::Rectangular,
+        1.0,
+        Par::Seq,
+    );
+    for (row, column) in (0..n).flat_map(|row| (0..row).map(move |column| (row, column))) {
+        products[column * n + row] = products[row * n + column];
+    }
     products
 }
 

@@ -1,10 +1,10 @@
 //! Factors of sparse matrices.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::llt::factor::LltError;
+use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMat;
-use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymbolicCholeskyRaw};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
@@ -99,7 +99,7 @@ impl SparseFactor {
                 &mut values,
                 matrix.as_ref(),
                 Side::Lower,
-                faer::linalg::cholesky::llt::factor::LltRegularization::default(),
+                LltRegularization::default(),
                 Par::Seq,
                 MemStack::new(&mut buffer),
                 Spec::default(),
@@ -165,24 +165,11 @@ impl SparseFactor {
     ///
     /// `None` unless `last` are the last rows in the order of elimination, of a factor by Cholesky in blocks.
     pub(crate) fn condensed(&self, last: &[usize]) -> Option<Vec<f64>> {
+        let count = last.len();
         let Factors::Cholesky { symbolic, values } = &self.factors else { return None };
-        let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
-        let (count, first) = (last.len(), self.order.checked_sub(last.len())?);
-        if symbolic.perm()?.arrays().0[first..] != *last {
-            return None;
-        }
-        let factor = SupernodalLltRef::new(blocks, values);
         let mut lower = vec![0.0; count * count];
-        for k in (0..blocks.n_supernodes()).rev() {
-            let (begin, end) = (blocks.supernode_begin()[k], blocks.supernode_end()[k]);
-            let block = factor.supernode(k);
-            for column in begin.max(first)..end {
-                let rows = (begin..end).chain(block.pattern().iter().copied()).enumerate();
-                for (place, row) in rows.filter(|(_, row)| *row >= column) {
-                    lower[(row - first) * count + column - first] =
-                        block.val()[(place, column - begin)];
-                }
-            }
+        for (own, at) in last_entries(symbolic, last)? {
+            lower[own] = values[at];
         }
         let mut product = vec![0.0; count * count];
         let lower = MatRef::from_row_major_slice(&lower, count, count);
@@ -194,6 +181,25 @@ impl SparseFactor {
             product[column * count + row] = product[row * count + column];
         }
         Some(product)
+    }
+
+    /// The factor of the matrix that differs from this one only on its rows `last`, where it is condensed to `matrix`.
+    ///
+    /// `matrix`: row-major, of which the lower triangle is read. `None` where [`SparseFactor::condensed`] is, and for a
+    /// matrix that is not positive definite.
+    pub(crate) fn with_condensed(mut self, last: &[usize], matrix: &[f64]) -> Option<Self> {
+        let count = last.len();
+        let Factors::Cholesky { symbolic, values } = &mut self.factors else { return None };
+        let lower = MatRef::from_row_major_slice(matrix, count, count).llt(Side::Lower).ok()?;
+        let entries = last_entries(symbolic, last)?;
+        // Zeros outside the pattern may have become others.
+        if 2 * entries.len() != count * (count + 1) {
+            return None;
+        }
+        for (own, at) in entries {
+            values[at] = lower.L()[(own / count, own % count)];
+        }
+        Some(self)
     }
 
     fn solve_with(
@@ -208,12 +214,8 @@ impl SparseFactor {
         let rhs = MatMut::from_column_major_slice_mut(rhs, order, columns);
         match factors {
             Factors::Cholesky { symbolic, values } => {
-                LltRef::new(symbolic, values).solve_in_place_with_conj(
-                    Conj::No,
-                    rhs,
-                    Par::Seq,
-                    stack,
-                );
+                let factor = LltRef::new(symbolic, values);
+                factor.solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
             }
             Factors::Lu { symbolic, numeric } => {
                 let lu = LuRef::new_unchecked(symbolic, numeric);
@@ -225,6 +227,32 @@ impl SparseFactor {
             }
         }
     }
+}
+
+/// Places in the lower triangle of the rows `last`, row-major, and among the values of a factor.
+///
+/// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
+fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {
+    let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
+    let blocks: &SymbolicSupernodalCholesky<usize> = blocks;
+    let (count, first) = (last.len(), symbolic.nrows().checked_sub(last.len())?);
+    if symbolic.perm()?.arrays().0[first..] != *last {
+        return None;
+    }
+    let mut entries = Vec::new();
+    for k in (0..blocks.n_supernodes()).rev() {
+        let (begin, end) = (blocks.supernode_begin()[k], blocks.supernode_end()[k]);
+        let pattern = blocks.supernode(k).pattern();
+        let (start, height) = (blocks.col_ptr_for_val()[k], end - begin + pattern.len());
+        for column in begin.max(first)..end {
+            let rows = (begin..end).chain(pattern.iter().copied()).enumerate();
+            entries.extend(rows.filter(|(_, row)| *row >= column).map(|(place, row)| {
+                let own = (row - first) * count + column - first;
+                (own, start + (column - begin) * height + place)
+            }));
+        }
+    }
+    Some(entries)
 }
 
 /// Row at which a symmetric matrix fails to be positive semi-definite; `None` if it is.

@@ -91,7 +91,12 @@ mod tests {
             let found = on_threads(threads, 0..100, fail, |_| Ok(()));
             assert!(matches!(found, Err(Error::Input { value: -0.5, .. })), "{found:?}");
             let stop = |done: usize| positive("rest", 3.0 - done as f64).map(|_| ());
-            assert!(on_threads(threads, 0..100, |(): &mut (), _| Ok(()), stop).is_err());
+            // Long enough for this thread to do some of them.
+            let wait = |(): &mut (), _| {
+                std::thread::sleep(std::time::Duration::from_millis(2));
+                Ok(())
+            };
+            assert!(on_threads(threads, 0..100, wait, stop).is_err());
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::coupled::base::held::holds;
 use crate::coupled::base::influence::UP;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::statics::equilibrium::Standing;
@@ -19,18 +20,32 @@ use crate::structure::nonlinear_state;
 
 /// The state under weight and the loads at t = 0; trivial without gravity.
 ///
-/// Commits the structure's internal variables to it. `shared` receives the compliance of a linear structure.
+/// Commits the structure's internal variables to it. `shared` receives the compliance of a linear structure, or of the
+/// condensed one. Where this one has no static state, it becomes `None`: the whole structure decides.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
+    condensed: &mut Option<Condensed>,
     shared: &RefCell<Option<Compliance>>,
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     if parts.given.is_static() {
         let soil = compliance(parts)?;
         let [own, weight, load] = loads(parts, assembled)?;
-        let laws = &parts.given.laws;
-        state = under_loads(parts, assembled, (&soil, shared), laws, [&weight, &load])?;
+        let (laws, on_soil) = (&parts.given.laws, (&soil[..], shared));
+        let on_base = condensed.as_ref().and_then(|condensed| {
+            let loads = condensed.loads.each_ref().map(Vec::as_slice);
+            let mut base = under_loads(parts, &condensed.assembled, on_soil, laws, loads).ok()?;
+            let mut force: Vec<f64> = weight.iter().zip(&load).map(|(w, f)| w + f).collect();
+            assembled.base.add_forces(-1.0, &base.traction, &mut force);
+            base.displacement = condensed.expanded(assembled, &base.displacement, &force);
+            Some(base)
+        });
+        if on_base.is_none() {
+            (*condensed, *shared.borrow_mut()) = (None, None);
+        }
+        let whole = || under_loads(parts, assembled, on_soil, laws, [&weight, &load]);
+        state = on_base.map_or_else(whole, Ok)?;
         state.load = own;
         if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
@@ -54,8 +69,16 @@ pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
     Ok(soil)
 }
 
+/// Weight and loads at t = 0; empty without a static state.
+pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
+    if !parts.given.is_static() {
+        return Ok([vec![], vec![]]);
+    }
+    loads(parts, assembled).map(|[_, weight, load]| [weight, load])
+}
+
 /// The structure's own load at t = 0, the weight, and all loads at t = 0.
-pub(crate) fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
+fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
     let Parts { structure, given, .. } = parts;
     let n = assembled.dofs();
     let mut own = vec![0.0; n];

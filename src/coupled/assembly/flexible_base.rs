@@ -18,7 +18,6 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use super::at_rest;
-use super::held_responses::HeldResponses;
 use super::unseen_shape::{OnSoil, UnseenShape, faces};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::held::holds;
@@ -30,7 +29,7 @@ use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends, in_a_row};
-use crate::linalg::{SparseFactor, dot, magnitude};
+use crate::linalg::{dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
@@ -50,53 +49,28 @@ const MOST: usize = 3600;
 /// Asymmetry of K that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A structure condensed on its base, and the weight and loads at t = 0 there.
-pub(super) type CondensedScene = (Condensed, [Vec<f64>; 2]);
-
-/// Results of a structure with its base held, for reduced coordinates and for [`check`].
-pub(super) type OfHeldBase = (Option<HeldResponses>, Option<CondensedScene>);
-
-/// The structure condensed for [`check`]; `None` unless its factor `held` eliminates the base last.
-pub(super) fn condensed(
-    parts: &Parts,
-    assembled: &Assembled,
-    held: &SparseFactor,
-) -> Result<Option<CondensedScene>> {
-    if !assembled.base.is_flexible() || holds(parts.ground.as_ref()) {
-        return Ok(None);
-    }
-    // An error of the loads is an error of the static state.
-    loads(parts, assembled).map_or(Ok(None), |loads| Condensed::new(assembled, held, &loads))
-}
-
-/// Weight and loads at t = 0; empty without a static state.
-fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 2]> {
-    if !parts.given.is_static() {
-        return Ok([vec![], vec![]]);
-    }
-    at_rest::loads(parts, assembled).map(|[_, weight, load]| [weight, load])
-}
-
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
-/// `at_rest`: the static state. `shared`: the structure's compliance in it, if it is known. A rigid base costs nothing.
+/// `condensed`: the structure condensed on its base, if it was. `at_rest`: the static state. `shared`: the compliance of
+/// the condensed structure, or else of the whole one, in it, if it is known. A rigid base costs nothing.
 pub(super) fn check(
     parts: &Parts,
-    (assembled, condensed): (&Assembled, Option<CondensedScene>),
+    (assembled, condensed): (&Assembled, Option<&Condensed>),
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
 ) -> Result<Option<Warning>> {
     if !assembled.base.is_flexible() || holds(parts.ground.as_ref()) {
         return Ok(None);
     }
-    let Some((condensed, loads)) = condensed else {
-        let (loads, finer) = (loads(parts, assembled)?, |base: &_| finer(parts, base));
-        return check_on(parts, (assembled, loads), at_rest, shared, finer);
+    let Some(condensed) = condensed else {
+        let finer = |base: &_| finer(parts, base);
+        let loads = at_rest::weight_and_load(parts, assembled)?;
+        return check_on(parts, (assembled, &loads), at_rest, shared, finer);
     };
     let mut on_base = at_rest.clone();
     on_base.displacement = condensed.on_base(&at_rest.displacement);
     let finer = |base: &_| finer(parts, base).map(|(base, soil)| (condensed.base(&base), soil));
-    check_on(parts, (&condensed.assembled, loads), &on_base, &RefCell::default(), finer)
+    check_on(parts, (&condensed.assembled, &condensed.loads), &on_base, shared, finer)
 }
 
 /// The check of a structure or a condensed one under its weight and loads at t = 0.
@@ -104,7 +78,7 @@ pub(super) fn check(
 /// `finer`: the base on twice the elements, four times in plan, and their static compliance.
 fn check_on(
     parts: &Parts,
-    (assembled, [weight, load]): (&Assembled, [Vec<f64>; 2]),
+    (assembled, [weight, load]): (&Assembled, &[Vec<f64>; 2]),
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
     finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, Vec<f64>)>,
@@ -130,7 +104,7 @@ fn check_on(
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
             let under = |assembled: &Assembled, soil| {
-                at_rest::under_loads(parts, assembled, soil, law, [&weight, &load]).ok()
+                at_rest::under_loads(parts, assembled, soil, law, [weight, load]).ok()
             };
             let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, own));
             let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
@@ -285,9 +259,11 @@ mod tests {
     use super::*;
     use crate::bem::ElasticGround;
     use crate::bem::plan::Plan;
+    use crate::coupled::assembly::held_responses::OfHeldBase;
     use crate::error::Error;
     use crate::fem::{Hex8, Material, Mesh};
     use crate::interface::Coulomb;
+    use crate::linalg::largest;
     use crate::structure::FemModel;
     use crate::{Simulation, Soil};
 
@@ -308,23 +284,35 @@ mod tests {
         Parts::new(scene.interface(Coulomb::new(0.4)?))
     }
 
-    /// REFERENCE: the check of the structure in all of its degrees of freedom.
+    /// REFERENCE: static state and check of the structure in all of its degrees of freedom.
     #[test]
-    fn a_condensed_structure_has_the_same_check() -> Result<()> {
+    fn a_condensed_structure_has_the_same_static_state_and_check() -> Result<()> {
         let mut parts = parts()?;
         let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let condensed = condensed(&parts, &assembled, &held)?;
-        assert!(condensed.is_some());
-        let shared = RefCell::default();
-        let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
-        let [own, whole] = [condensed, None].map(|condensed| {
-            match check(&parts, (&assembled, condensed), &at_rest, &shared) {
-                Err(Error::CoarseBase(own)) => (own.needed, own.difference.unwrap()),
+        let own = OfHeldBase::new(&parts, &assembled, held)?.condensed;
+        assert!(own.is_some());
+        let [own, whole] = [own, None].map(|mut condensed| {
+            let shared = RefCell::default();
+            let is_condensed = condensed.is_some();
+            let at_rest = at_rest::solve(&mut parts, &assembled, &mut condensed, &shared).unwrap();
+            assert_eq!(condensed.is_some(), is_condensed);
+            match check(&parts, (&assembled, condensed.as_ref()), &at_rest, &shared) {
+                Err(Error::CoarseBase(own)) => (own.needed, own.difference.unwrap(), at_rest),
                 other => panic!("{other:?}"),
             }
         });
         assert!(own.0 == whole.0 && own.1 > ANOTHER);
         assert!((own.1 - whole.1).abs() < 1e-7 * whole.1, "{own:?} for {whole:?}");
+        // Without friction, any motion along the ground is a static state.
+        let of = |state: &StaticState| {
+            let up = |node: &BaseNode| node.vertical.value(&state.displacement);
+            let heights: Vec<f64> = assembled.base.nodes().iter().map(up).collect();
+            [heights, assembled.stiffness.times(&state.displacement), state.traction.clone()]
+        };
+        for (own, whole) in of(&own.2).iter().zip(of(&whole.2)) {
+            let apart: Vec<f64> = own.iter().zip(&whole).map(|(a, b)| a - b).collect();
+            assert!(largest(&apart) < 1e-8 * largest(&whole));
+        }
         Ok(())
     }
 }

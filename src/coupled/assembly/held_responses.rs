@@ -1,8 +1,74 @@
-//! Responses of a structure with its base held, for reduced coordinates.
+//! Results of a structure with its base held.
 
+use std::rc::Rc;
+
+use crate::coupled::assembly::at_rest;
+use crate::coupled::base::held::holds;
+use crate::coupled::coordinates::Coordinates;
 use crate::coupled::model::assembled::Assembled;
-use crate::linalg::{SparseFactor, dot};
+use crate::coupled::model::condensed::Condensed;
+use crate::coupled::parts::Parts;
+use crate::coupled::statics::compliance::Floating;
+use crate::error::Result;
+use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::structure::{BaseNode, HeldBase, stiffest};
+
+/// Results of a structure with its base held.
+pub(super) struct OfHeldBase {
+    /// Period on a fixed base, s.
+    pub(super) period: f64,
+    /// Whether there is no mechanism.
+    pub(super) is_firm: Result<()>,
+    /// For reduced coordinates.
+    pub(super) responses: Option<HeldResponses>,
+    /// The structure condensed on its base, with the factor; `None` unless the factor eliminates a flexible base last.
+    pub(super) condensed: Option<Condensed>,
+}
+
+impl OfHeldBase {
+    /// Results of the factored stiffness with the base held.
+    ///
+    /// The factor is released if the structure is not condensed: factors of large structures take most of the memory.
+    pub(super) fn new(
+        parts: &Parts,
+        assembled: &Assembled,
+        mut held: SparseFactor,
+    ) -> Result<Self> {
+        let period = assembled.period_on_fixed_base(&mut held);
+        let at_rest = assembled.at_rest(parts.structure.as_ref());
+        let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
+        let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
+        let responses = is_reduced.then(|| HeldResponses::new(assembled, &held));
+        let is_condensed = assembled.base.is_flexible() && !holds(parts.ground.as_ref());
+        // An error of the loads is an error of the static state.
+        let loads = is_condensed.then(|| at_rest::weight_and_load(parts, assembled).ok()).flatten();
+        let condensed = loads.map_or(Ok(None), |own| Condensed::new(assembled, held, &own))?;
+        Ok(Self { period, is_firm, responses, condensed })
+    }
+
+    /// The stiffness, if it is positive definite on the springs of the static state's factor.
+    pub(super) fn positive_definite<'a>(
+        &self,
+        assembled: &'a Assembled,
+        floating: Option<&'a Floating>,
+    ) -> Option<&'a SparseMatrix> {
+        let known = floating?.positive_definite()?;
+        // The inner part of K, whose base was held, is positive definite too.
+        Some(if self.condensed.is_some() { &assembled.stiffness } else { known })
+    }
+
+    /// Input of reduced coordinates, with the static state's factor; nothing for other coordinates.
+    pub(super) fn for_reduction(
+        self,
+        assembled: &Assembled,
+        floating: Option<Rc<Floating>>,
+    ) -> Option<(HeldResponses, Option<Rc<Floating>>)> {
+        let responses = self.responses?;
+        let Some(condensed) = self.condensed else { return Some((responses, floating)) };
+        let whole = floating.and_then(|own| own.of_whole(assembled, condensed));
+        Some((responses, whole.map(Rc::new)))
+    }
+}
 
 /// Responses of a structure with its base held.
 #[derive(Default)]

@@ -11,8 +11,7 @@
 //! represent modes at lower frequencies, of which few are soon complete; one higher shift represents motion that a
 //! step cannot follow.
 //!
-//! With many forces the space holds vibration modes up to a frequency, the static responses to all forces, and powers
-//! of K_eff of what they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance.
+//! With many forces: `many_forces.rs`.
 
 use std::cell::Cell;
 use std::rc::Rc;
@@ -27,34 +26,22 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
-use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
+use crate::linalg::{SparseFactor, SparseMatrix};
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
 /// Number of forces from which vibration modes and static responses replace shifts.
 const MANY: usize = 100;
-/// Growth of the limit of frequency of vibration modes, from a round to the next.
-const GROWTH: f64 = std::f64::consts::SQRT_2;
-/// Largest number of vibration modes.
-const MODES: usize = 600;
-/// Largest number of rounds with vibration modes.
-const ROUNDS_OF_MODES: usize = 5;
-/// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
-const STATIC: [f64; 2] = [1e-2, 0.5];
-/// Smallest square of a shift for vibration modes, relative to the scheme's: θ of a rigid motion leaves digits for others.
-const FAR: f64 = 1e-9;
-/// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
-const SMOOTH: usize = 32;
 /// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
 /// tolerance.
 ///
 /// The responses depend on the square of that fraction.
-const NEW: f64 = 1e-2;
+pub(super) const NEW: f64 = 1e-2;
 const NEW_BY_ROOT: f64 = 10.0;
 /// Smallest new fraction of a direction, in the last rounds.
-const LEAST_NEW: f64 = 1e-7;
+pub(super) const LEAST_NEW: f64 = 1e-7;
 /// Smallest ratio of a round's change to the previous round's in the prediction.
-const FASTEST: f64 = 0.1;
+pub(super) const FASTEST: f64 = 0.1;
 /// Largest number of rounds; half of them if the tolerance cannot be expected.
 const ROUNDS: usize = 16;
 /// Smallest ratio of the lowest shift to the scheme's.
@@ -74,19 +61,19 @@ pub(crate) type Factored<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
 ///
 /// Rows have an entry for every degree of freedom.
 pub(crate) struct Reduction<'a> {
-    assembled: &'a Assembled,
-    coefficients: &'a SchemeCoefficients,
+    pub(super) assembled: &'a Assembled,
+    pub(super) coefficients: &'a SchemeCoefficients,
     /// Factors K_eff.
-    factored: &'a Factored<'a>,
-    held: HeldResponses,
+    pub(super) factored: &'a Factored<'a>,
+    pub(super) held: HeldResponses,
     /// Factored K + εM, until it is used.
-    floating: Cell<Option<Rc<Floating>>>,
+    pub(super) floating: Cell<Option<Rc<Floating>>>,
     /// Steps of the run.
     steps: usize,
     /// Rows of the probes that are not zero.
-    rows: ResponseRows,
+    pub(super) rows: ResponseRows,
     /// Displacements that the modes must contain.
-    motions: Vec<f64>,
+    pub(super) motions: Vec<f64>,
 }
 
 impl<'a> Reduction<'a> {
@@ -167,86 +154,11 @@ impl<'a> Reduction<'a> {
     }
 
     /// The rigid motions.
-    fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> Subspace<'m> {
+    pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> Subspace<'m> {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
         let mut space = Subspace::new(matrices, translations);
         space.extend(self.held.rotations.clone(), LEAST_NEW);
         space
-    }
-
-    /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
-    ///
-    /// Few reductions need a third round, which makes the factor again: kept, it would add to the peak of memory of all.
-    fn modes_of_many(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let mut space = self.rigid(matrices);
-        let (rows, c) = (&self.rows.all, self.coefficients);
-        let count = (rows.len() / self.assembled.dofs()).max(1);
-        let mut block = space.balanced(rows.clone());
-        space.extend(self.motions.clone(), LEAST_NEW);
-        let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
-        let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
-        let mut last: Option<(Ritz, StepResponses)> = None;
-        let (mut products, mut change, mut effective) = (Vec::new(), f64::INFINITY, None);
-        for round in 0..ROUNDS_OF_MODES {
-            // One more power alone is the comparison.
-            if round != 1 {
-                let floating = self.on_springs(own)?;
-                let (factor, whole) = (&floating.factor, limit * limit + floating.springs);
-                let found = lowest_modes(factor, matrices[0], MODES, whole);
-                let found = found.filter(|(squares, _)| squares.len() < MODES);
-                let Some((_, modes)) = found else {
-                    return Err(inaccurate(change, tolerance, space.count()));
-                };
-                space.extend(modes, LEAST_NEW);
-                limit *= GROWTH;
-                if round == 0 {
-                    factor.solve_many(&mut block);
-                    let before = space.count();
-                    space.extend(std::mem::take(&mut block), LEAST_NEW);
-                    block.extend_from_slice(space.momenta(before));
-                    drop(floating);
-                    effective = Some((self.factored)()?);
-                }
-            }
-            for momentum in &mut block {
-                *momentum *= c.acceleration[0];
-            }
-            effective = effective.inspect(|factor| factor.solve_many(&mut block));
-            let before = space.count();
-            space.extend_by_length(std::mem::take(&mut block), 0.5 * tolerance.sqrt());
-            block.extend_from_slice(space.momenta(before));
-            let modes = space.ritz()?;
-            products.extend(space.products(products.len() / count, rows));
-            let shares = Subspace::shares(&modes, &products);
-            let responses = self.responses(&modes, shares, SMOOTH);
-            if space.count() == self.assembled.dofs() {
-                return Ok(space.basis(&modes));
-            }
-            if let Some((fewer, last)) = &last {
-                let by = responses.difference(last, tolerance);
-                if by <= tolerance {
-                    return Ok(space.basis(fewer));
-                }
-                if change.is_finite() && by * (by / change).clamp(FASTEST, 1.0) <= tolerance {
-                    return Ok(space.basis(&modes));
-                }
-                change = by;
-            }
-            last = Some((modes, responses));
-        }
-        Err(inaccurate(change, tolerance, space.count()))
-    }
-
-    /// Factored K + σ²M: of the static state, if it is known; `own`: shift of the scheme.
-    fn on_springs(&self, own: f64) -> Result<Rc<Floating>> {
-        let known = self
-            .floating
-            .take()
-            .filter(|known| known.factor.is_positive_definite() && known.springs > FAR * own * own);
-        let shift = self.held.lowest.clamp(STATIC[0] * own, STATIC[1] * own);
-        let shifted = || Floating::new(self.assembled, &SparseMatrix::default(), shift * shift);
-        known.map_or_else(|| shifted().map(Rc::new), Ok)
     }
 
     /// Ritz modes for few forces: powers of several shifts.
@@ -302,7 +214,7 @@ impl<'a> Reduction<'a> {
     }
 
     /// Responses over the steps of the run to forces that grow over `smooth` steps.
-    fn responses(&self, modes: &Ritz, shares: Vec<f64>, smooth: usize) -> StepResponses {
+    pub(super) fn responses(&self, modes: &Ritz, shares: Vec<f64>, smooth: usize) -> StepResponses {
         let steps = self.steps.clamp(1, LONGEST);
         StepResponses::new(modes, shares, &self.rows, self.coefficients, [steps, smooth])
     }
@@ -381,7 +293,7 @@ fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
 }
 
 /// Error for reduced coordinates that do not reach a tolerance.
-fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
+pub(super) fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
     let quantity = "response of reduced coordinates to tractions";
     let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
     Error::Accuracy { quantity, reached, tolerance, remedy }

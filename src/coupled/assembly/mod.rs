@@ -5,7 +5,7 @@
 //! 3. `at_rest.rs`, `static_stages.rs`: weight first, then the loads at t = 0, by the search of `statics/equilibrium.rs`;
 //!    `flexible_base.rs` compares the result with the static state on twice the elements if these may be too few;
 //! 4. `stepped.rs`: choice of the coordinates; matrices, base and operators in them; `vibration_modes.rs` computes
-//!    all modes, `krylov.rs` Ritz modes;
+//!    all modes, `krylov.rs` and `many_forces.rs` Ritz modes;
 //! 5. `scene.rs`: the scene; `initial_motion.rs`: the motion at t = 0.
 
 mod at_rest;
@@ -14,6 +14,7 @@ mod flexible_base;
 mod held_responses;
 mod initial_motion;
 mod krylov;
+mod many_forces;
 mod static_stages;
 mod step_response;
 mod stepped;
@@ -26,8 +27,7 @@ use std::ops::ControlFlow;
 
 use crate::bem::Ground;
 use crate::contact::ContactSearch;
-use crate::coupled::assembly::flexible_base::OfHeldBase;
-use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::held_responses::OfHeldBase;
 use crate::coupled::assembly::stepped::Stepped;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
@@ -50,7 +50,6 @@ use crate::coupled::step::increment::Increment;
 use crate::coupled::step::solver::Solver;
 use crate::error::{Progress, Result};
 use crate::interface::InterfaceLaw;
-use crate::linalg::SparseFactor;
 use crate::motion::FreeField;
 use crate::structure::Structure;
 use crate::structure::probe::Probe;
@@ -326,19 +325,21 @@ impl SimulationBuilder {
     pub fn build(self) -> Result<Simulation> {
         let mut parts = Parts::new(self)?;
         let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let (period, is_firm, (held, condensed)) = with_base_held(&parts, &assembled, held)?;
+        let mut held = OfHeldBase::new(&parts, &assembled, held)?;
         let shared = RefCell::default();
-        let at_rest = at_rest::solve(&mut parts, &assembled, &shared)?;
-        let coarse = flexible_base::check(&parts, (&assembled, condensed), &at_rest, &shared)?;
+        let at_rest = at_rest::solve(&mut parts, &assembled, &mut held.condensed, &shared)?;
+        let own = (&assembled, held.condensed.as_ref());
+        let coarse = flexible_base::check(&parts, own, &at_rest, &shared)?;
         let floating = shared.take().map(|own: Compliance| own.floating);
-        let known = floating.as_ref().and_then(|own| own.positive_definite());
         let own = parts.structure.as_ref();
-        assembled.check_damping(own, known)?;
+        assembled.check_damping(own, held.positive_definite(&assembled, floating.as_deref()))?;
+        let (period, is_firm) = (held.period, std::mem::replace(&mut held.is_firm, Ok(())));
+        let reduction = held.for_reduction(&assembled, floating);
         let Assembled { stiffness, influence, .. } = &assembled;
         let motion: [&[f64]; 2] = [&at_rest.displacement, &at_rest.force];
         let joined = supports::joined_by_force(own, stiffness, influence, motion)?;
         let Stepped { model, base, operators } =
-            Stepped::choose(&parts, &assembled, (held, floating), &at_rest)?;
+            Stepped::choose(&parts, &assembled, reduction, &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
         let Parts { mut structure, ground, given, .. } = parts;
@@ -381,20 +382,4 @@ impl SimulationBuilder {
             prepared: given.steps,
         })
     }
-}
-
-/// Period on a fixed base, whether there is no mechanism, and what reduced coordinates and the check of the base need.
-///
-/// Releases the factored stiffness with the base held: factors of large structures take most of the memory.
-fn with_base_held(
-    parts: &Parts,
-    assembled: &Assembled,
-    mut held: SparseFactor,
-) -> Result<(f64, Result<()>, OfHeldBase)> {
-    let period = assembled.period_on_fixed_base(&mut held);
-    let at_rest = assembled.at_rest(parts.structure.as_ref());
-    let is_firm = if assembled.linear { at_rest.check(&mut held) } else { Ok(()) };
-    let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
-    let responses = is_reduced.then(|| HeldResponses::new(assembled, &held));
-    Ok((period, is_firm, (responses, flexible_base::condensed(parts, assembled, &held)?)))
 }

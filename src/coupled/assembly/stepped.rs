@@ -52,11 +52,11 @@ impl Stepped {
     /// Chooses the coordinates, and factors the effective stiffness in them.
     ///
     /// The effective stiffness of the degrees of freedom is factored only if they are stepped or the choice needs
-    /// it. `held`, `floating`: as for [`Reduction`], for reduced coordinates.
+    /// it. `reduction`: input of [`Reduction`], for reduced coordinates.
     pub(crate) fn choose(
         parts: &Parts,
         assembled: &Assembled,
-        (held, floating): (Option<HeldResponses>, Option<Rc<Floating>>),
+        reduction: Option<(HeldResponses, Option<Rc<Floating>>)>,
         at_rest: &StaticState,
     ) -> Result<Self> {
         let Parts { given, coefficients, .. } = parts;
@@ -84,7 +84,7 @@ impl Stepped {
                 Chosen::Modes(modes)
             }
             Coordinates::Reduced { tolerance } => {
-                let held = held.unwrap_or_default();
+                let (held, floating) = reduction.unwrap_or_default();
                 let responses = (held, floating, &factored as &Factored<'_>);
                 let reduction = Reduction::new(parts, assembled, responses, steps)?;
                 let modes = reduction.modes(tolerance);

@@ -5,8 +5,10 @@
 //! | K | stiffness; b: degrees of freedom of the base, i: all others |
 //! | S | K_bb − K_bi K_ii⁻¹ K_ib |
 //! | N, γ | displacements of the contact nodes, stiffness of the springs that hold them |
+//! | ε, m | stiffness of soft springs per mass, mass at the contact nodes |
 //!
-//! The factor of K + γ NᵀN contains S + γ NᵀN, if the base is eliminated last.
+//! The factor of K + γ NᵀN contains S + γ NᵀN, if the base is eliminated last. With the factor of S + εm in its place, it
+//! is the factor of K + εm.
 
 use std::sync::Arc;
 
@@ -21,19 +23,23 @@ use crate::structure::{BaseNode, Triplets};
 pub(crate) struct Condensed {
     /// The structure; its mass, equal at all contact nodes, serves as springs in the search for a static state.
     pub(crate) assembled: Assembled,
+    /// Weight and loads at t = 0; empty without a static state.
+    pub(crate) loads: [Vec<f64>; 2],
     /// Degrees of freedom of the base, ascending.
     dofs: Vec<usize>,
+    /// Factored K + γ NᵀN.
+    held: SparseFactor,
 }
 
 impl Condensed {
-    /// Condenses a structure and the forces `loads`, of which it returns these on the base.
+    /// Condenses a structure and the forces `loads`.
     ///
     /// `held`: factored K + γ NᵀN. `None` unless it eliminates the base last.
     pub(crate) fn new(
         whole: &Assembled,
-        held: &SparseFactor,
+        held: SparseFactor,
         loads: &[Vec<f64>; 2],
-    ) -> Result<Option<(Self, [Vec<f64>; 2])>> {
+    ) -> Result<Option<Self>> {
         let dofs = whole.base.dofs();
         let Some(mut stiffness) = held.condensed(&dofs) else { return Ok(None) };
         let (order, n, spring) = (dofs.len(), whole.dofs(), whole.spring());
@@ -73,7 +79,7 @@ impl Condensed {
             base,
             elimination: Elimination::default(),
         };
-        Ok(Some((Self { assembled, dofs }, loads)))
+        Ok(Some(Self { assembled, loads, dofs, held }))
     }
 
     /// A base of the whole structure in the condensed degrees of freedom.
@@ -84,6 +90,30 @@ impl Condensed {
     /// Displacements of the whole structure, at the base.
     pub(crate) fn on_base(&self, whole: &[f64]) -> Vec<f64> {
         self.dofs.iter().map(|dof| whole[*dof]).collect()
+    }
+
+    /// Displacements of the whole structure with these on its base, under `force`.
+    ///
+    /// A part that K does not move to equilibrium at the base, such as rounding, remains.
+    pub(crate) fn expanded(&self, whole: &Assembled, on_base: &[f64], force: &[f64]) -> Vec<f64> {
+        let mut displacement = vec![0.0; force.len()];
+        self.dofs.iter().zip(on_base).for_each(|(dof, u)| displacement[*dof] = *u);
+        // The springs have no force: the second pass removes rounding.
+        for _ in 0..2 {
+            let mut rest = force.to_vec();
+            whole.stiffness.multiply_add(-1.0, &displacement, &mut rest);
+            self.held.solve_many(&mut rest);
+            displacement.iter_mut().zip(&rest).for_each(|(u, d)| *u += d);
+        }
+        displacement
+    }
+
+    /// Factored K + εm, from S + εm; `None` unless it is positive definite.
+    pub(crate) fn on_springs(self, on_base: &SparseMatrix) -> Option<SparseFactor> {
+        let order = on_base.order();
+        let mut dense = vec![0.0; order * order];
+        on_base.entries().for_each(|(row, column, value)| dense[row * order + column] = value);
+        self.held.with_condensed(&self.dofs, &dense)
     }
 }
 

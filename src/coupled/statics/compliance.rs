@@ -1,11 +1,13 @@
 //! Compliance of a structure without supports, for its static state.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::contact::Delassus;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::UP;
 use crate::coupled::model::assembled::Assembled;
+use crate::coupled::model::condensed::Condensed;
 use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
@@ -18,7 +20,7 @@ pub(super) const PROXIMAL_SHARE: f64 = 1e-4;
 pub(crate) struct Floating {
     /// ε.
     pub(crate) springs: f64,
-    matrix: SparseMatrix,
+    matrix: Arc<SparseMatrix>,
     pub(crate) factor: SparseFactor,
 }
 
@@ -36,7 +38,13 @@ impl Floating {
         let terms = [(1.0, &**stiffness), (1.0, tangent), (springs, mass)];
         let matrix = SparseMatrix::sum(NAME, assembled.dofs(), &terms)?;
         let factor = SparseFactor::of(NAME, &matrix, &assembled.elimination)?;
-        Ok(Self { springs, matrix, factor })
+        Ok(Self { springs, matrix: matrix.into(), factor })
+    }
+
+    /// The whole of a condensed structure, on the springs at its base only.
+    pub(crate) fn of_whole(&self, whole: &Assembled, condensed: Condensed) -> Option<Self> {
+        let factor = condensed.on_springs(&self.matrix)?;
+        Some(Self { springs: self.springs, matrix: Arc::clone(&whole.stiffness), factor })
     }
 
     /// The matrix, if it is positive definite.

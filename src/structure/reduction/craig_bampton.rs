@@ -221,7 +221,7 @@ impl Parts {
         }
         factor.solve_many(&mut answers);
         let held = self.inner("mass matrix with the kept degrees of freedom held", mass)?;
-        let (squares, shapes) = lowest_modes(&factor, &held, modes, f64::INFINITY)
+        let (squares, shapes) = lowest_modes(&factor, &held, modes, None)
             .ok_or(Error::Singular { matrix: NAME, order: ni })?;
         rows.resize((nb + squares.len()) * n, 0.0);
         let inner = answers.chunks_exact(ni).chain(shapes.chunks_exact(ni));

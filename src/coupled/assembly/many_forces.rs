@@ -1,0 +1,131 @@
+//! Reduced coordinates for many forces.
+//!
+//! The space holds vibration modes up to a frequency, the static responses to all forces, and powers of K_eff of what
+//! they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance. Symbols: see
+//! `krylov.rs`.
+
+use std::rc::Rc;
+
+use crate::coupled::assembly::krylov::{FASTEST, LEAST_NEW, NEW, Reduction, inaccurate};
+use crate::coupled::assembly::step_response::StepResponses;
+use crate::coupled::assembly::subspace::{Ritz, Subspace};
+use crate::coupled::base::transformation::ModalBasis;
+use crate::coupled::statics::compliance::Floating;
+use crate::error::Result;
+use crate::linalg::{SparseMatrix, lowest_modes};
+
+/// Growth of the limit of frequency of vibration modes, from a round to the next.
+const GROWTH: f64 = std::f64::consts::SQRT_2;
+/// Largest number of vibration modes.
+const MODES: usize = 600;
+/// Residual of vibration modes, relative to the root of the tolerance: responses depend on its square.
+const LOOSE: f64 = 0.1;
+/// Largest number of rounds with vibration modes.
+const ROUNDS_OF_MODES: usize = 5;
+/// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
+const STATIC: [f64; 2] = [1e-2, 0.5];
+/// Smallest square of a shift for vibration modes, relative to the scheme's: θ of a rigid motion leaves digits for others.
+const FAR: f64 = 1e-9;
+/// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
+const SMOOTH: usize = 32;
+
+impl Reduction<'_> {
+    /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
+    ///
+    /// Few reductions need a third round, which makes the factor again: kept, it would add to the peak of memory of all.
+    pub(super) fn modes_of_many(
+        &self,
+        tolerance: f64,
+        matrices: [&SparseMatrix; 3],
+    ) -> Result<ModalBasis> {
+        let mut space = self.rigid(matrices);
+        let (rows, c) = (&self.rows.all, self.coefficients);
+        let count = (rows.len() / self.assembled.dofs()).max(1);
+        let mut block = space.balanced(rows.clone());
+        space.extend(self.motions.clone(), LEAST_NEW);
+        let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
+        // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
+        let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
+        let mut last: Option<(Ritz, StepResponses)> = None;
+        let (mut products, mut change, mut effective) = (Vec::new(), f64::INFINITY, None);
+        let mut newest = 0;
+        let inertia = |space: &Subspace<'_>, first: usize| -> Vec<f64> {
+            space.momenta(first).iter().map(|momentum| c.acceleration[0] * momentum).collect()
+        };
+        for round in 0..ROUNDS_OF_MODES {
+            // One more power alone is the comparison.
+            if round != 1 {
+                let Some(floating) = self.add_modes(&mut space, [limit, own], tolerance)? else {
+                    break;
+                };
+                limit *= GROWTH;
+                if round == 0 {
+                    floating.factor.solve_many(&mut block);
+                    newest = space.count();
+                    space.extend(block, LEAST_NEW);
+                    block = inertia(&space, newest);
+                    drop(floating);
+                    effective = Some((self.factored)()?);
+                }
+            }
+            effective = effective.inspect(|factor| factor.solve_many(&mut block));
+            let (least, mut is_last) = (0.5 * tolerance.sqrt(), false);
+            if let Some((fewer, last)) = &last {
+                products.extend(space.products(products.len() / count, rows));
+                let (modes, all) =
+                    space.ritz_with((&block, newest), c, (&products, rows), least)?;
+                let by = self.smooth_responses(&modes, &all).difference(last, tolerance);
+                if by <= tolerance {
+                    return Ok(space.basis(fewer));
+                }
+                is_last = change.is_finite() && by * (by / change).clamp(FASTEST, 1.0) <= tolerance;
+                change = by;
+            }
+            newest = space.count();
+            space.extend_by_length(block, least);
+            block = inertia(&space, newest);
+            let modes = space.ritz()?;
+            if is_last || space.count() == self.assembled.dofs() {
+                return Ok(space.basis(&modes));
+            }
+            products.extend(space.products(products.len() / count, rows));
+            let responses = self.smooth_responses(&modes, &products);
+            last = Some((modes, responses));
+        }
+        Err(inaccurate(change, tolerance, space.count()))
+    }
+
+    /// Adds the vibration modes up to a frequency `limit`; returns the factor, or `None` for too many modes.
+    fn add_modes(
+        &self,
+        space: &mut Subspace<'_>,
+        [limit, own]: [f64; 2],
+        tolerance: f64,
+    ) -> Result<Option<Rc<Floating>>> {
+        let floating = self.on_springs(own)?;
+        let upto = Some((limit * limit + floating.springs, LOOSE * tolerance.sqrt()));
+        let found = lowest_modes(&floating.factor, &self.assembled.mass, MODES, upto);
+        let found = found.filter(|(squares, _)| squares.len() < MODES);
+        Ok(found.map(|(_, modes)| {
+            // A small new part is an error of a mode that is there, and no mode: it would need powers of its own.
+            space.extend(modes, NEW);
+            floating
+        }))
+    }
+
+    /// Responses to forces that grow over [`SMOOTH`] steps.
+    fn smooth_responses(&self, modes: &Ritz, products: &[f64]) -> StepResponses {
+        self.responses(modes, Subspace::shares(modes, products), SMOOTH)
+    }
+
+    /// Factored K + σ²M: of the static state, if it is known; `own`: shift of the scheme.
+    fn on_springs(&self, own: f64) -> Result<Rc<Floating>> {
+        let known = self
+            .floating
+            .take()
+            .filter(|known| known.factor.is_positive_definite() && known.springs > FAR * own * own);
+        let shift = self.held.lowest.clamp(STATIC[0] * own, STATIC[1] * own);
+        let shifted = || Floating::new(self.assembled, &SparseMatrix::default(), shift * shift);
+        known.map_or_else(|| shifted().map(Rc::new), Ok)
+    }
+}
