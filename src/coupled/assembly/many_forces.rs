@@ -46,9 +46,9 @@ impl Reduction<'_> {
         let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
         // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
         let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
-        let mut last: Option<(Ritz, StepResponses)> = None;
-        let (mut products, mut change, mut effective) = (Vec::new(), f64::INFINITY, None);
-        let mut newest = 0;
+        let mut last: Option<(StepResponses, Ritz)> = None;
+        let (mut products, mut change, mut effective, mut newest) =
+            (Vec::new(), f64::INFINITY, None, 0);
         let inertia = |space: &Subspace<'_>, first: usize| -> Vec<f64> {
             space.momenta(first).iter().map(|momentum| c.acceleration[0] * momentum).collect()
         };
@@ -70,7 +70,7 @@ impl Reduction<'_> {
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
             let (least, mut is_last) = (0.5 * tolerance.sqrt(), false);
-            if let Some((fewer, last)) = &last {
+            if let Some((last, fewer)) = &last {
                 products.extend(space.products(products.len() / count, rows));
                 let (modes, all) =
                     space.ritz_with((&block, newest), c, (&products, rows), least)?;
@@ -89,8 +89,7 @@ impl Reduction<'_> {
                 return Ok(space.basis(&modes));
             }
             products.extend(space.products(products.len() / count, rows));
-            let responses = self.smooth_responses(&modes, &products);
-            last = Some((modes, responses));
+            last = Some((self.smooth_responses(&modes, &products), modes));
         }
         Err(inaccurate(change, tolerance, space.count()))
     }
