@@ -67,7 +67,7 @@ pub enum Coordinates {
     /// They need a linear structure with symmetric matrices, a positive definite mass and proportional damping.
     /// An error names the missing property. A load of the structure's own is sampled
     /// 17 times over the expected steps; a load that acts only in between is projected without a check. Loads of
-    /// the builder have no such gap. Building takes three to six times as long as with other coordinates. Each element
+    /// the builder have no such gap. Building takes two to six times as long as with other coordinates. Each element
     /// in plan adds three forces, so 64 cells need 300 to 600 vectors.
     Reduced {
         /// Relative error of responses to tractions, above 0 and below 1.
