@@ -4,7 +4,6 @@ use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::sparse::SparseColMat;
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymbolicCholeskyRaw};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
@@ -234,7 +233,6 @@ impl SparseFactor {
 /// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
 fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {
     let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
-    let blocks: &SymbolicSupernodalCholesky<usize> = blocks;
     let (count, first) = (last.len(), symbolic.nrows().checked_sub(last.len())?);
     if symbolic.perm()?.arrays().0[first..] != *last {
         return None;
