@@ -35,8 +35,8 @@ type Pairs = (Vec<f64>, Vec<f64>);
 
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
-/// `limit`: the search ends at the first eigenvalue above it, which is the last one returned. The modes have this
-/// residual, relative to θ: they span a space in which their errors are squared.
+/// `limit`: an eigenvalue, and a residual relative to θ. The search ends at the first eigenvalue above the limit, which is
+/// the last one returned. The residual may be large where the modes span a space: their errors are squared in it.
 ///
 /// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
 /// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration

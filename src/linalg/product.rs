@@ -164,25 +164,28 @@ pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     products
 }
 
-/// Row-major A Bᵀ as [`row_products`], for as many rows of A as of B and a symmetric product.
+/// Row-major A Bᵀ for row-major A and B with `columns` columns, if it is symmetric.
 pub(crate) fn symmetric_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
     let n = a.len() / columns.max(1);
-    let mut products = vec![0.0; n * n];
-    triangular::matmul(
-        MatMut::from_row_major_slice_mut(&mut products, n, n),
-        BlockStructure::TriangularLower,
-        Accum::Replace,
-        MatRef::from_row_major_slice(a, n, columns),
-        BlockStructure::Rectangular,
-        MatRef::from_column_major_slice(b, columns, n),
-        BlockStructure::Rectangular,
-        1.0,
-        Par::Seq,
-    );
+    let a = MatRef::from_row_major_slice(a, n, columns);
+    let b = MatRef::from_column_major_slice(b, columns, n);
+    symmetric_product([a, b], [BlockStructure::Rectangular; 2])
+}
+
+/// The product of two factors of these shapes, row-major, if it is symmetric.
+pub(super) fn symmetric_product(
+    [a, b]: [MatRef<'_, f64>; 2],
+    [left, right]: [BlockStructure; 2],
+) -> Vec<f64> {
+    let n = a.nrows();
+    let mut product = vec![0.0; n * n];
+    let sum = MatMut::from_row_major_slice_mut(&mut product, n, n);
+    let below = BlockStructure::TriangularLower;
+    triangular::matmul(sum, below, Accum::Replace, a, left, b, right, 1.0, Par::Seq);
     for (row, column) in (0..n).flat_map(|row| (0..row).map(move |column| (row, column))) {
-        products[column * n + row] = products[row * n + column];
+        product[column * n + row] = product[row * n + column];
     }
-    products
+    product
 }
 
 /// C ← C + factor · Wᵀ V for row-major C, W and V with `columns` columns of V.

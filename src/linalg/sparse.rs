@@ -2,16 +2,17 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
-use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::matmul::triangular::BlockStructure;
 use faer::sparse::SparseColMat;
 use faer::sparse::linalg::cholesky::{LltRef, SymbolicCholesky, SymbolicCholeskyRaw};
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
 };
-use faer::{Accum, Conj, MatMut, MatRef, Par, Side, Spec};
+use faer::{Conj, MatMut, MatRef, Par, Side, Spec};
 
 use crate::error::{Error, Result};
 use crate::linalg::elimination::{Elimination, by_columns};
+use crate::linalg::product::symmetric_product;
 use crate::linalg::{SparseMatrix, Triplets};
 
 /// Numbers in right-hand sides that are solved for together.
@@ -170,16 +171,9 @@ impl SparseFactor {
         for (own, at) in last_entries(symbolic, last)? {
             lower[own] = values[at];
         }
-        let mut product = vec![0.0; count * count];
         let lower = MatRef::from_row_major_slice(&lower, count, count);
-        let [below, above] = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
-        let sum = MatMut::from_row_major_slice_mut(&mut product, count, count);
-        let (replace, upper) = (Accum::Replace, lower.transpose());
-        triangular::matmul(sum, below, replace, lower, below, upper, above, 1.0, Par::Seq);
-        for (row, column) in (0..count).flat_map(|row| (0..row).map(move |column| (row, column))) {
-            product[column * count + row] = product[row * count + column];
-        }
-        Some(product)
+        let shapes = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
+        Some(symmetric_product([lower, lower.transpose()], shapes))
     }
 
     /// The factor of the matrix that differs from this one only on its rows `last`, where it is condensed to `matrix`.

@@ -40,9 +40,8 @@ impl OfHeldBase {
         let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
         let responses = is_reduced.then(|| HeldResponses::new(assembled, &held));
         let is_condensed = assembled.base.is_flexible() && !holds(parts.ground.as_ref());
-        // An error of the loads is an error of the static state.
-        let loads = is_condensed.then(|| at_rest::weight_and_load(parts, assembled).ok()).flatten();
-        let condensed = loads.map_or(Ok(None), |own| Condensed::new(assembled, held, &own))?;
+        let loads = || at_rest::weight_and_load(parts, assembled);
+        let condensed = if is_condensed { Condensed::new(assembled, held, loads)? } else { None };
         Ok(Self { period, is_firm, responses, condensed })
     }
 
@@ -57,14 +56,15 @@ impl OfHeldBase {
         Some(if self.condensed.is_some() { &assembled.stiffness } else { known })
     }
 
-    /// Input of reduced coordinates, with the static state's factor; nothing for other coordinates.
-    pub(super) fn for_reduction(
-        self,
+    /// Hands on the input of reduced coordinates, with the static state's factor; nothing for other coordinates.
+    pub(super) fn take_for_reduction(
+        &mut self,
         assembled: &Assembled,
         floating: Option<Rc<Floating>>,
     ) -> Option<(HeldResponses, Option<Rc<Floating>>)> {
-        let responses = self.responses?;
-        let Some(condensed) = self.condensed else { return Some((responses, floating)) };
+        let condensed = self.condensed.take();
+        let responses = self.responses.take()?;
+        let Some(condensed) = condensed else { return Some((responses, floating)) };
         let whole = floating.and_then(|own| own.of_whole(assembled, condensed));
         Some((responses, whole.map(Rc::new)))
     }

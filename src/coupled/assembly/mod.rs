@@ -333,8 +333,7 @@ impl SimulationBuilder {
         let floating = shared.take().map(|own: Compliance| own.floating);
         let own = parts.structure.as_ref();
         assembled.check_damping(own, held.positive_definite(&assembled, floating.as_deref()))?;
-        let (period, is_firm) = (held.period, std::mem::replace(&mut held.is_firm, Ok(())));
-        let reduction = held.for_reduction(&assembled, floating);
+        let reduction = held.take_for_reduction(&assembled, floating);
         let Assembled { stiffness, influence, .. } = &assembled;
         let motion: [&[f64]; 2] = [&at_rest.displacement, &at_rest.force];
         let joined = supports::joined_by_force(own, stiffness, influence, motion)?;
@@ -353,7 +352,7 @@ impl SimulationBuilder {
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let mut warnings =
-            Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), period);
+            Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
         let pressure = given.gravity * assembled.mass_over_area();
         let storey = structure.tallest_storey();
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
@@ -363,7 +362,7 @@ impl SimulationBuilder {
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.
-        is_firm?;
+        held.is_firm?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, compliant && given.energy_balance),

@@ -32,16 +32,18 @@ pub(crate) struct Condensed {
 }
 
 impl Condensed {
-    /// Condenses a structure and the forces `loads`.
+    /// Condenses a structure and its loads at t = 0.
     ///
-    /// `held`: factored K + γ NᵀN. `None` unless it eliminates the base last.
+    /// `held`: factored K + γ NᵀN. `None` unless it eliminates the base last, and for an error of `loads`, which the static
+    /// state returns again.
     pub(crate) fn new(
         whole: &Assembled,
         held: SparseFactor,
-        loads: &[Vec<f64>; 2],
+        loads: impl FnOnce() -> Result<[Vec<f64>; 2]>,
     ) -> Result<Option<Self>> {
         let dofs = whole.base.dofs();
         let Some(mut stiffness) = held.condensed(&dofs) else { return Ok(None) };
+        let Ok(loads) = loads() else { return Ok(None) };
         let (order, n, spring) = (dofs.len(), whole.dofs(), whole.spring());
         let mut solved = loads.concat();
         held.solve_many(&mut solved);
