@@ -6,8 +6,8 @@
 //! | V | basis, M-orthonormal, a row per vector |
 //! | H | Vᵀ M A V |
 //!
-//! Every new vector is made orthogonal to all earlier ones, twice (Parlett 1998, § 13), so no spurious copies
-//! appear. As many modes of the same frequency are found as a block has vectors.
+//! Every new vector is made orthogonal to all earlier ones, twice for small residuals (Parlett 1998, § 13), so no
+//! spurious copies appear. As many modes of the same frequency are found as a block has vectors.
 
 use super::eigen::symmetric_modes;
 use super::orthonormal::{Least, OrthonormalRows};
@@ -20,6 +20,9 @@ const BLOCK: usize = 16;
 
 /// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
 const TOLERANCE: f64 = 1e-9;
+
+/// Rounding of the basis, relative to the residual.
+const ROUNDING: f64 = 1e-9;
 
 /// The number of vectors grows by one in so many from a search for modes to the next.
 const SEARCHES: usize = 8;
@@ -48,7 +51,7 @@ pub(crate) fn lowest_modes(
     limit: Option<(f64, f64)>,
 ) -> Option<Pairs> {
     let (limit, tolerance) = limit.unwrap_or((f64::INFINITY, TOLERANCE));
-    let basis = OrthonormalRows::new(mass);
+    let basis = OrthonormalRows::new(mass, ROUNDING * tolerance);
     let mut space = Space { stiffness, order: mass.order(), basis, columns: Vec::new(), seed: 1 };
     let count = count.min(space.order);
     let mut next = if limit.is_finite() { 0 } else { count };

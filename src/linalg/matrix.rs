@@ -35,16 +35,17 @@ pub(crate) struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// Square sparse matrix of this order, with the entries that `fill` writes.
+    /// Matrix of the entries that `fill` writes. `triplets` is overwritten; its order is the matrix's.
     pub(crate) fn assembled(
         name: &'static str,
-        order: usize,
+        triplets: &mut Triplets,
         fill: &dyn Fn(&mut Triplets) -> Result<()>,
     ) -> Result<Self> {
-        let mut triplets = Triplets::new(order);
-        fill(&mut triplets)?;
+        let order = triplets.order();
+        triplets.clear();
+        fill(triplets)?;
         same_length(name, triplets.order(), order)?;
-        Self::new(name, &triplets)
+        Self::new(name, triplets)
     }
 
     /// Matrix from `triplets`; entries at the same place are summed.
@@ -125,6 +126,23 @@ impl SparseMatrix {
         self.column[places.clone()].iter().copied().zip(self.value[places].iter().copied())
     }
 
+    /// The values at the places of another matrix; `None` if an entry is elsewhere.
+    pub(crate) fn values_at(&self, other: &Self) -> Option<Vec<f64>> {
+        let mut values = vec![0.0; other.stored()];
+        for row in 0..self.order {
+            let mut place = *other.row_start.get(row)?;
+            let end = *other.row_start.get(row + 1)?;
+            for (column, value) in self.row(row) {
+                place += other.column[place..end].iter().take_while(|j| **j < column).count();
+                if place == end || other.column[place] != column {
+                    return None;
+                }
+                values[place] = value;
+            }
+        }
+        Some(values)
+    }
+
     /// Replaces the values by the sums of `triplets`, without allocating.
     ///
     /// Returns false, with undefined values, if an entry has no place in the pattern or is not finite.
@@ -164,10 +182,8 @@ impl SparseMatrix {
 
     /// All stored entries: (row, column, value).
     pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.order).flat_map(move |row| {
-            (self.row_start[row]..self.row_start[row + 1])
-                .map(move |k| (row, self.column[k], self.value[k]))
-        })
+        (0..self.order)
+            .flat_map(move |row| self.row(row).map(move |(column, value)| (row, column, value)))
     }
 
     /// The diagonal.

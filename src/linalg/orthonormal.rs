@@ -10,6 +10,7 @@ use super::product::{add_combined_rows, row_products, symmetric_products};
 /// V and V M.
 pub(crate) struct OrthonormalRows<'a> {
     mass: &'a SparseMatrix,
+    rounding: f64,
     vectors: Vec<f64>,
     momenta: Vec<f64>,
 }
@@ -25,8 +26,11 @@ pub(crate) enum Least {
 
 impl<'a> OrthonormalRows<'a> {
     /// No rows.
-    pub(crate) fn new(mass: &'a SparseMatrix) -> Self {
-        Self { mass, vectors: Vec::new(), momenta: Vec::new() }
+    ///
+    /// `rounding`: largest error of V M Vᵀ after one pass of orthogonalisation; where it is larger, a second pass
+    /// follows.
+    pub(crate) fn new(mass: &'a SparseMatrix, rounding: f64) -> Self {
+        Self { mass, rounding, vectors: Vec::new(), momenta: Vec::new() }
     }
 
     /// M.
@@ -59,7 +63,6 @@ impl<'a> OrthonormalRows<'a> {
         let (n, before) = (self.mass.order().max(1), self.count());
         // Large blocks are written into two buffers in turns.
         let [mut images, mut spare] = [(); 2].map(|()| vec![0.0; block.len()]);
-        // Two passes remove rounding.
         for pass in 0..2 {
             let count = block.len() / n;
             let shares = row_products(&self.momenta, &block, n);
@@ -69,14 +72,18 @@ impl<'a> OrthonormalRows<'a> {
             images.truncate(block.len());
             self.mass.multiply_many(&block, &mut images);
             let mut products = symmetric_products(&images, &block, n);
+            let mut longest = 0.0_f64;
             let scales: Vec<f64> = (0..count)
-                .map(|i| match (pass, least) {
-                    (0, Least::Fraction(_)) => {
-                        let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
-                        let length = (inside + products[i * (count + 1)]).sqrt();
-                        if length > 0.0 { length.recip() } else { 0.0 }
-                    }
-                    _ => 1.0,
+                .map(|i| {
+                    let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
+                    let length = (inside + products[i * (count + 1)]).sqrt();
+                    let scale = match (pass, least) {
+                        (0, Least::Fraction(_)) if length > 0.0 => length.recip(),
+                        (0, Least::Fraction(_)) => 0.0,
+                        _ => 1.0,
+                    };
+                    longest = longest.max(scale * length);
+                    scale
                 })
                 .collect();
             for (k, product) in products.iter_mut().enumerate() {
@@ -86,7 +93,10 @@ impl<'a> OrthonormalRows<'a> {
                 (0, Least::Fraction(least) | Least::Length(least)) => least,
                 _ => 0.5,
             };
-            let mut weights = independent(products, count, least * least);
+            let (mut weights, shortest) = independent(products, count, least * least);
+            // Short remainders have more rounding.
+            let rounding = f64::EPSILON * (longest / shortest).powi(2);
+            let is_last = pass == 1 || rounding < self.rounding;
             let kept = weights.len() / count.max(1);
             for row in weights.chunks_exact_mut(count.max(1)) {
                 row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
@@ -97,14 +107,14 @@ impl<'a> OrthonormalRows<'a> {
                 sum.resize(start + kept * n, 0.0);
                 add_combined_rows(&columns, rows, n, 1.0, &mut sum[start..]);
             };
-            if pass == 1 {
+            if is_last {
                 combine(&block, &mut self.vectors);
                 combine(&images, &mut self.momenta);
-            } else {
-                spare.clear();
-                combine(&block, &mut spare);
-                std::mem::swap(&mut block, &mut spare);
+                return;
             }
+            spare.clear();
+            combine(&block, &mut spare);
+            std::mem::swap(&mut block, &mut spare);
         }
     }
 }
@@ -112,11 +122,11 @@ impl<'a> OrthonormalRows<'a> {
 /// Weights, a row each, of orthonormal combinations of vectors with these scalar products.
 ///
 /// Gram–Schmidt, the longest remainder first, while its square exceeds `least`. Vectors of separate parts stay
-/// separate.
-pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
+/// separate. Also returns the length of the shortest remainder.
+pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> (Vec<f64>, f64) {
     let mut rest: Vec<Vec<f64>> =
         (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    let mut weights = Vec::new();
+    let (mut weights, mut shortest) = (Vec::new(), f64::INFINITY);
     let mut left: Vec<usize> = (0..count).collect();
     let length = |products: &[f64], i: usize| products[i * (count + 1)];
     while let Some(at) = (0..left.len())
@@ -124,7 +134,9 @@ pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> V
         .filter(|at| length(&products, left[*at]) > least)
     {
         let chosen = left.swap_remove(at);
-        let scale = length(&products, chosen).sqrt().recip();
+        let remainder = length(&products, chosen).sqrt();
+        let scale = remainder.recip();
+        shortest = shortest.min(remainder);
         let own: Vec<f64> = rest[chosen].iter().map(|weight| scale * weight).collect();
         let shares: Vec<f64> = (0..count).map(|j| scale * products[chosen * count + j]).collect();
         for &i in &left {
@@ -134,10 +146,43 @@ pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> V
         }
         weights.extend(own);
     }
-    weights
+    (weights, shortest)
 }
 
 /// The columns of a row-major matrix, one after the other.
 pub(crate) fn transpose(rows: &[f64], columns: usize) -> Vec<f64> {
     (0..columns).flat_map(|j| rows.iter().skip(j).step_by(columns).copied()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::{Triplets, largest};
+
+    /// Rows of which a fraction `outside` is new, or short ones, are orthonormal with the rows that are there.
+    #[test]
+    fn rows_are_orthonormal_after_one_pass_or_two() {
+        const N: usize = 60;
+        let mut mass = Triplets::new(N);
+        for i in 1..N {
+            mass.add(i, i, 1.0 + 0.1 * i as f64);
+            mass.add_spring(i - 1, i, 0.7);
+        }
+        let mass = SparseMatrix::new("mass", &mass).unwrap();
+        let wave = |k: usize| (0.37 * (k * k) as f64).sin();
+        let first: Vec<f64> = (0..8 * N).map(wave).collect();
+        for outside in [1.0, 1e-2, 1e-4, 1e-6] {
+            let mut rows = OrthonormalRows::new(&mass, 5e-13);
+            rows.extend(first.clone(), Least::Fraction(1e-9));
+            let own = |k: usize| first[(k + N) % first.len()] + outside * wave(k + 7);
+            rows.extend((0..8 * N).map(own).collect(), Least::Fraction(1e-9));
+            rows.extend((0..8 * N).map(|k| outside * wave(k + 31)).collect(), Least::Length(1e-9));
+            assert_eq!(rows.count(), 24);
+            for momenta in [rows.momenta(), &mass.times(rows.vectors())] {
+                let mut products = row_products(rows.vectors(), momenta, N);
+                (0..24).for_each(|i| products[25 * i] -= 1.0);
+                assert!(largest(&products) < 1e-12, "{outside:e}: {:e}", largest(&products));
+            }
+        }
+    }
 }

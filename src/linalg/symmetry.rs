@@ -7,10 +7,10 @@ impl SparseMatrix {
     pub(crate) fn asymmetry(&self) -> f64 {
         let mut largest = 0.0_f64;
         let mut difference = 0.0_f64;
-        for (_, _, value, mirrored) in self.mirrored() {
+        self.mirrored().for_each(|(_, _, value, mirrored)| {
             largest = largest.max(value.abs());
             difference = difference.max((value - mirrored).abs());
-        }
+        });
         if largest > 0.0 { difference / largest } else { 0.0 }
     }
 

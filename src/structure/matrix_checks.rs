@@ -74,26 +74,20 @@ pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -
 
 /// β and α, if a matrix is βA + αB up to rounding.
 ///
-/// A has all places of B. If A is positive definite and B positive semi-definite, the matrix is positive semi-definite,
+/// A has all places of both. If A is positive definite and B positive semi-definite, the matrix is positive semi-definite,
 /// as its check by factors: an α below zero may leave negative values as small as the check allows.
 pub(crate) fn combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> Option<[f64; 2]> {
-    let b = SparseMatrix::sum("matrix", a.order(), &[(0.0, a), (1.0, b)]).ok()?;
-    let entries = || matrix.entries().zip(a.entries()).zip(b.entries());
-    let is_alike = |own: &SparseMatrix| {
-        let places = |of| SparseMatrix::entries(of).map(|(i, j, _)| (i, j));
-        places(own).eq(places(matrix))
-    };
-    if !(is_alike(a) && is_alike(&b)) {
-        return None;
-    }
     let diagonal = matrix.diagonal();
+    let [own, b] = [matrix.values_at(a)?, b.values_at(a)?];
+    let entries =
+        || a.entries().zip(own.iter().zip(&b)).map(|((i, j, a), (own, b))| (i, j, [*own, a, *b]));
     // Least squares, of entries in a matrix scaled to a unit diagonal.
     let mut sums = [0.0; 5];
-    for (((i, j, own), (.., a)), (.., b)) in entries() {
+    entries().for_each(|(i, j, [own, a, b])| {
         let scale = (diagonal[i] * diagonal[j]).abs().max(f64::MIN_POSITIVE).recip();
         let products = [a * a, a * b, b * b, a * own, b * own];
         sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += scale * product);
-    }
+    });
     let [aa, ab, bb, ac, bc] = sums;
     let rest = aa * bb - ab * ab;
     let (beta, alpha) = if rest > SYMMETRIC * aa * bb {
@@ -104,10 +98,10 @@ pub(crate) fn combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> 
     // A β below zero is rounding, or is left as a difference.
     let (beta, alpha) = if beta < 0.0 { (0.0, bc / bb) } else { (beta, alpha) };
     let mut left = vec![[0.0; 2]; diagonal.len()];
-    for (((i, _, own), (.., a)), (.., b)) in entries() {
+    entries().for_each(|(i, _, [own, a, b])| {
         left[i][0] += (own - beta * a - alpha * b).abs();
         left[i][1] += (-alpha).max(0.0) * b.abs();
-    }
+    });
     let is_rounding = |(left, own): (&[f64; 2], &f64)| {
         left[0] <= SYMMETRIC * own && left[1] <= SEMI_DEFINITE * own
     };

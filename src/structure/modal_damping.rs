@@ -179,8 +179,10 @@ fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
     let n = structure.dofs();
     let needed = "3000 or fewer: reduce it first";
     require("number of degrees of freedom with modal damping", n as f64, n <= MOST, needed)?;
-    let mass = SparseMatrix::assembled("mass matrix", n, &|matrix| structure.mass(matrix))?;
-    let stiffness = SparseMatrix::assembled("stiffness matrix", n, &|matrix| {
+    let mut triplets = Triplets::new(n);
+    let mass =
+        SparseMatrix::assembled("mass matrix", &mut triplets, &|matrix| structure.mass(matrix))?;
+    let stiffness = SparseMatrix::assembled("stiffness matrix", &mut triplets, &|matrix| {
         structure.stiffness(matrix)?;
         structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
     })?;

@@ -27,6 +27,8 @@ const LEAST: f64 = 1e-10;
 /// Name of the coordinates in errors.
 pub(crate) const REDUCED: &str = "reduced coordinates";
 
+/// Rounding of V M Vᵀ after one pass of orthogonalisation.
+const ROUNDING: f64 = 1e-12;
 /// Smallest independent part of a translation.
 const INDEPENDENT: f64 = 1e-7;
 
@@ -58,7 +60,7 @@ impl<'a> Subspace<'a> {
         [mass, damping, stiffness]: [&'a SparseMatrix; 3],
         translations: Vec<f64>,
     ) -> Self {
-        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass));
+        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass, ROUNDING));
         let projected = [Vec::new(), Vec::new()];
         let undamped = damping.is_empty().then_some([0.0; 2]);
         let proportional = undamped.or_else(|| combination(damping, [stiffness, mass]));
@@ -133,7 +135,7 @@ impl<'a> Subspace<'a> {
         // X M Xᵀ without the part inside V.
         let inside = row_products(&shares, &shares, before);
         let apart = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
-        let weights = independent(apart, size, least * least);
+        let (weights, _) = independent(apart, size, least * least);
         // V and D in terms of V and X.
         let all = before + size;
         let mut terms = vec![0.0; before * all];

@@ -30,8 +30,10 @@ pub(crate) fn held(
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
     let base = PlacedBase::of(structure.as_ref(), elements)?;
     let n = structure.dofs();
-    let assemble =
-        |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| SparseMatrix::assembled(name, n, fill);
+    let mut triplets = Triplets::new(n);
+    let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+        SparseMatrix::assembled(name, &mut triplets, fill)
+    };
     let mass = assemble("mass matrix", &|matrix| structure.mass(matrix))?;
     let stiffness = assemble("stiffness matrix", &|matrix| {
         structure.stiffness(matrix)?;

@@ -53,12 +53,14 @@ impl Assembled {
         let base = PlacedBase::of(structure, elements)?;
         let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
         at_least("list of degrees of freedom", dofs, 1)?;
-        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-            SparseMatrix::assembled(name, dofs, fill)
+        let mut triplets = Triplets::new(dofs);
+        let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+            SparseMatrix::assembled(name, &mut triplets, fill)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
+        drop(triplets);
         let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
         let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
         let sum = || SparseMatrix::sum("stiffness matrix", dofs, &terms);

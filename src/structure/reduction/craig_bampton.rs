@@ -109,10 +109,11 @@ impl CraigBampton {
         let n = structure.dofs();
         let needed = "must be linear: put springs on the reduced model";
         require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
-        let assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| -> Result<SparseMatrix> {
-            let matrix = SparseMatrix::assembled(name, n, fill)?;
+        let mut triplets = Triplets::new(n);
+        let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
+            let matrix = SparseMatrix::assembled(name, &mut triplets, fill)?;
             check_mirrored(name, &matrix)?;
-            Ok(matrix)
+            Ok::<_, Error>(matrix)
         };
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
