@@ -153,17 +153,17 @@ impl<'a> Reduction<'a> {
         self.modes_of_few(tolerance, matrices)
     }
 
-    /// The rigid motions.
-    pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3]) -> Subspace<'m> {
+    /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
+    pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3], rounding: f64) -> Subspace<'m> {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
-        let mut space = Subspace::new(matrices, translations);
+        let mut space = Subspace::new(matrices, translations, rounding);
         space.extend(self.held.rotations.clone(), LEAST_NEW);
         space
     }
 
     /// Ritz modes for few forces: powers of several shifts.
     fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let (mut space, lowest) = (self.rigid(matrices), self.held.lowest);
+        let (mut space, lowest) = (self.rigid(matrices, 0.0), self.held.lowest);
         space.extend(self.motions.clone(), LEAST_NEW);
         let rows = &self.rows.all;
         let count = (rows.len() / self.assembled.dofs()).max(1);

@@ -20,6 +20,8 @@ const GROWTH: f64 = std::f64::consts::SQRT_2;
 const MODES: usize = 600;
 /// Residual of vibration modes, relative to the root of the tolerance: responses depend on its square.
 const LOOSE: f64 = 0.1;
+/// Rounding of the vectors' orthogonality after one pass, relative to the square of the tolerance.
+const ROUNDING: f64 = 1e-4;
 /// Largest number of rounds with vibration modes.
 const ROUNDS_OF_MODES: usize = 5;
 /// Lowest and highest shift for vibration modes and static responses, relative to the scheme's.
@@ -38,7 +40,7 @@ impl Reduction<'_> {
         tolerance: f64,
         matrices: [&SparseMatrix; 3],
     ) -> Result<ModalBasis> {
-        let mut space = self.rigid(matrices);
+        let mut space = self.rigid(matrices, ROUNDING * tolerance * tolerance);
         let (rows, c) = (&self.rows.all, self.coefficients);
         let count = (rows.len() / self.assembled.dofs()).max(1);
         let mut block = space.balanced(rows.clone());

@@ -27,8 +27,6 @@ const LEAST: f64 = 1e-10;
 /// Name of the coordinates in errors.
 pub(crate) const REDUCED: &str = "reduced coordinates";
 
-/// Rounding of V M Vᵀ after one pass of orthogonalisation.
-const ROUNDING: f64 = 1e-12;
 /// Smallest independent part of a translation.
 const INDEPENDENT: f64 = 1e-7;
 
@@ -55,12 +53,13 @@ pub(crate) struct Ritz {
 }
 
 impl<'a> Subspace<'a> {
-    /// The space of these rigid translations.
+    /// The space of these rigid translations; `rounding`: see [`OrthonormalRows::new`].
     pub(crate) fn new(
         [mass, damping, stiffness]: [&'a SparseMatrix; 3],
         translations: Vec<f64>,
+        rounding: f64,
     ) -> Self {
-        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass, ROUNDING));
+        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass, rounding));
         let projected = [Vec::new(), Vec::new()];
         let undamped = damping.is_empty().then_some([0.0; 2]);
         let proportional = undamped.or_else(|| combination(damping, [stiffness, mass]));
@@ -316,7 +315,7 @@ mod tests {
         let wave = |k: usize| (0..n).map(move |i| (0.3 * (k * i) as f64).sin());
         let rows: Vec<f64> = [wave(11), wave(13)].into_iter().flatten().collect();
         for is_proportional in [true, false] {
-            let mut space = Subspace::new([&mass, &damping, &stiffness], vec![1.0; n]);
+            let mut space = Subspace::new([&mass, &damping, &stiffness], vec![1.0; n], 0.0);
             assert!(space.proportional.is_some());
             if !is_proportional {
                 // Damping that counts as any other.
