@@ -30,6 +30,8 @@ fn march(profile: SoilProfile, time_step: f64, every: usize) -> [Vec<f64>; 2] {
     let mut count = 0;
     let run = simulation.run(steps, |state| {
         count += 1;
+        // The factors of W solve once.
+        assert_eq!(state.trials, 1);
         if count % every == 0 {
             let u = state.absolute_displacement();
             // The table's z points down.

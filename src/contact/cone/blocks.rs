@@ -15,8 +15,9 @@ use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
 const NEAR: f64 = 3e-3;
-/// Largest number of elements near one, relative to all.
+/// Largest number of elements near one, relative to all; and above which sweeps take more time than factors of W.
 const MOST_NEAR: f64 = 0.3;
+const MANY_NEAR: f64 = 0.05;
 
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
 type Block = [[f64; 4]; 3];
@@ -99,6 +100,12 @@ impl Blocks {
             amplitudes: [0.0; RANK],
             known: (vec![f64::NAN; 3 * count], vec![[0.0; 4]; count + 1], [0.0; RANK]),
         })
+    }
+
+    /// Whether factors of W solve in less time than sweeps.
+    pub(super) fn has_many_near(&self) -> bool {
+        let count = self.known.0.len() / 3;
+        self.near.all.len() as f64 > MANY_NEAR * (count * count) as f64
     }
 
     /// Sets the motions to W r.

@@ -1,7 +1,7 @@
 //! Contact with uplift and friction in plan: Signorini's law, and Coulomb's law with shear on a disc.
 //!
 //! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
-//!    change. Many elements on a lattice begin with sweeps.
+//!    change. Many elements on a lattice begin with sweeps, unless all stick and each moves many others.
 //! 2. Sweeps over the elements, from the forces of the previous step.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
@@ -246,11 +246,13 @@ impl Cone {
         Ok(())
     }
 
-    /// Solves for the statuses of the previous step; `false` if an element slid.
+    /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
     fn repeat(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
-        // Sweeps with blocks take less time.
-        if problem.blocks.is_some() {
+        // The factors of W, if all elements stick.
+        if let Some(blocks) = &problem.blocks
+            && !(blocks.has_many_near() && modes.iter().all(|mode| *mode == Mode::Stick))
+        {
             return false;
         }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
