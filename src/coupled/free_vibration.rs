@@ -19,7 +19,9 @@ use crate::interface::Bonded;
 use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
-use crate::structure::{DofCombination, HeldBase, Structure, Triplets, stiffest};
+use crate::structure::{
+    DofCombination, HeldBase, Structure, Triplets, mass_and_stiffness, stiffest,
+};
 
 /// Stiffness of the springs that hold the base, relative to the largest stiffness.
 const HELD: f64 = 1e6;
@@ -59,16 +61,10 @@ impl FixedBaseMode {
     /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
     pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
+        let [mass, stiffness] = mass_and_stiffness(structure)?;
         let mut triplets = Triplets::new(n);
-        let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-            SparseMatrix::assembled(name, &mut triplets, fill)
-        };
-        let mass = assemble("mass matrix", &|m| structure.mass(m))?;
-        let damping = assemble("damping matrix", &|m| structure.damping(m))?;
-        let stiffness = assemble("stiffness matrix", &|m| {
-            structure.stiffness(m)?;
-            structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
-        })?;
+        let damping =
+            SparseMatrix::assembled("damping matrix", &mut triplets, &|m| structure.damping(m))?;
         let base = structure.base();
         base.check(n)?;
         let nodes = base.into_nodes();

@@ -60,7 +60,7 @@ pub use models::{
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{
-    Tangent, is_nonlinear, nonlinear_state, restore_variables, save_variables,
+    Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state, restore_variables, save_variables,
 };
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};

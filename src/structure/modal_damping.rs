@@ -6,6 +6,7 @@ use super::rigid_motions::{check_rows, rigid_momenta};
 use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRIC;
+use crate::structure::nonlinear::mass_and_stiffness;
 use crate::structure::{HeldBase, NonlinearForce, Structure, Triplets, stiffest};
 
 /// Damping ratios of a structure's own modes; its rigid motions are not damped.
@@ -179,13 +180,7 @@ fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
     let n = structure.dofs();
     let needed = "3000 or fewer: reduce it first";
     require("number of degrees of freedom with modal damping", n as f64, n <= MOST, needed)?;
-    let mut triplets = Triplets::new(n);
-    let mass =
-        SparseMatrix::assembled("mass matrix", &mut triplets, &|matrix| structure.mass(matrix))?;
-    let stiffness = SparseMatrix::assembled("stiffness matrix", &mut triplets, &|matrix| {
-        structure.stiffness(matrix)?;
-        structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
-    })?;
+    let [mass, stiffness] = mass_and_stiffness(structure)?;
     if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRIC {
         return Err(SYMMETRIC_AND_HEAVY);
     }

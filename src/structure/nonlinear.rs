@@ -190,6 +190,18 @@ pub(crate) struct Tangent {
     entries: Triplets,
 }
 
+/// Mass, and stiffness with the tangent of the nonlinear force at rest.
+pub(crate) fn mass_and_stiffness(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
+    let n = structure.dofs();
+    let mut triplets = Triplets::new(n);
+    let mass = SparseMatrix::assembled("mass matrix", &mut triplets, &|m| structure.mass(m))?;
+    let stiffness = SparseMatrix::assembled("stiffness matrix", &mut triplets, &|m| {
+        structure.stiffness(m)?;
+        structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
+    })?;
+    Ok([mass, stiffness])
+}
+
 impl Tangent {
     pub(crate) fn new(dofs: usize) -> Self {
         Self { matrix: SparseMatrix::default(), entries: Triplets::new(dofs) }

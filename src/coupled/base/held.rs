@@ -10,9 +10,10 @@ use crate::bem::Ground;
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
-use crate::linalg::{SparseMatrix, dot};
+use crate::linalg::dot;
 use crate::structure::{
-    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, stiffest,
+    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, mass_and_stiffness,
+    stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
@@ -30,15 +31,7 @@ pub(crate) fn held(
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
     let base = PlacedBase::of(structure.as_ref(), elements)?;
     let n = structure.dofs();
-    let mut triplets = Triplets::new(n);
-    let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-        SparseMatrix::assembled(name, &mut triplets, fill)
-    };
-    let mass = assemble("mass matrix", &|matrix| structure.mass(matrix))?;
-    let stiffness = assemble("stiffness matrix", &|matrix| {
-        structure.stiffness(matrix)?;
-        structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], matrix))
-    })?;
+    let [mass, stiffness] = mass_and_stiffness(structure.as_ref())?;
     let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
     let (mut along, mut factor) = (springs.pulls().swap_remove(0), springs.factor()?);
     factor.solve(&mut along);
