@@ -65,6 +65,7 @@ impl FixedBaseMode {
         let mut triplets = Triplets::new(n);
         let damping =
             SparseMatrix::assembled("damping matrix", &mut triplets, &|m| structure.damping(m))?;
+        drop(triplets);
         let base = structure.base();
         base.check(n)?;
         let nodes = base.into_nodes();

@@ -52,14 +52,11 @@ pub(crate) fn assemble(
         }
         numbering.of_element(element, &mut indices);
         // Most directions have no common mass: without their zeros products with the mass take a third of the time.
-        let has_zeros = !matches!(quantity, MatrixKind::Mass(_));
-        for (row, values) in indices.iter().zip(block.chunks_exact(indices.len())) {
-            for (column, &value) in indices.iter().zip(values) {
-                if has_zeros || value != 0.0 {
-                    matrix.add(*row, *column, value);
-                }
-            }
-        }
+        let keeps_zeros = !matches!(quantity, MatrixKind::Mass(_));
+        let places =
+            indices.iter().flat_map(|row| indices.iter().map(move |column| (*row, *column)));
+        let entries = places.zip(&block).map(|((row, column), value)| (row, column, *value));
+        matrix.extend(entries.filter(|(.., value)| keeps_zeros || *value != 0.0));
     }
 }
 

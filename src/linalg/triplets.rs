@@ -155,9 +155,13 @@ impl Triplets {
         write: impl FnOnce(&mut Self) -> T,
     ) -> T {
         let outer = (self.order, self.shift);
-        (self.order, self.shift) = (order, Some(self.shift.unwrap_or(0) + first));
+        let inner = (order, Some(self.shift.unwrap_or(0) + first));
+        (self.order, self.shift) = inner;
         let written = write(self);
-        (self.order, self.shift) = outer;
+        // A block that was replaced keeps its order, which is refused.
+        if (self.order, self.shift) == inner {
+            (self.order, self.shift) = outer;
+        }
         written
     }
 

@@ -74,8 +74,8 @@ pub(crate) fn check_damping(damping: &SparseMatrix, elimination: &Elimination) -
 
 /// β and α, if a matrix is βA + αB up to rounding.
 ///
-/// A has all places of both. If A is positive definite and B positive semi-definite, the matrix is positive semi-definite,
-/// as its check by factors: an α below zero may leave negative values as small as the check allows.
+/// A has all places of both. If A is positive definite and B positive semi-definite, the matrix is positive
+/// semi-definite, as its check by factors: an α below zero may leave negative values as small as the check allows.
 pub(crate) fn combination(matrix: &SparseMatrix, [a, b]: [&SparseMatrix; 2]) -> Option<[f64; 2]> {
     let diagonal = matrix.diagonal();
     let [own, b] = [matrix.values_at(a)?, b.values_at(a)?];
@@ -139,7 +139,15 @@ mod tests {
 
     #[test]
     fn proportional_matrices_are_combinations_and_others_are_not() {
-        let (stiffness, mass) = (chain(4.0e6, 1e-2), chain(0.0, 2.0));
+        let stiffness = chain(4.0e6, 1e-2);
+        let masses = Triplets::from_entries(30, (0..30).map(|i| (i, i, 2.0)));
+        let mass = SparseMatrix::new("mass", &masses).unwrap();
+        // In the places of the mass alone, and without any.
+        let own = SparseMatrix::sum("sum", 30, &[(0.7, &mass)]).unwrap();
+        let [beta, alpha] = combination(&own, [&stiffness, &mass]).unwrap();
+        assert!(beta == 0.0 && (alpha - 0.7).abs() < 1e-14, "{beta} {alpha}");
+        let none = SparseMatrix::new("none", &Triplets::new(30)).unwrap();
+        assert_eq!(combination(&none, [&stiffness, &mass]), Some([0.0; 2]));
         let floating = [&stiffness, &mass];
         let sum = |terms: &[(f64, &SparseMatrix)]| SparseMatrix::sum("sum", 30, terms).unwrap();
         // In proportion to both, to the stiffness, and to the mass in the places of the stiffness.

@@ -6,8 +6,9 @@ use super::rigid_motions::{check_rows, rigid_momenta};
 use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRIC;
-use crate::structure::nonlinear::mass_and_stiffness;
-use crate::structure::{HeldBase, NonlinearForce, Structure, Triplets, stiffest};
+use crate::structure::{
+    HeldBase, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
+};
 
 /// Damping ratios of a structure's own modes; its rigid motions are not damped.
 ///

@@ -184,12 +184,6 @@ pub(crate) fn nonlinear_state(
     Ok((force, own.energy(displacement)))
 }
 
-/// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.
-pub(crate) struct Tangent {
-    pub(crate) matrix: SparseMatrix,
-    entries: Triplets,
-}
-
 /// Mass, and stiffness with the tangent of the nonlinear force at rest.
 pub(crate) fn mass_and_stiffness(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
     let n = structure.dofs();
@@ -200,6 +194,12 @@ pub(crate) fn mass_and_stiffness(structure: &dyn Structure) -> Result<[SparseMat
         structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
     })?;
     Ok([mass, stiffness])
+}
+
+/// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.
+pub(crate) struct Tangent {
+    pub(crate) matrix: SparseMatrix,
+    entries: Triplets,
 }
 
 impl Tangent {

@@ -311,6 +311,42 @@ fn groups_that_make_no_sense_are_refused() {
     assert!(empty.is_err());
 }
 
+/// A block that replaces the matrix that it is to fill.
+struct Replacing(RigidBlock);
+
+impl Structure for Replacing {
+    fn dofs(&self) -> usize {
+        self.0.dofs()
+    }
+
+    fn base(&self) -> Base {
+        self.0.base()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        let mut own = Triplets::new(self.0.dofs());
+        self.0.mass(&mut own)?;
+        *matrix = own;
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
+    }
+}
+
+/// Replaced by a member alone it is the whole matrix; in a group it would lose all other members.
+#[test]
+fn members_that_replace_the_matrix_of_their_group_are_refused() {
+    let alone = base().structure(Replacing(block())).ground(half_plane(&[strip(0.0, 3.0)]));
+    assert!(alone.build().is_ok());
+    let pair = StructureGroup::new().with(block(), 0.0).unwrap();
+    let pair = pair.with(Replacing(block()), 5.0).unwrap();
+    let strips = [strip(0.0, 3.0), strip(5.0, 3.0)];
+    let built = base().structure(pair).ground(half_plane(&strips)).build();
+    assert!(matches!(built, Err(Error::Size { .. })), "{:?}", built.err());
+}
+
 #[test]
 fn foundations_stay_apart_in_every_wrapper() {
     let pair = || StructureGroup::new().with(tower(), 0.0).unwrap().with(block(), 5.0).unwrap();

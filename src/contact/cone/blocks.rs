@@ -15,9 +15,12 @@ use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
 const NEAR: f64 = 3e-3;
-/// Largest number of elements near one, relative to all; and above which sweeps take more time than factors of W.
+/// Largest number of elements near one, relative to all.
 const MOST_NEAR: f64 = 0.3;
+/// Number of elements near one, relative to all, above which factors of W solve in less time than sweeps.
 const MANY_NEAR: f64 = 0.05;
+/// Largest number of elements for which factors of W fit into caches.
+const FACTORED: usize = 600;
 
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
 type Block = [[f64; 4]; 3];
@@ -102,10 +105,10 @@ impl Blocks {
         })
     }
 
-    /// Whether factors of W solve in less time than sweeps.
-    pub(super) fn has_many_near(&self) -> bool {
-        let count = self.known.0.len() / 3;
-        self.near.all.len() as f64 > MANY_NEAR * (count * count) as f64
+    /// Whether factors of W solve in less time than sweeps, for elements that all stick.
+    pub(super) fn is_factored(&self) -> bool {
+        let count = self.near.starts.len() - 1;
+        count <= FACTORED && self.near.all.len() as f64 > MANY_NEAR * (count * count) as f64
     }
 
     /// Sets the motions to W r.

@@ -249,12 +249,6 @@ impl Cone {
     /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
     fn repeat(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
-        // The factors of W, if all elements stick.
-        if let Some(blocks) = &problem.blocks
-            && !(blocks.has_many_near() && modes.iter().all(|mode| *mode == Mode::Stick))
-        {
-            return false;
-        }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
             let smooth = bounds.friction == 0.0 && !bounds.has_bond();
             *status = match mode {
@@ -273,6 +267,10 @@ impl Cone {
             if capped && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
+        }
+        let sticks = newton.statuses.iter().all(|status| *status == Status::STICK);
+        if problem.blocks.as_ref().is_some_and(|blocks| !(sticks && blocks.is_factored())) {
+            return false;
         }
         problem.rest();
         newton.step(problem)

@@ -134,7 +134,7 @@ impl<'a> Subspace<'a> {
         // X M Xᵀ without the part inside V.
         let inside = row_products(&shares, &shares, before);
         let apart = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
-        let (weights, _) = independent(apart, size, least * least);
+        let weights = independent(apart, size, least * least);
         // V and D in terms of V and X.
         let all = before + size;
         let mut terms = vec![0.0; before * all];

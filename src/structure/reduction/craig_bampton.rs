@@ -118,6 +118,7 @@ impl CraigBampton {
         let mass = assemble("mass matrix", &|m| structure.mass(m))?;
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        drop(triplets);
 
         let mut base = structure.base();
         let parts = Parts::new(n, &base, &self.kept)?;
