@@ -62,10 +62,9 @@ impl FixedBaseMode {
     pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
         let [mass, stiffness] = mass_and_stiffness(structure)?;
-        let mut triplets = Triplets::new(n);
-        let damping =
-            SparseMatrix::assembled("damping matrix", &mut triplets, &|m| structure.damping(m))?;
-        drop(triplets);
+        let damping = SparseMatrix::assembled("damping matrix", &mut Triplets::new(n), &|m| {
+            structure.damping(m)
+        })?;
         let base = structure.base();
         base.check(n)?;
         let nodes = base.into_nodes();

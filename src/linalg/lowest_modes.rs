@@ -6,8 +6,8 @@
 //! | V | basis, M-orthonormal, a row per vector |
 //! | H | Vᵀ M A V |
 //!
-//! Every new vector is made orthogonal to all earlier ones, twice unless the residual may be large (Parlett 1998, § 13), so
-//! no spurious copies appear. As many modes of the same frequency are found as a block has vectors.
+//! Every new vector is made orthogonal to all earlier ones, twice unless the residual may be large (Parlett 1998,
+//! § 13). This excludes spurious copies. The search finds as many modes of one frequency as a block has vectors.
 
 use super::eigen::symmetric_modes;
 use super::orthonormal::{Least, OrthonormalRows};

@@ -249,6 +249,9 @@ impl Cone {
     /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
     fn repeat(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
+        if problem.blocks.as_ref().is_some_and(|blocks| !blocks.is_factored()) {
+            return false;
+        }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
             let smooth = bounds.friction == 0.0 && !bounds.has_bond();
             *status = match mode {
@@ -264,13 +267,10 @@ impl Cone {
                 },
             };
             let capped = status.normal == Normal::Capped;
-            if capped && bounds.interval[1] == f64::INFINITY {
+            let is_swept = problem.blocks.is_some() && *status != Status::STICK;
+            if is_swept || capped && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
-        }
-        let sticks = newton.statuses.iter().all(|status| *status == Status::STICK);
-        if problem.blocks.as_ref().is_some_and(|blocks| !(sticks && blocks.is_factored())) {
-            return false;
         }
         problem.rest();
         newton.step(problem)
