@@ -137,11 +137,11 @@ impl Cone {
         Ok((trials, method))
     }
 
-    /// jump ← jump + W τ, by blocks where there are.
+    /// jump ← jump + W τ, by blocks or tables where there are.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
-        if self.problem.blocks.is_none() {
+        if self.problem.blocks.is_none() && self.problem.wide.is_none() {
             return input.delassus.multiply_add(traction, jump);
         }
         let Self { problem, areas, layers, .. } = self;

@@ -14,6 +14,8 @@ const KNOWN: usize = 4;
 const GOAL: f64 = 1e-2;
 /// Change at which projections of an element end, as a fraction of a change at which sweeps end.
 const LEAST: f64 = 0.1;
+/// The same, as a fraction of the first projection's change: other elements have not moved yet.
+const PART: f64 = 0.1;
 /// With blocks: change in a sweep after which all elements move, as a fraction of the changes since they last did; and
 /// the largest number of sweeps between.
 const SHARE: f64 = 3e-2;
@@ -141,7 +143,7 @@ impl Problem {
         (0..self.count).map(|e| self.relax(e, least)).fold(0.0, larger)
     }
 
-    /// Solves an element with the others fixed until its force changes by no more than `least`; returns its change, N.
+    /// Solves an element with the others fixed, to `least` or a part of its change; returns its change, N.
     fn relax(&mut self, e: usize, least: f64) -> f64 {
         let places = self.places(e);
         let start = places.map(|i| self.force(i));
@@ -164,7 +166,7 @@ impl Problem {
 
 /// Force of an element with the forces of others fixed, for its present force and motion.
 ///
-/// It is projected until it changes by no more than `least`.
+/// It is projected until it changes by no more than `least`, or by little beside the first projection.
 #[inline(always)]
 fn alone(
     bounds: &Bounds,
@@ -174,8 +176,8 @@ fn alone(
     mut y: [f64; 3],
     least: f64,
 ) -> [f64; 3] {
-    let mut r = start;
-    for _ in 0..LOCAL {
+    let (mut r, mut least) = (start, least);
+    for projection in 0..LOCAL {
         let p = bounds.press(r[0] - normal * (y[0] - bounds.offset));
         let pressed = p - r[0];
         if pressed != 0.0 {
@@ -193,6 +195,9 @@ fn alone(
         let change = pressed.abs() + sheared[0].abs() + sheared[1].abs();
         if change.is_nan() || change <= least {
             break;
+        }
+        if projection == 0 {
+            least = least.max(PART * change);
         }
     }
     r
@@ -224,7 +229,7 @@ impl WithSimd for Sweep<'_> {
     }
 }
 
-/// A sweep by tables: all elements in turn, each until its force changes by no more than `least`.
+/// A sweep by tables: all elements in turn, each to `least` or a part of its change.
 struct WideSweep<'a> {
     problem: &'a mut Problem,
     least: f64,

@@ -20,7 +20,7 @@
 
 use super::problem::Problem;
 use super::status::{Status, Tangential};
-use crate::linalg::{DenseFactor, dense_multiply_add};
+use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 
 /// Number of columns of W⁻¹ that are solved for together.
 const BLOCK: usize = 32;
@@ -86,7 +86,7 @@ pub(super) struct System {
     by_motions: bool,
     /// Corrections that follow from the statuses alone, of the same kind as the unknown quantities.
     given: Vec<f64>,
-    /// Response to the given corrections, of the other kind.
+    /// Quantities of the other kind after the given corrections, where a condition has them.
     answer: Vec<f64>,
 }
 
@@ -306,15 +306,20 @@ impl System {
     }
 
     /// Solves, and adds the corrections to r.
+    ///
+    /// By motions the forces are then W⁻¹ of all motions; by forces the motions are left as they are.
     fn correct(&mut self, problem: &mut Problem) {
         let Self { dofs, rhs, factor, inverse, given, answer, .. } = self;
         let Problem { w, change, y, .. } = problem;
         let (matrix, own, other) =
             if self.by_motions { (inverse, y, change) } else { (w, change, y) };
         own.iter_mut().zip(given.iter()).for_each(|(own, given)| *own += given);
-        answer.copy_from_slice(other);
-        if given.iter().any(|given| *given != 0.0) {
-            dense_multiply_add(matrix, 1.0, given, answer);
+        // Only the rows of conditions; NaN marks the others.
+        answer.fill(f64::NAN);
+        for place in dofs.iter().flat_map(|unknown| unknown.row.places) {
+            if answer[place].is_nan() {
+                answer[place] = other[place] + dot(&matrix[place * given.len()..], given);
+            }
         }
         rhs.clear();
         rhs.extend(dofs.iter().map(|unknown| {
@@ -322,15 +327,11 @@ impl System {
             goal - row.sum(answer) - weight * column.sum(own)
         }));
         factor.solve(rhs);
-        if !self.by_motions {
-            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
-            return;
-        }
-        other.copy_from_slice(answer);
-        if !dofs.is_empty() {
-            given.fill(0.0);
+        if self.by_motions {
             dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(given, *x));
             dense_multiply_add(matrix, 1.0, given, other);
+        } else {
+            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
         }
     }
 }
