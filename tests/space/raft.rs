@@ -234,6 +234,27 @@ fn a_round_raft_rocks_under_its_wall() {
     }
 }
 
+/// The strength that holds a raft down does not enter the accuracy of its forces: it stands under any small weight.
+#[test]
+fn a_raft_without_weight_stands() {
+    let (soil, radius) = (Soil::new(30.0e6, 1.0 / 3.0, 1900.0).unwrap(), 0.5 * SIDE);
+    let (model, surface) = round_raft(0.001 * soil.shear_modulus(), &[]);
+    let edge = || surface.row(ROWS).iter().map(|&node| (node, model.mesh().nodes()[node][0]));
+    let row = |node: usize| model.row(node, Direction::Z).unwrap();
+    let tilt = |gravity: f64| {
+        let ground = ElasticGround::under(soil, &model, 12).unwrap();
+        let law = Coulomb::new(0.0).unwrap().with_tensile_strength(1.0e9).unwrap();
+        let builder = Simulation::builder(0.01).ground(ground).gravity(gravity).interface(law);
+        let loads = edge().map(|(node, x)| Load::constant(row(node), LOAD * x / radius));
+        let builder = loads.fold(builder, SimulationBuilder::load).structure(model.clone());
+        let simulation = builder.build().unwrap();
+        let own = |(node, x): (usize, f64)| x * row(node).value(simulation.static_displacement());
+        edge().map(own).sum::<f64>()
+    };
+    let [some, little] = [1e-3, 1e-9].map(tilt);
+    assert!((little / some - 1.0).abs() < 1e-6, "{some} {little}");
+}
+
 /// The overhang under rafts of known bending stiffness D, one shell on each cell.
 #[test]
 fn cells_extend_as_far_as_the_stiffness_wants() {

@@ -104,14 +104,13 @@ fn scene(law: impl InterfaceLaw + 'static, step: f64, scale: f64) -> Result<Simu
 
 #[test]
 fn a_cone_that_sticks_is_bonded() {
-    let mut bonded = scene(Bonded, 4e-3, 1.0).unwrap();
-    let cohesive = Cohesive::new(1e9, 1e9, 0.5).unwrap();
+    let glue = |strength: f64| Cohesive::new(strength, strength, 0.5).unwrap();
     let glued = [
-        scene(cohesive, 4e-3, 1.0).unwrap(),
-        scene(Coulomb::new(50.0).unwrap(), 4e-3, 0.2).unwrap(),
+        (1.0, scene(glue(1e9), 4e-3, 1.0).unwrap()),
+        (0.2, scene(Coulomb::new(50.0).unwrap(), 4e-3, 0.2).unwrap()),
     ];
-    let mut weak = scene(Bonded, 4e-3, 0.2).unwrap();
-    for (mut other, reference) in glued.into_iter().zip([&mut bonded, &mut weak]) {
+    for (scale, mut other) in glued {
+        let mut reference = scene(Bonded, 4e-3, scale).unwrap();
         let mut size = [0.0_f64; 2];
         for _ in 0..500 {
             let (a, b) = (reference.step().unwrap(), other.step().unwrap());
@@ -125,6 +124,26 @@ fn a_cone_that_sticks_is_bonded() {
                     assert!((x - y).abs() <= 1e-10 * size, "{one:?} {two:?}");
                 }
             }
+        }
+    }
+}
+
+/// Strengths that no force reaches change neither results nor their accuracy.
+#[test]
+fn unlimited_strength_is_a_strength_never_reached() {
+    let run = |strength: f64| {
+        let law = Coulomb::new(0.0).unwrap().with_tensile_strength(strength).unwrap();
+        let mut simulation = scene(law, 4e-3, 1.0).unwrap();
+        simulation.run(500, |_| {}).unwrap();
+        simulation
+    };
+    let known = run(1e6);
+    assert!(known.state().modes.iter().all(|mode| mode.is_slip()));
+    for strength in [1e12, 1e20] {
+        let found = run(strength);
+        let size = known.state().displacement().iter().fold(0.0_f64, |m, u| m.max(u.abs()));
+        for (a, b) in known.state().displacement().iter().zip(found.state().displacement()) {
+            assert!((a - b).abs() < 1e-9 * size, "{strength:e}: {a} {b}");
         }
     }
 }

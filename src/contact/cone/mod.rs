@@ -165,15 +165,9 @@ impl Cone {
         self.find_operator(generation, input)?;
         let Self { problem, areas, layers, .. } = self;
         self.broken.fill(false);
-        problem.scale = 0.0;
         for (e, &area) in areas.iter().enumerate() {
             let start = input.start.element(e);
-            let limits = limits(input, e)?;
-            let bounds = bounds(&limits, area);
-            problem.bounds[e] = bounds;
-            for own in [bounds.attraction, bounds.strength, -bounds.interval[0]] {
-                problem.scale = problem.scale.max(own);
-            }
+            problem.bounds[e] = bounds(&limits(input, e)?, area);
             let (jump, shear) = (start.state.jump(), start.state.traction());
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 problem.anchor[i] = area * input.static_traction[i];
@@ -187,7 +181,7 @@ impl Cone {
                 }
             }
         }
-        problem.scale = problem.scale.max(largest(&problem.anchor));
+        problem.scale = largest(&problem.anchor);
         let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |most, rho| most.max(*rho));
         problem.finest = 4.0 * f64::EPSILON * input.length_scale * stiffest;
         Ok(())

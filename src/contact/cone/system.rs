@@ -168,11 +168,9 @@ impl System {
             return false;
         }
         let Self { whole, answer, .. } = self;
-        for (e, bounds) in problem.bounds.iter().enumerate() {
-            let [n, x, y] = problem.places(e);
-            answer[n] = bounds.offset - problem.y[n];
-            (answer[x], answer[y]) = (-problem.y[x], -problem.y[y]);
-        }
+        answer.iter_mut().zip(&problem.y).for_each(|(answer, y)| *answer = -y);
+        // Normal components are the first.
+        answer.iter_mut().zip(&problem.bounds).for_each(|(answer, own)| *answer += own.offset);
         whole.solve(answer);
         problem.change.iter_mut().zip(answer).for_each(|(change, more)| *change += *more);
         problem.change.iter().all(|change| change.is_finite())
