@@ -148,6 +148,28 @@ fn unlimited_strength_is_a_strength_never_reached() {
     }
 }
 
+/// A motion may begin with numbers that are not normal, as the beginning of a Ricker pulse does.
+#[test]
+fn bonds_hold_under_motions_that_underflow() {
+    let soil = Soil::new(1e8, 0.3, 2000.0).unwrap();
+    for scale in [1e-290, 1e-304, 1e-308, 1e-312, 1e-316] {
+        let body = RigidBody::cuboid(CUBE, 2000.0).unwrap();
+        let motion = || Some(el_centro_1940().scaled(scale).unwrap());
+        let mut simulation = Simulation::builder(0.01)
+            .ground(ElasticGround::under(soil, &body, 7).unwrap())
+            .structure(body)
+            .gravity(0.0)
+            .interface(Coulomb::new(0.0).unwrap().with_tensile_strength(1e9).unwrap())
+            .motion(Triaxial { x: motion(), y: motion(), up: motion() })
+            .build()
+            .unwrap();
+        for _ in 0..50 {
+            let found = simulation.step().map(|state| state.trials);
+            assert!(found.is_ok(), "{scale:e}: {found:?}");
+        }
+    }
+}
+
 /// GOAL: Newmark's sliding block (1965) in plan, along x, along y and askew.
 /// SCENE: low block, 4 m square, on stiff soil under El Centro; the record of the direction of motion is the table's.
 /// REFERENCE: `reference::SlidingBlock`, event by event, and `sliding_rigid_block.csv`, as in the plane

@@ -137,7 +137,7 @@ impl Cone {
         Ok((trials, method))
     }
 
-    /// jump ← jump + W τ, by blocks or tables where there are.
+    /// jump ← jump + W τ, by blocks or transforms where there are.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
@@ -183,7 +183,9 @@ impl Cone {
         }
         problem.scale = largest(&problem.anchor);
         let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |most, rho| most.max(*rho));
-        problem.finest = 4.0 * f64::EPSILON * input.length_scale * stiffest;
+        // Rounding of lengths that are not normal numbers is larger.
+        let length = input.length_scale.max(f64::MIN_POSITIVE / f64::EPSILON);
+        problem.finest = 4.0 * f64::EPSILON * length * stiffest;
         Ok(())
     }
 

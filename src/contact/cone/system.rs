@@ -86,7 +86,7 @@ pub(super) struct System {
     by_motions: bool,
     /// Corrections that follow from the statuses alone, of the same kind as the unknown quantities.
     given: Vec<f64>,
-    /// Quantities of the other kind after the given corrections, where a condition has them.
+    /// Quantities of the other kind after the given corrections, where a condition has them; also scratch.
     answer: Vec<f64>,
 }
 
@@ -305,18 +305,21 @@ impl System {
 
     /// Solves, and adds the corrections to r.
     ///
-    /// By motions the forces are then W⁻¹ of all motions; by forces the motions are left as they are.
+    /// By motions the forces follow from all corrections; motions themselves are left to the next product with W.
     fn correct(&mut self, problem: &mut Problem) {
         let Self { dofs, rhs, factor, inverse, given, answer, .. } = self;
         let Problem { w, change, y, .. } = problem;
         let (matrix, own, other) =
             if self.by_motions { (inverse, y, change) } else { (w, change, y) };
         own.iter_mut().zip(given.iter()).for_each(|(own, given)| *own += given);
-        // Only the rows of conditions; NaN marks the others.
-        answer.fill(f64::NAN);
-        for place in dofs.iter().flat_map(|unknown| unknown.row.places) {
-            if answer[place].is_nan() {
-                answer[place] = other[place] + dot(&matrix[place * given.len()..], given);
+        answer.copy_from_slice(other);
+        if given.iter().any(|given| *given != 0.0) {
+            // Only the rows of conditions; NaN marks the others.
+            answer.fill(f64::NAN);
+            for place in dofs.iter().flat_map(|unknown| unknown.row.places) {
+                if answer[place].is_nan() {
+                    answer[place] = other[place] + dot(&matrix[place * given.len()..], given);
+                }
             }
         }
         rhs.clear();
@@ -325,11 +328,10 @@ impl System {
             goal - row.sum(answer) - weight * column.sum(own)
         }));
         factor.solve(rhs);
+        let sum = if self.by_motions { &mut *given } else { own };
+        dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(sum, *x));
         if self.by_motions {
-            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(given, *x));
             dense_multiply_add(matrix, 1.0, given, other);
-        } else {
-            dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(own, *x));
         }
     }
 }
