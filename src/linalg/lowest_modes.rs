@@ -7,7 +7,7 @@
 //! | H | Vᵀ M A V |
 //!
 //! Every new vector is made orthogonal to all earlier ones, twice unless the residual may be large (Parlett 1998,
-//! § 13). This excludes spurious copies. The search finds as many modes of one frequency as a block has vectors.
+//! § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it has vectors.
 
 use super::eigen::symmetric_modes;
 use super::orthonormal::{Least, OrthonormalRows};
