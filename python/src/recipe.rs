@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use basemat::Result;
-use basemat::structure::{Base, Structure, Triplets};
+use basemat::structure::{Base, Structure, StructureDescription, Triplets};
 
 use crate::dof_names::DofNames;
 
@@ -41,8 +41,7 @@ impl<T: Structure + Sync> Structure for Shared<T> {
         damping(matrix: &mut Triplets) -> Result<()>;
         has_active_damping() -> bool;
         has_active_stiffness() -> bool;
-        tallest_storey() -> Option<f64>;
-        triangle_sides() -> Option<[f64; 2]>;
+        description() -> StructureDescription;
         load(time: f64, load: &mut [f64]) -> Result<()>;
     }
 

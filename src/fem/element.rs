@@ -106,6 +106,13 @@ pub trait Element: Any + Send + Sync {
     /// It is symmetric and positive semi-definite.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]);
 
+    /// Density of the material, kg/m³. Default: `None`, for springs and masses.
+    ///
+    /// A run warns of a density that no material has.
+    fn density(&self) -> Option<f64> {
+        None
+    }
+
     /// Adds the viscous damping matrix to `matrix`, without Rayleigh damping. Default: none.
     fn damping(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 

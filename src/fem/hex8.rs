@@ -153,6 +153,10 @@ impl Element for Hex8 {
     }
 
     /// Lumped: row sums of the consistent mass.
+    fn density(&self) -> Option<f64> {
+        Some(self.material.density())
+    }
+
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut block = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of fourth degree in each coordinate.

@@ -202,6 +202,16 @@ impl Mesh {
         self.elements.iter().map(AsRef::as_ref)
     }
 
+    /// Smallest and largest density of the elements with mass, kg/m³; `None` without any.
+    pub(crate) fn densities(&self) -> Option<[f64; 2]> {
+        let densities = self.elements().filter_map(Element::density);
+        let massive = densities.filter(|density| *density > 0.0);
+        massive.fold(None, |range, density| {
+            let [low, high] = range.unwrap_or([density; 2]);
+            Some([density.min(low), density.max(high)])
+        })
+    }
+
     /// Index of the node at (`x`, `y`), m, within a millionth of the mesh's size.
     ///
     /// In space the point lies at z = 0.

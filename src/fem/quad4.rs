@@ -175,6 +175,10 @@ impl Element for Quad4 {
         add_square(matrix, &block);
     }
 
+    fn density(&self) -> Option<f64> {
+        Some(self.material.density())
+    }
+
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut block = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of third degree in ξ and in η.

@@ -150,6 +150,10 @@ impl Element for Quad8 {
 
     /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
     /// Zienkiewicz 1976). Row sums would be negative at the corners.
+    fn density(&self) -> Option<f64> {
+        Some(self.material.density())
+    }
+
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut one = [[0.0; 8]; 8];
         let mut total = 0.0;

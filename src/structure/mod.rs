@@ -10,8 +10,7 @@ macro_rules! forward_structure {
             fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
             fn has_active_damping(&$own) -> bool;
             fn has_active_stiffness(&$own) -> bool;
-            fn tallest_storey(&$own) -> Option<f64>;
-            fn triangle_sides(&$own) -> Option<[f64; 2]>;
+            fn description(&$own) -> $crate::structure::StructureDescription;
             fn describe(&$own, dofs: &[usize]) -> Option<String>;
             fn load(&$own, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
         }
@@ -22,6 +21,7 @@ pub(crate) use forward_structure;
 mod base;
 mod base_motion;
 mod base_node;
+mod description;
 mod detached;
 mod dof_combination;
 mod held_base;
@@ -41,6 +41,7 @@ pub use crate::linalg::Triplets;
 pub use base::Base;
 pub use base_node::BaseNode;
 pub(crate) use base_node::{check_line, from_the_left};
+pub use description::StructureDescription;
 pub(crate) use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
 pub(crate) use held_base::{HeldBase, stiffest};
@@ -203,19 +204,9 @@ pub trait Structure: Any + Send {
         false
     }
 
-    /// Largest height of a storey, m. Default: `None`.
-    ///
-    /// A run warns of a height above 100 m, which is probably in another unit.
-    fn tallest_storey(&self) -> Option<f64> {
-        None
-    }
-
-    /// Mean side of the triangles of doubly curved thin shells, and the longest with which they bend right, m.
-    ///
-    /// The longest is √(R t) for the radius R and the thickness t ([`Shell`](crate::fem::Shell)). A run warns of longer
-    /// sides. Default: `None`.
-    fn triangle_sides(&self) -> Option<[f64; 2]> {
-        None
+    /// Facts by which a run warns of probable mistakes, such as numbers in another unit. Default: none.
+    fn description(&self) -> StructureDescription {
+        StructureDescription::default()
     }
 
     /// Name of these degrees of freedom for errors, by nodes or storeys.

@@ -7,6 +7,7 @@ mod damaged_tables;
 mod files;
 mod foundations;
 mod layout;
+mod mistakes;
 #[cfg(feature = "npz")]
 mod npz;
 mod pages;

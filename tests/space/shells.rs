@@ -114,11 +114,12 @@ fn vessel(thickness: f64, rows: usize, is_split: impl Fn(usize) -> bool) -> FemM
 #[test]
 fn long_triangles_of_a_dome_warn() {
     // Triangles of the mat, of the wall and at the pole are right.
-    assert_eq!(vessel(0.1, 4, |_| false).triangle_sides(), None);
-    let [side, longest] = vessel(0.1, 4, |row| row < 4).triangle_sides().unwrap();
+    assert_eq!(vessel(0.1, 4, |_| false).description().triangle_sides, None);
+    let [side, longest] = vessel(0.1, 4, |row| row < 4).description().triangle_sides.unwrap();
     assert!(side < 1e-3 * longest, "{side} {longest}");
     let limit = |thickness: f64| {
-        let [side, longest] = vessel(thickness, 6, |row| row > 3).triangle_sides().unwrap();
+        let [side, longest] =
+            vessel(thickness, 6, |row| row > 3).description().triangle_sides.unwrap();
         // From 2.6 m along a meridian by 2.6 m at its foot and 0.7 m at the top, and diagonals.
         assert!((2.2..2.8).contains(&side), "{side}");
         longest

@@ -36,6 +36,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
 use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
+use crate::coupled::run::Weight;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::TimeScheme;
@@ -353,12 +354,14 @@ impl SimulationBuilder {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let mut warnings =
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
-        let pressure = given.gravity * assembled.mass_over_area();
-        let storey = structure.tallest_storey();
+        let weight = Weight::new(given.gravity, &assembled);
+        let description = structure.description();
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
-        let of_units = Warning::of_units(is_to_scale, &scene, given.gravity, pressure, storey);
-        warnings.extend(of_units);
-        warnings.extend(Warning::of_triangles(structure.triangle_sides()));
+        warnings.extend(Warning::of_units(is_to_scale, &scene, &weight, &description));
+        if is_to_scale {
+            warnings.extend(Warning::of_weight(&weight, ground.as_ref()));
+        }
+        warnings.extend(Warning::of_triangles(description.triangle_sides));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.

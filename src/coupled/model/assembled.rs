@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::{Influence, UP};
+use crate::coupled::base::influence::Influence;
 use crate::coupled::model::mechanism::AtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
@@ -164,12 +164,6 @@ impl Assembled {
     pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
         let stiffness = self.stiffness_at_rest();
         AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
-    }
-
-    /// Mass over the area of the contact elements, kg/m².
-    pub(crate) fn mass_over_area(&self) -> f64 {
-        let up = self.influence.of(UP, self.dofs());
-        self.mass.form(&up, &up) / self.base.areas().iter().sum::<f64>()
     }
 
     /// Largest damping of a translation along the ground, divided by the mass that it moves, r·C r / r·M r, 1/s.

@@ -12,6 +12,7 @@ pub(crate) mod quantity;
 pub(crate) mod resolution;
 mod service_check;
 mod sliding;
+mod unusual_numbers;
 mod uplift;
 mod variation;
 mod vectors;
@@ -26,6 +27,7 @@ pub use quantity::{Quantity, Summary};
 use resolution::Resolution;
 pub use service_check::ServiceCheck;
 pub use sliding::{Sliding, SlipEvent};
+pub(crate) use unusual_numbers::Weight;
 pub use uplift::Uplift;
 
 use crate::bem::{ContactElement, Ground};
@@ -171,7 +173,7 @@ impl Run {
             start: time,
             end: time,
             ground_motion: GroundMotion::default(),
-            time_step: resolution.time_step(),
+            time_step: resolution.time_step,
             is_overturned: false,
             whole: Summary::start(state, None),
             probes: probes.iter().zip(&state.probes).map(probe).collect(),
@@ -287,12 +289,13 @@ impl Run {
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
         let acceleration = self.resolution.largest_acceleration();
         self.ground_motion = GroundMotion::new(motion, self.end, acceleration);
-        let of_motion = Warning::of_motion(acceleration, &self.ground_motion);
+        let of_motion = Warning::of_motion(acceleration, &self.ground_motion, motion);
         self.warnings.extend(of_motion.into_iter().filter(|_| is_to_scale));
         self.warnings.extend(Warning::of_end(self, acceleration, rotation_limit));
         let slides = self.foundations.iter().chain([&self.whole]).map(|own| own.sliding.longest());
         self.warnings.extend(Warning::of_drag(drag, slides.fold(0.0, f64::max)));
         self.resolution.warn(&mut self.warnings);
+        Warning::drop_expected(&mut self.warnings);
     }
 
     /// Smallest and largest value of the probe called `name`.

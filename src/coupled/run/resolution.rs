@@ -21,15 +21,8 @@
 //!
 //! The error of the largest base shear grows with the square of the step. With r of the ground's acceleration as a
 //! measure of the step, the error is estimated as 0.3 r² if the base shear varies as the ground does (its r within
-//! 0.95 and 1.1 of the ground's) and 0.9 r² otherwise. Runs warn from 5 % on, even within the limits above.
-//!
-//! Measured with 108 scenes at six steps from 3 to 100 ms (rigid blocks, shear buildings, walls of finite
-//! elements; c_S 120 to 600 m/s; bonded and with friction 0.5; El Centro and Ricker pulses of 1 and 3 Hz), against
-//! halved steps down to 1.6 ms, extrapolated (Richardson). Where the error is more than 3 %, the estimate is half
-//! the error or more in nine cases of ten, and within a factor of three in three of four. In the worst case the
-//! error is 7.5 times the estimate, in lightly damped rocking, whose radiation the steps overestimate. Of 579 runs
-//! with r below one 213 warn (13 of them with errors below 2 %, 42 below 5 %); 13 runs with errors above 10 % do
-//! not warn, 6 of them above 15 %. A run with half the step shows errors that no estimate does.
+//! 0.95 and 1.1 of the ground's) and 0.9 r² otherwise, factors fitted to measured errors (docs/validation.md). Runs warn
+//! from 5 % on, even within the limits above.
 //!
 //! Limits of elements come from runs on the half-plane with 1 to 24 elements. One element under a foundation has
 //! no stiffness in rocking (series off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % if the
@@ -73,6 +66,8 @@ const ERROR: f64 = 0.9;
 const ERRORS: [f64; 2] = [0.05, 0.03];
 /// Smallest number of steps for an estimate of a frequency.
 const LEAST_STEPS: usize = 8;
+/// Time step above which steps may miss the whole motion of an earthquake, s.
+const LONG_STEP: f64 = 0.1;
 /// Base shear, relative to the normal force, that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 /// Second difference of the free field that counts as rounding, relative to the largest free field so far.
@@ -106,7 +101,8 @@ struct Fineness {
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(Default))]
 pub(crate) struct Resolution {
-    time_step: f64,
+    /// The time step, s.
+    pub(crate) time_step: f64,
     in_plan: bool,
     fineness: Fineness,
     /// Length of the longest element, m. In plan the longer side of a cell.
@@ -269,11 +265,6 @@ impl Resolution {
         self.last_shear = shear;
     }
 
-    /// The time step, s.
-    pub(crate) fn time_step(&self) -> f64 {
-        self.time_step
-    }
-
     /// Largest component of the ground's acceleration, m/s².
     pub(crate) fn largest_acceleration(&self) -> f64 {
         self.peak / self.time_step.powi(2)
@@ -285,6 +276,11 @@ impl Resolution {
         self.steps >= LEAST_STEPS
             && self.base_shear.sums + self.base_shear.changes
                 > self.steps as f64 * rounding * rounding
+    }
+
+    /// Whether the ground is sampled between the steps, whatever it does at the steps.
+    fn has_long_steps(&self) -> bool {
+        self.time_step > LONG_STEP
     }
 
     /// Whether the base shear varies more slowly than the ground.
@@ -328,10 +324,19 @@ impl Resolution {
 
     /// Adds warnings of motion that time step and elements do not resolve.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
+        let time_step = self.time_step;
+        // At the steps a motion of about one period a step appears as a slow one.
+        if self.has_long_steps()
+            && !self.is_coarse()
+            && let Some(frequency) = self.samples.frequency
+            && PI * frequency * time_step > FOLLOWING
+        {
+            let needed = 1.0 / (FOLLOWING_STEPS * frequency);
+            warnings.push(Warning::UnresolvedMotion { frequency, time_step, needed, error: 1.0 });
+        }
         if !self.has_response() {
             return;
         }
-        let time_step = self.time_step;
         let (is_coarse, error) = (self.is_coarse(), self.error());
         if is_coarse || error > ERRORS[0] {
             let [response, ground] = [self.base_shear, self.ground].map(Variation::ratio);
@@ -384,7 +389,7 @@ impl Resolution {
         motion: &dyn FreeField,
         times: Range<f64>,
     ) {
-        if self.is_coarse() || self.short_waves().is_some() {
+        if self.has_long_steps() || self.is_coarse() || self.short_waves().is_some() {
             let sampler = Sampler { ground, motion, times, time_step: self.time_step };
             let (frequency, running) = (sampler.frequency(), sampler.is_running());
             self.samples = GroundSamples { frequency, running };

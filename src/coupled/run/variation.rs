@@ -12,6 +12,8 @@ pub(crate) const OWN: f64 = 0.25;
 /// Squared difference of the free field between the ends of the base, relative to its square, that shows running
 /// waves.
 const RUNNING: f64 = 0.1;
+/// Largest ratio of r at half a distance to r at the distance, where samples follow the motion: it is near a half.
+const CONSISTENT_RATIO: f64 = 0.75;
 /// Number of instants at which the ground is sampled, and how often their distance is halved.
 const INSTANTS: usize = 256;
 const HALVINGS: usize = 12;
@@ -73,31 +75,38 @@ impl Sampler<'_> {
 
     /// Frequency of the ground's acceleration under the middle element, Hz.
     pub(crate) fn frequency(&self) -> Option<f64> {
+        let mut distance = 0.5 * self.time_step;
+        let mut ratio = self.ratio(distance);
+        for _ in 1..HALVINGS {
+            let halved = self.ratio(0.5 * distance);
+            // Samples one period apart vary slowly, and those half as far apart do not.
+            if ratio <= OWN && halved <= CONSISTENT_RATIO * ratio {
+                return Some(ratio / (PI * distance));
+            }
+            (distance, ratio) = (0.5 * distance, halved);
+        }
+        None
+    }
+
+    /// r of the ground's acceleration under the middle element, in samples with this distance (s).
+    fn ratio(&self, distance: f64) -> f64 {
         let count = self.ground.elements().len();
         let layout = ContactLayout::for_elements(self.ground.elements());
         let mut field = vec![0.0; layout.len()];
-        let mut distance = self.time_step;
-        for _ in 0..HALVINGS {
-            distance *= 0.5;
-            let mut variation = Variation::default();
-            for time in self.instants() {
-                let mut at = |k: f64| {
-                    self.ground.free_field(self.motion, time + k * distance, &mut field);
-                    std::array::from_fn(|k| field.get(layout.place(k, count / 2)).copied())
-                        .map(|value| value.unwrap_or(0.0))
-                };
-                let samples: [[f64; SPACE]; 4] = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
-                for k in 0..layout.components() {
-                    let [before, after] =
-                        [0, 1].map(|j| samples[j + 2][k] - 2.0 * samples[j + 1][k] + samples[j][k]);
-                    variation.see(before, after);
-                }
-            }
-            let ratio = variation.ratio();
-            if ratio <= OWN {
-                return Some(ratio / (PI * distance));
+        let mut variation = Variation::default();
+        for time in self.instants() {
+            let mut at = |k: f64| {
+                self.ground.free_field(self.motion, time + k * distance, &mut field);
+                std::array::from_fn(|k| field.get(layout.place(k, count / 2)).copied())
+                    .map(|value| value.unwrap_or(0.0))
+            };
+            let samples: [[f64; SPACE]; 4] = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
+            for k in 0..layout.components() {
+                let [before, after] =
+                    [0, 1].map(|j| samples[j + 2][k] - 2.0 * samples[j + 1][k] + samples[j][k]);
+                variation.see(before, after);
             }
         }
-        None
+        variation.ratio()
     }
 }

@@ -32,8 +32,6 @@ pub enum Warning {
         rotation: f64,
     },
     /// A foundation has settled by more than a tenth of its width, which counts as bearing failure.
-    ///
-    /// The model's ground surface does not follow the base down, and stays plane.
     #[error(
         "foundation {foundation} settles by {settlement:.3e} m, width {width:.3} m: beyond a tenth of it \
          the soil has failed in bearing"
@@ -56,10 +54,8 @@ pub enum Warning {
         /// Middle of that element, m.
         x: f64,
         /// In plan: middle of that element along y, m.
-        #[cfg_attr(feature = "serde", serde(default))]
         y: Option<f64>,
         /// With walls: height of the middle of that element, m.
-        #[cfg_attr(feature = "serde", serde(default))]
         z: Option<f64>,
         /// Time of that tension, s.
         time: f64,
@@ -92,8 +88,7 @@ pub enum Warning {
         needed: f64,
         /// Estimated relative error of the largest base shear, from frequencies alone.
         ///
-        /// In nine cases of ten it is at least half the true error. A run with half the time step shows the true
-        /// error.
+        /// In nine cases of ten it is at least half the true error. A run with half the step shows the true one.
         error: f64,
     },
     /// Ground and base shear vary faster than the time step resolves.
@@ -134,7 +129,6 @@ pub enum Warning {
         /// Smallest number needed.
         needed: usize,
         /// In plan: `x` for elements of a row, `y` for elements of a column.
-        #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
     /// A flexible base on too few contact elements.
@@ -151,10 +145,8 @@ pub enum Warning {
         /// Approximate number needed.
         needed: usize,
         /// Relative change of its static shape with twice the elements, if known.
-        #[cfg_attr(feature = "serde", serde(default))]
         difference: Option<f64>,
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
-        #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
     /// Triangles of a doubly curved thin shell with sides above √(R t), for the radius R and the thickness t.
@@ -181,7 +173,6 @@ pub enum Warning {
         /// Distance from the outermost element to the end of the foundation, m.
         reach: f64,
         /// In plan: axis along which the base extends too far, `x` or `y`.
-        #[cfg_attr(feature = "serde", serde(default))]
         axis: Option<char>,
     },
     /// Too many cells in plan for a full passivity check: only a sample of them was checked.
@@ -214,7 +205,7 @@ pub enum Warning {
     /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
     /// simulation was built, the static state as one.
     #[error(
-        "steps solved with friction {friction:.0} in place of more: {steps}; shear is too small there"
+        "steps with friction {friction:.0} in place of more: {steps}; shear is too small there"
     )]
     LessFriction {
         /// Number of such steps.
@@ -246,31 +237,88 @@ pub enum Warning {
         /// Density, kg/m³.
         density: f64,
     },
-    /// A structure with an unusually long period: probably a stiffness in another unit, unless the model is not to
-    /// scale.
+    /// A structure with an unusually long period: probably a stiffness in another unit.
     #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
     LongPeriod {
         /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
         period: f64,
     },
-    /// Ground acceleration above any recorded one, or a record too weak in m/s²: probably in another unit.
+    /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.
     ///
-    /// Unless the model is not to scale. Numbers of a weak record are probably in g.
+    /// Numbers of a weak record are probably in g, above 60 m/s² in cm/s².
     #[error("ground acceleration of {acceleration:.3} m/s²: motion in {}?", unit_of_motion(*acceleration))]
     UnusualMotion {
-        /// Largest component at any step, m/s²; for a weak record at any sample.
+        /// Largest component at any step or sample, m/s².
         acceleration: f64,
     },
-    /// A record with a time step that no recorder has: probably in another unit, unless the model is not to scale.
+    /// A record with a time step that no recorder has: probably in another unit.
     #[error("record in steps of {time_step:.2e} s: interval in another unit?")]
     UnusualInterval {
         /// Time step of the record, s.
         time_step: f64,
     },
-    /// A structure with less pressure on the ground than any building: probably masses in another unit.
+    /// The time step is longer than half the mean period of a record: it does not see the record.
     #[error(
-        "weight of {pressure:.3} Pa over the area of the base: masses in t, or gravity in another unit?"
+        "steps of {time_step:.2e} s miss a record of period {period:.2e} s; take {needed:.1e} s"
     )]
+    LongTimeStep {
+        /// The time step, s.
+        time_step: f64,
+        /// Time step of the record, s.
+        interval: f64,
+        /// Mean period of the record's acceleration, by the root mean square of its frequency, s.
+        period: f64,
+        /// Time step that resolves the record, and a structure with a longer period, s.
+        needed: f64,
+    },
+    /// The velocity of a record does not return to zero: an offset of the recorder, or a record that is cut off.
+    ///
+    /// The ground drifts with this velocity. [`Record::with_baseline`](crate::motion::Record::with_baseline) removes
+    /// an offset.
+    #[error("record ends at {velocity:.3} m/s: baseline not corrected, or cut off?")]
+    DriftingRecord {
+        /// Velocity at the end of the record, m/s.
+        velocity: f64,
+    },
+    /// A weight that no soil of this stiffness carries, over 2.5 % of its shear modulus.
+    ///
+    /// Probably masses, a thickness or the soil's modulus in another unit, or a mass that is not per metre of thickness.
+    #[error(
+        "weight of {pressure:.2e} Pa on soil of G = {shear_modulus:.2e} Pa: no soil carries this"
+    )]
+    HeavyStructure {
+        /// Weight over the area of the contact elements, Pa.
+        pressure: f64,
+        /// Shear modulus of the soil, Pa: at the surface, with walls of the stiffest soil.
+        shear_modulus: f64,
+    },
+    /// Masses of vertical and of horizontal motion that differ by more than a tenth.
+    ///
+    /// The weight follows from the vertical mass. Where the masses of floors are missing in it, the base bears too little
+    /// pressure. Water that moves with a structure to the side has no weight on the base.
+    #[error("mass moving up {vertical:.3e} kg, sideways {horizontal:.3e} kg: floors left out?")]
+    UnequalMasses {
+        /// Mass of the structure moving up, kg (in the plane kg/m).
+        vertical: f64,
+        /// Mass of the structure moving along x, in plan along x or y, kg (in the plane kg/m).
+        horizontal: f64,
+    },
+    /// A material with a density that no material has: probably in another unit.
+    #[error("material of {density:.4} kg/m³: density in t/m³, kN/m³ or N/m³?")]
+    UnusualDensity {
+        /// Density, kg/m³.
+        density: f64,
+    },
+    /// A bond much weaker than the pressure under the weight: its strength is probably in kPa.
+    #[error("bond of {strength:.3} Pa under a weight of {pressure:.2e} Pa: strength in kPa?")]
+    WeakBond {
+        /// Smallest tensile or shear strength of an element, Pa.
+        strength: f64,
+        /// Weight over the area of the contact elements, Pa.
+        pressure: f64,
+    },
+    /// A structure lighter than any building: probably masses in another unit.
+    #[error("weight of {pressure:.3} Pa over the base: masses in t, or gravity in another unit?")]
     LightStructure {
         /// Weight over the area of the contact elements, Pa.
         pressure: f64,
@@ -287,7 +335,7 @@ pub enum Warning {
         /// Height of the storey, m.
         height: f64,
     },
-    /// A gravity that no planet has: probably in another unit, unless the model is not to scale.
+    /// A gravity that no planet has: probably in another unit.
     #[error("gravity of {gravity} m/s²: in another unit?")]
     UnusualGravity {
         /// Acceleration of gravity, m/s².

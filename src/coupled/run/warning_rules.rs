@@ -2,14 +2,12 @@
 
 use crate::bem::{Ground, GroundDescription};
 use crate::coupled::run::warning::Warning;
-use crate::coupled::run::warning_text::within;
-use crate::coupled::run::{GroundMotion, Quantity, Run};
+use crate::coupled::run::{Quantity, Run, unusual_numbers};
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::statics::strength::friction_at_rest;
 use crate::interface::{InterfaceLaw, LawForm, Mode};
 use crate::motion::FreeField;
-use crate::soil::Soil;
 
 impl Warning {
     /// Rotation above which a run warns, rad: the cosine differs from one by half a percent.
@@ -27,33 +25,6 @@ impl Warning {
     /// Tension above which a run under weight warns, relative to the largest static pressure.
     pub(crate) const TENSION_LIMIT: f64 = 0.01;
 
-    /// Speeds of shear waves in soils, m/s, from mud to rock.
-    const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
-    /// Densities of soils, kg/m³.
-    const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
-
-    /// Period above which a structure is unusually slow, s.
-    ///
-    /// Only the tallest towers and liquid in wide tanks are slower.
-    const LONGEST_PERIOD: f64 = 8.0;
-    /// Acceleration above any recorded one, m/s²; the largest was about 4.5 times gravity.
-    const LARGEST_ACCELERATION: f64 = 60.0;
-
-    /// Accelerations of a record (m/s²) that are probably in g: weaker than design motions, and not zero.
-    ///
-    /// Design motions start at 0.5 m/s², where earthquakes are rare.
-    const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
-    /// Time steps of records, s.
-    const INTERVALS: [f64; 2] = [1e-4, 0.2];
-    /// Weight over the area of a base below which masses are probably in another unit, Pa: the weight of a timber
-    /// floor.
-    const LEAST_PRESSURE: f64 = 2e3;
-    /// Friction coefficients that are probably angles in degrees or percentages.
-    const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
-    /// Largest height of a storey, m.
-    const TALLEST_STOREY: f64 = 100.0;
-    /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
-    const GRAVITIES: [f64; 2] = [1.5, 30.0];
     /// Smallest fraction of a record's intensity that a run should cover.
     const PASSED: f64 = 2.0 / 3.0;
     /// Reduction of a slip event by damping above which a run warns.
@@ -71,37 +42,6 @@ impl Warning {
     pub(crate) const RESPONSES: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
-    /// Warnings of numbers of a scene that are probably in another unit.
-    ///
-    /// `gravity`: m/s². `pressure`: weight over the area of the base, Pa. `storey`: height of the tallest, m. For
-    /// a scene that is not to scale only the laws are checked.
-    pub(crate) fn of_units(
-        is_to_scale: bool,
-        scene: &Scene,
-        gravity: f64,
-        pressure: f64,
-        storey: Option<f64>,
-    ) -> Vec<Self> {
-        let mut warnings = Vec::new();
-        let form = LawForm::of(scene.layout());
-        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
-        let unlikely = frictions.filter(|own| within(Self::UNLIKELY_FRICTION, *own));
-        warnings
-            .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
-        if !is_to_scale {
-            return warnings;
-        }
-        if gravity > 0.0 && !within(Self::GRAVITIES, gravity) {
-            warnings.push(Self::UnusualGravity { gravity });
-        }
-        if gravity > 0.0 && pressure < Self::LEAST_PRESSURE {
-            warnings.push(Self::LightStructure { pressure });
-        }
-        let tall = storey.filter(|height| *height > Self::TALLEST_STOREY);
-        warnings.extend(tall.map(|height| Self::TallStorey { height }));
-        warnings
-    }
-
     /// Error of the rocking stiffness by an oblique outline above which a run warns.
     const OUTLINE_ERROR: f64 = 0.01;
     /// Smallest friction at which mirror images of scenes in plan were found to differ.
@@ -117,7 +57,7 @@ impl Warning {
         let GroundDescription { soils, sampled_cells, outline_error, .. } = ground.description();
         let mut warnings: Vec<_> = Self::of_soils(&soils).collect();
         // A model not to scale has its own warning.
-        if warnings.is_empty() && period > Self::LONGEST_PERIOD {
+        if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
             warnings.push(Self::LongPeriod { period });
         }
         let uncovered = scene.base.uncovered().into_iter();
@@ -126,6 +66,7 @@ impl Warning {
             reach,
             axis,
         }));
+        warnings.extend(Self::of_time_step(scene.time_step, motion, period));
         if scene.layout().is_plan() {
             warnings.extend(Self::of_friction(scene));
         } else if motion.moves_across() {
@@ -140,22 +81,6 @@ impl Warning {
         if outline_error > Self::OUTLINE_ERROR {
             let factor = outline_error / Self::OUTLINE_ERROR;
             warnings.push(Self::ObliqueOutline { error: outline_error, factor });
-        }
-        warnings
-    }
-
-    /// Warnings of a run's largest ground acceleration (m/s²), and of the records of its motion.
-    pub(crate) fn of_motion(acceleration: f64, motion: &GroundMotion) -> Vec<Self> {
-        let mut warnings = Vec::new();
-        if acceleration > Self::LARGEST_ACCELERATION {
-            warnings.push(Self::UnusualMotion { acceleration });
-        }
-        let Some(time_step) = motion.time_step else { return warnings };
-        if within(Self::WEAK_ACCELERATIONS, motion.peak) {
-            warnings.push(Self::UnusualMotion { acceleration: motion.peak });
-        }
-        if !within(Self::INTERVALS, time_step) {
-            warnings.push(Self::UnusualInterval { time_step });
         }
         warnings
     }
@@ -215,15 +140,6 @@ impl Warning {
         let greatest =
             laws.map(|law| friction_at_rest(law.as_ref(), LawForm::Limits)).fold(0.0, f64::max);
         (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
-    }
-
-    /// Warnings of `soils` with unusual numbers.
-    fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
-        let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
-        let unusual = numbers.filter(|[speed, density]| {
-            !(within(Self::SOIL_SPEEDS, *speed) && within(Self::SOIL_DENSITIES, *density))
-        });
-        unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
     }
 
     /// Counts a step that was solved with the friction `taken` instead of a larger one.

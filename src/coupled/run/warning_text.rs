@@ -20,7 +20,11 @@ pub(crate) fn with_twice_as_many(difference: Option<f64>) -> String {
 
 /// Unit in which a ground acceleration would be usual.
 pub(crate) fn unit_of_motion(acceleration: f64) -> &'static str {
-    if acceleration > 1.0 { "cm/s²" } else { "g" }
+    match acceleration {
+        strong if strong > 60.0 => "cm/s²",
+        weak if weak < 1.0 => "g",
+        _ => "another unit, or scaled twice",
+    }
 }
 
 /// Whether `value` lies between two bounds.

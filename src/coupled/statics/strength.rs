@@ -84,6 +84,15 @@ pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     }
 }
 
+/// Smallest strength of a bond of a law on an element at rest under this mean pressure (Pa); `None` without bonds.
+///
+/// Of tensile and shear strength, Pa. Laws that state no limits have none.
+pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64> {
+    let limits = limits_at_rest(law, pressure.max(0.0));
+    let strengths = [limits.tension, limits.shear_strength];
+    strengths.into_iter().filter(|strength| *strength > 0.0).reduce(f64::min)
+}
+
 /// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
 /// before.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {

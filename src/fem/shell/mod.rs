@@ -306,6 +306,10 @@ impl Element for Shell {
         }
     }
 
+    fn density(&self) -> Option<f64> {
+        Some(self.material.density())
+    }
+
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         match self.points(coordinates) {
             Ok(Corners::Four(nodes)) => {

@@ -383,8 +383,8 @@ impl Structure for FemModel {
         self.active_stiffness
     }
 
-    fn triangle_sides(&self) -> Option<[f64; 2]> {
-        crate::fem::triangle_sides(&self.mesh)
+    fn description(&self) -> crate::structure::StructureDescription {
+        crate::structure::StructureDescription::of_mesh(&self.mesh)
     }
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {

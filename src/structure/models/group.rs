@@ -9,7 +9,8 @@ use crate::structure::detached::numbers;
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::probe::Probe;
 use crate::structure::{
-    Base, BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets,
+    Base, BaseNode, DofCombination, InternalEnergy, NonlinearForce, Structure,
+    StructureDescription, Triplets,
 };
 
 /// A structure of the group and where it stands.
@@ -267,14 +268,9 @@ impl Structure for StructureGroup {
         self.members.iter().any(|member| member.structure.has_active_stiffness())
     }
 
-    fn tallest_storey(&self) -> Option<f64> {
-        self.members.iter().filter_map(|member| member.structure.tallest_storey()).reduce(f64::max)
-    }
-
-    /// The sides that exceed the longest by the largest ratio.
-    fn triangle_sides(&self) -> Option<[f64; 2]> {
-        let sides = self.members.iter().filter_map(|member| member.structure.triangle_sides());
-        sides.max_by(|one, other| (one[0] / one[1]).total_cmp(&(other[0] / other[1])))
+    fn description(&self) -> StructureDescription {
+        let descriptions = self.members.iter().map(|member| member.structure.description());
+        descriptions.reduce(StructureDescription::joined).unwrap_or_default()
     }
 
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {

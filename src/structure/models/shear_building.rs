@@ -336,11 +336,8 @@ impl ShearBuilding {
     /// The latter uses the stiffness in [`Storey`], even if a law replaces it. Isolators have none.
     fn dashpot(&self, storey: usize) -> f64 {
         let Storey { stiffness, damping, .. } = self.storeys[storey];
-        if self.isolated && storey == 0 {
-            damping
-        } else {
-            damping + self.stiffness_damping * stiffness
-        }
+        let isolates = self.isolated && storey == 0;
+        damping + if isolates { 0.0 } else { self.stiffness_damping * stiffness }
     }
 
     /// Adds lᵀl of each storey's drift times `factor(storey)`.
@@ -356,8 +353,10 @@ impl Structure for ShearBuilding {
         3 + self.storeys.len()
     }
 
-    fn tallest_storey(&self) -> Option<f64> {
-        self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
+    fn description(&self) -> crate::structure::StructureDescription {
+        crate::structure::StructureDescription::of_storeys(
+            self.storeys.iter().map(|storey| storey.height),
+        )
     }
 
     fn base(&self) -> Base {

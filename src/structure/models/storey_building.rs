@@ -5,7 +5,9 @@ use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
 use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, Springs};
-use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets};
+use crate::structure::{
+    Base, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
+};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
@@ -293,8 +295,8 @@ impl Structure for StoreyBuilding {
         6 + 3 * self.storeys.len()
     }
 
-    fn tallest_storey(&self) -> Option<f64> {
-        self.storeys.iter().map(|storey| storey.height).reduce(f64::max)
+    fn description(&self) -> StructureDescription {
+        StructureDescription::of_storeys(self.storeys.iter().map(|storey| storey.height))
     }
 
     fn base(&self) -> Base {

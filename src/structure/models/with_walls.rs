@@ -1,7 +1,9 @@
 //! A structure whose rigid base has walls up to the surface.
 
 use crate::error::{Error, Result, positive};
-use crate::structure::{Base, BaseNode, DofCombination, NonlinearForce, Structure, Triplets};
+use crate::structure::{
+    Base, BaseNode, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
+};
 
 /// Structure in the ground: its rigid base lies at a depth and has walls up to the surface.
 ///
@@ -72,8 +74,7 @@ impl Structure for WithWalls {
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn has_active_stiffness(&self) -> bool;
-        fn tallest_storey(&self) -> Option<f64>;
-        fn triangle_sides(&self) -> Option<[f64; 2]>;
+        fn description(&self) -> StructureDescription;
         fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;

@@ -18,7 +18,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers, restricted};
 use crate::structure::matrix_checks::{MASSLESS, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
-use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
+use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescription, Triplets};
 
 /// Reduction to contact nodes, kept degrees of freedom and fixed-interface modes (Craig & Bampton 1968).
 ///
@@ -335,14 +335,9 @@ impl Structure for ReducedModel {
         full.structure.has_active_stiffness()
     }
 
-    fn tallest_storey(&self) -> Option<f64> {
+    fn description(&self) -> StructureDescription {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
-        full.structure.tallest_storey()
-    }
-
-    fn triangle_sides(&self) -> Option<[f64; 2]> {
-        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
-        full.structure.triangle_sides()
+        full.structure.description()
     }
 
     /// Kept degrees of freedom as the full model describes them, and modes by number.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use basemat::structure::{
     Base, BaseNode, CraigBampton, InternalEnergy, ModalDamping, NonlinearForce, Structure,
-    StructureGroup, Triplets, WithSprings,
+    StructureDescription, StructureGroup, Triplets, WithSprings,
 };
 use basemat::{Error, Result};
 
@@ -75,14 +75,13 @@ impl Structure for Double {
         true
     }
 
-    fn triangle_sides(&self) -> Option<[f64; 2]> {
-        self.log.asked("triangle_sides");
-        Some([CORRECT, 1.0])
-    }
-
-    fn tallest_storey(&self) -> Option<f64> {
-        self.log.asked("tallest_storey");
-        Some(CORRECT)
+    fn description(&self) -> StructureDescription {
+        self.log.asked("description");
+        StructureDescription {
+            tallest_storey: Some(CORRECT),
+            triangle_sides: Some([CORRECT, 1.0]),
+            densities: Some([CORRECT, 2.0]),
+        }
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
@@ -157,8 +156,10 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
     assert!(part.has_active_damping());
     assert!(part.has_active_stiffness());
-    assert_eq!(part.tallest_storey(), Some(CORRECT));
-    assert_eq!(part.triangle_sides(), Some([CORRECT, 1.0]));
+    let description = part.description();
+    assert_eq!(description.tallest_storey, Some(CORRECT));
+    assert_eq!(description.triangle_sides, Some([CORRECT, 1.0]));
+    assert_eq!(description.densities, Some([CORRECT, 2.0]));
     assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
     part.load(0.25, &mut load).unwrap();

@@ -1,0 +1,234 @@
+//! Warnings of numbers that are probably mistakes: other units, weights and steps that do not fit.
+
+use std::f64::consts::TAU;
+
+use crate::bem::{Ground, GroundDescription};
+use crate::coupled::base::influence::UP;
+use crate::coupled::model::assembled::Assembled;
+use crate::coupled::run::GroundMotion;
+use crate::coupled::run::variation::Variation;
+use crate::coupled::run::warning::Warning;
+use crate::coupled::run::warning_text::within;
+use crate::coupled::scene::Scene;
+use crate::coupled::statics::strength::{bond_at_rest, friction_at_rest};
+use crate::geometry::ContactElement;
+use crate::interface::LawForm;
+use crate::motion::{FreeField, Record, STANDARD_GRAVITY};
+use crate::soil::Soil;
+use crate::structure::StructureDescription;
+
+/// Speeds of shear waves in soils, m/s, from mud to rock.
+const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
+/// Densities of soils, kg/m³.
+const SOIL_DENSITIES: [f64; 2] = [500.0, 10_000.0];
+/// Densities of materials of solids and shells, kg/m³: above insulation, and up to the heaviest metal.
+const MATERIAL_DENSITIES: [f64; 2] = [100.0, 22_600.0];
+/// Period above which a structure is unusually slow, s.
+///
+/// Only the tallest towers and liquid in wide tanks are slower.
+pub(super) const LONGEST_PERIOD: f64 = 8.0;
+/// Largest usual ground acceleration, m/s². Few records exceed it; the largest has about 4.5 times gravity.
+const MAX_GROUND_ACCELERATION: f64 = 2.0 * STANDARD_GRAVITY;
+/// Accelerations of a record (m/s²) that are probably in g: weaker than design motions, and not zero.
+///
+/// Design motions start at 0.5 m/s², where earthquakes are rare.
+const WEAK_ACCELERATIONS: [f64; 2] = [0.02, 0.45];
+/// Time steps of records, s.
+const RECORD_INTERVALS: [f64; 2] = [1e-4, 0.2];
+/// Velocity at the end of a record over the largest velocity, above which the record drifts.
+///
+/// Records with a corrected baseline end with some per cent.
+const MAX_END_VELOCITY_RATIO: f64 = 0.3;
+/// Weight over the area of a base below which masses are probably in another unit, Pa: the weight of a timber
+/// floor.
+const MIN_BASE_PRESSURE: f64 = 2e3;
+/// Weight over the area of a base above which no soil carries it, relative to the soil's shear modulus.
+///
+/// Clay fails at 5.14 times its undrained strength (Prandtl 1921), and its shear modulus at small strains is at least
+/// a hundred times that strength: failure at 0.05 or less. This is half of it.
+const MAX_PRESSURE_RATIO: f64 = 0.025;
+/// Smallest ratio of the masses that move up and to the side: floors are missing in the smaller one.
+const MIN_MASS_RATIO: f64 = 0.9;
+/// Strengths of a bond (Pa) that are probably in kPa, and the largest one relative to the pressure under the weight.
+const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
+const MAX_WEAK_BOND_RATIO: f64 = 0.01;
+/// Friction coefficients that are probably angles in degrees or percentages.
+const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
+/// Largest height of a storey, m.
+const MAX_STOREY_HEIGHT: f64 = 100.0;
+/// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
+const GRAVITIES: [f64; 2] = [1.5, 30.0];
+/// Time steps per mean period of a record that a warning recommends, and per period of a structure.
+const STEPS_PER_RECORD_PERIOD: f64 = 15.0;
+const STEPS_PER_STRUCTURE_PERIOD: f64 = 30.0;
+
+/// Weight of a structure on its base.
+pub(crate) struct Weight {
+    /// Acceleration of gravity, m/s².
+    gravity: f64,
+    /// Weight over the area of the contact elements, Pa.
+    pressure: f64,
+    /// Masses that move to the right, up and, in plan, away, kg.
+    masses: Vec<f64>,
+}
+
+impl Weight {
+    pub(crate) fn new(gravity: f64, assembled: &Assembled) -> Self {
+        let translations = assembled.influence.of_all(assembled.dofs());
+        let masses: Vec<f64> =
+            translations.iter().map(|moved| assembled.mass.form(moved, moved)).collect();
+        let pressure = gravity * masses[UP] / assembled.base.areas().iter().sum::<f64>();
+        Self { gravity, pressure, masses }
+    }
+}
+
+/// Mean period of a record's acceleration (root mean square of its frequency), s.
+fn mean_period(record: &Record) -> f64 {
+    let mut variation = Variation::default();
+    record.accelerations().windows(2).for_each(|pair| variation.see(pair[0], pair[1]));
+    TAU * record.time_step() / (2.0 * variation.ratio().atan())
+}
+
+/// Velocity at the end of a record (m/s) if the record drifts.
+fn drift(record: &Record) -> Option<f64> {
+    let velocities = record.velocities();
+    let largest = velocities.iter().fold(0.0, |largest: f64, v| largest.max(v.abs()));
+    let last = velocities.last().copied()?;
+    (last.abs() > MAX_END_VELOCITY_RATIO * largest).then_some(last)
+}
+
+impl Warning {
+    /// Warnings of numbers of a scene that are probably in another unit.
+    ///
+    /// For a scene that is not to scale only friction is checked.
+    pub(crate) fn of_units(
+        is_to_scale: bool,
+        scene: &Scene,
+        weight: &Weight,
+        description: &StructureDescription,
+    ) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        let form = LawForm::of(scene.layout());
+        let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
+        let unlikely = frictions.filter(|friction| within(UNLIKELY_FRICTION, *friction));
+        warnings
+            .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
+        if !is_to_scale {
+            return warnings;
+        }
+        let &Weight { gravity, pressure, .. } = weight;
+        if gravity > 0.0 && !within(GRAVITIES, gravity) {
+            warnings.push(Self::UnusualGravity { gravity });
+        }
+        if gravity > 0.0 && pressure < MIN_BASE_PRESSURE {
+            warnings.push(Self::LightStructure { pressure });
+        }
+        let bonds = scene.laws.iter().filter_map(|law| bond_at_rest(law.as_ref(), pressure));
+        let weak = bonds.filter(|strength| {
+            within(WEAK_BONDS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
+        });
+        warnings
+            .extend(weak.reduce(f64::min).map(|strength| Self::WeakBond { strength, pressure }));
+        let tall = description.tallest_storey.filter(|height| *height > MAX_STOREY_HEIGHT);
+        warnings.extend(tall.map(|height| Self::TallStorey { height }));
+        let densities = description.densities.into_iter().flatten();
+        let unusual = densities.filter(|density| !within(MATERIAL_DENSITIES, *density));
+        warnings.extend(unusual.map(|density| Self::UnusualDensity { density }).take(1));
+        warnings
+    }
+
+    /// Warnings of a weight that its soil cannot carry, and of masses that differ with their direction.
+    pub(crate) fn of_weight(weight: &Weight, ground: &dyn Ground) -> Vec<Self> {
+        let &Weight { gravity, pressure, ref masses } = weight;
+        let mut warnings = Vec::new();
+        if gravity <= 0.0 {
+            return warnings;
+        }
+        let GroundDescription { soils, .. } = ground.description();
+        let moduli = soils.iter().map(Soil::shear_modulus);
+        // A base below the surface may stand on any of the soils.
+        let has_walls = ContactElement::any_wall(ground.elements().iter());
+        let modulus = if has_walls { moduli.reduce(f64::max) } else { moduli.take(1).next() };
+        let soft = modulus.filter(|modulus| pressure > MAX_PRESSURE_RATIO * modulus);
+        warnings.extend(soft.map(|shear_modulus| Self::HeavyStructure { pressure, shear_modulus }));
+        let vertical = masses[UP];
+        let sideways = masses.iter().enumerate().filter(|(direction, _)| *direction != UP);
+        let other = sideways.map(|(_, mass)| *mass).find(|horizontal| {
+            *horizontal > 0.0
+                && vertical > 0.0
+                && (vertical / horizontal).min(horizontal / vertical) < MIN_MASS_RATIO
+        });
+        warnings.extend(other.map(|horizontal| Self::UnequalMasses { vertical, horizontal }));
+        warnings
+    }
+
+    /// Warning of a time step that does not see the strongest record of a motion.
+    ///
+    /// `time_step`: of the simulation, s; `structure_period`: of the structure on a fixed base, s.
+    pub(crate) fn of_time_step(
+        time_step: f64,
+        motion: &dyn FreeField,
+        structure_period: f64,
+    ) -> Option<Self> {
+        let records = motion.records();
+        let periods = records.iter().map(|record| (mean_period(record), record.time_step()));
+        let known = periods.filter(|(period, _)| period.is_finite());
+        let (period, interval) = known.min_by(|one, other| one.0.total_cmp(&other.0))?;
+        if time_step <= 0.5 * period {
+            return None;
+        }
+        // A structure that is faster than the record follows the record.
+        let slow = Some(structure_period / STEPS_PER_STRUCTURE_PERIOD)
+            .filter(|_| structure_period > period);
+        let needed = slow.unwrap_or(f64::INFINITY).min(period / STEPS_PER_RECORD_PERIOD);
+        Some(Self::LongTimeStep { time_step, interval, period, needed })
+    }
+
+    /// Drops the warning of a long time step where the run itself shows that its steps miss the motion.
+    pub(super) fn drop_expected(warnings: &mut Vec<Self>) {
+        let is_shown = |warning: &Self| {
+            matches!(warning, Self::UnresolvedMotion { .. } | Self::UnresolvedPeriod { .. })
+        };
+        if warnings.iter().any(is_shown) {
+            warnings.retain(|warning| !matches!(warning, Self::LongTimeStep { .. }));
+        }
+    }
+
+    /// Warnings of a run's largest ground acceleration (m/s²), and of the records of its motion.
+    pub(crate) fn of_motion(
+        acceleration: f64,
+        ground_motion: &GroundMotion,
+        motion: &dyn FreeField,
+    ) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        let Some(time_step) = ground_motion.time_step else {
+            if acceleration > MAX_GROUND_ACCELERATION {
+                warnings.push(Self::UnusualMotion { acceleration });
+            }
+            return warnings;
+        };
+        let acceleration = acceleration.max(ground_motion.peak);
+        if acceleration > MAX_GROUND_ACCELERATION {
+            warnings.push(Self::UnusualMotion { acceleration });
+        }
+        if within(WEAK_ACCELERATIONS, ground_motion.peak) {
+            warnings.push(Self::UnusualMotion { acceleration: ground_motion.peak });
+        }
+        if !within(RECORD_INTERVALS, time_step) {
+            warnings.push(Self::UnusualInterval { time_step });
+        }
+        let drifts = motion.records().into_iter().filter_map(drift);
+        let largest = drifts.max_by(|one, other| one.abs().total_cmp(&other.abs()));
+        warnings.extend(largest.map(|velocity| Self::DriftingRecord { velocity }));
+        warnings
+    }
+
+    /// Warnings of `soils` with unusual numbers.
+    pub(super) fn of_soils(soils: &[Soil]) -> impl Iterator<Item = Self> {
+        let numbers = soils.iter().map(|soil| [soil.shear_wave_speed(), soil.density()]);
+        let unusual = numbers.filter(|[speed, density]| {
+            !(within(SOIL_SPEEDS, *speed) && within(SOIL_DENSITIES, *density))
+        });
+        unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
+    }
+}

@@ -1,0 +1,242 @@
+//! Numbers and steps that are probably mistakes warn, at the point where their mistake begins, and usual ones do not.
+
+use basemat::bem::ElasticGround;
+use basemat::coupled::Warning;
+use basemat::fem::{Material, Mesh, Shell};
+use basemat::interface::Cohesive;
+use basemat::motion::FreeFieldFn;
+use basemat::prelude::*;
+use basemat::results::Run;
+use basemat::structure::{CraigBampton, FemModel, MatrixModel, StructureGroup, Triplets};
+
+fn soil() -> Soil {
+    Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap()
+}
+
+/// Five storeys, times a factor on masses and stiffness.
+fn building(factor: f64) -> ShearBuilding {
+    let storeys = [Storey::new(3.0, factor * 30.0e3, factor * 60.0e6); 5];
+    let building = ShearBuilding::new(8.0, factor * 60.0e3, factor * 4.0e5, &storeys).unwrap();
+    building.with_stiffness_damping(0.05).unwrap()
+}
+
+fn run(
+    time_step: f64,
+    structure: impl Structure + 'static,
+    law: impl InterfaceLaw + 'static,
+    motion: impl FreeField + 'static,
+    duration: f64,
+) -> Run {
+    let mut simulation = Simulation::builder(time_step)
+        .ground(ElasticGround::under(soil(), &structure, 12).unwrap())
+        .structure(structure)
+        .interface(law)
+        .motion(motion)
+        .build()
+        .unwrap();
+    let run = simulation.run(simulation.steps_for(duration), |_| {}).unwrap();
+    for warning in &run.warnings {
+        let line = format!("warning: {warning}");
+        assert!(run.to_string().contains(&line) && line.chars().count() <= 100, "{line}");
+    }
+    run
+}
+
+fn coulomb() -> Coulomb {
+    Coulomb::new(0.4).unwrap()
+}
+
+/// Whether a run has a warning of this kind.
+fn warns(run: &Run, is_kind: impl Fn(&Warning) -> bool) -> bool {
+    run.warnings.iter().any(is_kind)
+}
+
+fn is_of_step(warning: &Warning) -> bool {
+    matches!(
+        warning,
+        Warning::LongTimeStep { .. }
+            | Warning::UnresolvedMotion { .. }
+            | Warning::UnresolvedPeriod { .. }
+    )
+}
+
+/// Reference: ω² = ∫ ȧ² dt / ∫ a² dt of the record's acceleration, which is linear between its samples.
+#[test]
+fn a_longer_step_never_warns_less() {
+    let record = el_centro_1940();
+    let (mut rates, mut squares) = (0.0, 0.0);
+    for pair in record.accelerations().windows(2) {
+        rates += (pair[1] - pair[0]).powi(2) / 0.02;
+        squares += 0.02 * (pair[0].powi(2) + pair[0] * pair[1] + pair[1].powi(2)) / 3.0;
+    }
+    let mean_period = std::f64::consts::TAU * f64::sqrt(squares / rates);
+    for step in [0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 40.0] {
+        let record = run(step, building(1.0), coulomb(), el_centro_1940(), 32.0);
+        assert!(warns(&record, is_of_step), "record, {step} s: {:?}", record.warnings);
+        let told = record.warnings.iter().find_map(|warning| match warning {
+            Warning::LongTimeStep { period, interval, needed, .. } => {
+                Some([*period, *interval, *needed])
+            }
+            _ => None,
+        });
+        if let Some([period, interval, needed]) = told {
+            assert!((period / mean_period - 1.0).abs() < 0.02, "{period} {mean_period}");
+            assert_eq!(interval, 0.02);
+            assert!(needed <= period / 14.9, "{needed}");
+        }
+        // A motion without a record is sampled.
+        let wave = |_: f64, time: f64| [0.01 * (time * 12.0).sin() * (0.1 * time).sin(), 0.0];
+        let closure = run(step, building(1.0), coulomb(), FreeFieldFn::new(wave), 120.0);
+        let judged = step <= 0.1 || warns(&closure, is_of_step);
+        assert!(judged, "closure, {step} s: {:?}", closure.warnings);
+    }
+    let fine = run(0.01, building(1.0), coulomb(), el_centro_1940(), 32.0);
+    assert!(!warns(&fine, is_of_step), "{:?}", fine.warnings);
+    // Few fine steps, and few long steps of a slow motion, are right.
+    let short = run(0.01, building(1.0), coulomb(), el_centro_1940(), 0.05);
+    assert!(!warns(&short, is_of_step), "{:?}", short.warnings);
+    let creep = FreeFieldFn::new(|_, time| [1e-6 * time * time, 0.0]);
+    let slow = run(1.0, building(1.0), coulomb(), creep, 5.0);
+    assert!(!warns(&slow, is_of_step), "{:?}", slow.warnings);
+}
+
+/// Reference: the weight by hand over 8 m, and G = ρ c² = 118.75 MPa.
+#[test]
+fn a_weight_that_no_soil_carries() {
+    let is_heavy = |warning: &Warning| matches!(warning, Warning::HeavyStructure { .. });
+    for (factor, expected) in [(1.0, false), (5.0, false), (20.0, true), (100.0, true)] {
+        let run = run(0.005, building(factor), coulomb(), el_centro_1940(), 0.1);
+        assert_eq!(warns(&run, is_heavy), expected, "{factor}: {:?}", run.warnings);
+        for warning in &run.warnings {
+            if let Warning::HeavyStructure { pressure, shear_modulus } = warning {
+                let by_hand = factor * 210.0e3 * STANDARD_GRAVITY / 8.0;
+                assert!((pressure / by_hand - 1.0).abs() < 1e-9);
+                assert!((shear_modulus / 118.75e6 - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+/// A building as matrices, whose vertical mass is this one.
+fn matrices(vertical: f64) -> MatrixModel {
+    let masses = [50e3, vertical, 400e3, 20e3, 20e3, 20e3, 20e3, 20e3];
+    let mass = Triplets::from_entries(8, masses.iter().enumerate().map(|(i, m)| (i, i, *m)));
+    let mut stiffness = Triplets::new(8);
+    for storey in 0..5 {
+        let below = if storey == 0 { 0 } else { 2 + storey };
+        let tilt = (2, 3.0);
+        stiffness.add_outer([(3 + storey, 1.0), (below, -1.0), tilt], 40e6);
+    }
+    MatrixModel::new(mass, stiffness, BaseNode::rigid_base(-3.0, 3.0, [0, 1, 2])).unwrap()
+}
+
+#[test]
+fn floors_that_the_vertical_mass_lacks() {
+    let told = |vertical: f64| {
+        let run = run(0.005, matrices(vertical), coulomb(), el_centro_1940(), 0.1);
+        run.warnings.iter().find_map(|warning| match warning {
+            Warning::UnequalMasses { vertical, horizontal } => Some([*vertical, *horizontal]),
+            _ => None,
+        })
+    };
+    assert_eq!(told(150e3), None);
+    let [vertical, horizontal] = told(50e3).unwrap();
+    assert!((vertical - 50e3).abs() < 1e-3 && (horizontal - 150e3).abs() < 1e-3);
+    assert!(told(300e3).is_some());
+}
+
+/// A raft of shells under a block of the same density.
+fn raft(density: f64, thickness: f64) -> FemModel {
+    let concrete = Material::new(30e9, 0.2, density).unwrap();
+    let mut mesh = Mesh::in_space();
+    let grid =
+        mesh.add_grid(4, 4, |row, column| [2.0 * column as f64, 2.0 * row as f64, 0.0]).unwrap();
+    for (_, cell) in grid.cells() {
+        mesh.add(Shell::new(cell, concrete, thickness).unwrap()).unwrap();
+    }
+    FemModel::on_base(mesh).unwrap()
+}
+
+fn shaken_raft(model: impl Structure + 'static) -> Run {
+    let mut simulation = Simulation::builder(0.01)
+        .ground(ElasticGround::under(soil(), &model, 4).unwrap())
+        .structure(model)
+        .interface(coulomb())
+        .motion(el_centro_1940())
+        .build()
+        .unwrap();
+    simulation.run(5, |_| {}).unwrap()
+}
+
+#[test]
+fn densities_that_no_material_has() {
+    let told = |run: &Run| {
+        run.warnings.iter().find_map(|warning| match warning {
+            Warning::UnusualDensity { density } => Some(*density),
+            _ => None,
+        })
+    };
+    for density in [25.0, 2.5, 25_000.0] {
+        assert_eq!(told(&shaken_raft(raft(density, 1.0))), Some(density));
+    }
+    for density in [450.0, 2500.0, 7850.0] {
+        assert_eq!(told(&shaken_raft(raft(density, 1.0))), None, "{density}");
+    }
+    // One of two structures.
+    let group = StructureGroup::new().with(raft(2500.0, 1.0), 0.0).unwrap();
+    let group = group.with(raft(25.0, 1.0), 20.0).unwrap();
+    assert_eq!(group.description().densities, Some([25.0, 2500.0]));
+    // A wall of a kilometre is told by its weight.
+    let thick = shaken_raft(raft(2500.0, 1000.0));
+    assert!(warns(&thick, |warning| matches!(warning, Warning::HeavyStructure { .. })));
+    // Reduction keeps what the model tells.
+    let reduced = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
+    assert_eq!(reduced.description().densities, Some([25.0; 2]));
+}
+
+#[test]
+fn motions_stronger_than_two_g_and_records_that_drift() {
+    let told = |record: Record| {
+        let run = run(0.005, building(1.0), coulomb(), record, 0.2);
+        let strong = warns(&run, |warning| matches!(warning, Warning::UnusualMotion { .. }));
+        let drift = run.warnings.iter().find_map(|warning| match warning {
+            Warning::DriftingRecord { velocity } => Some(*velocity),
+            _ => None,
+        });
+        (strong, drift)
+    };
+    let record = el_centro_1940();
+    assert_eq!(told(record.clone()), (false, None));
+    // 0.318 g times 6.2 is below 2 g; times 9.75 it is 3.1 g.
+    assert!(!told(record.scaled(6.2).unwrap()).0);
+    assert!(told(record.scaled(9.75).unwrap()).0);
+    // A pulse of 1.3 Hz with the offset of a recorder, 0.0783 m/s² for 10 s.
+    let sample = |k: usize| {
+        let time = 0.01 * k as f64;
+        let pulse = 1.5 * (8.17 * time).sin() * (-((time - 4.0) / 2.0).powi(2)).exp();
+        pulse + 0.0783
+    };
+    let offset = Record::new(0.01, (0..1000).map(sample).collect()).unwrap();
+    let velocity = told(offset.clone()).1.unwrap();
+    assert!((velocity - 0.0783 * 9.99).abs() < 0.02, "{velocity}");
+    let corrected = offset.with_baseline(basemat::motion::Baseline::RemoveMean).unwrap();
+    assert_eq!(told(corrected).1, None);
+}
+
+#[test]
+fn strengths_in_kilopascals() {
+    let block = || RigidBlock::new(6.0, 9.0, 1000.0).unwrap();
+    let told = |tension: f64, cohesion: f64| {
+        let law = Cohesive::new(tension, cohesion, 0.4).unwrap();
+        let run = run(0.005, block(), law, el_centro_1940(), 0.1);
+        run.warnings.iter().find_map(|warning| match warning {
+            Warning::WeakBond { strength, pressure } => Some([*strength, *pressure]),
+            _ => None,
+        })
+    };
+    assert_eq!(told(0.0, 0.0), None);
+    assert_eq!(told(50e3, 100e3), None);
+    let [strength, pressure] = told(10.0, 20.0).unwrap();
+    assert_eq!(strength, 10.0);
+    assert!((pressure / (9.0 * 1000.0 * STANDARD_GRAVITY) - 1.0).abs() < 1e-9);
+}
