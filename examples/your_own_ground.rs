@@ -8,6 +8,10 @@
 //! a shear traction τ at τ/(ρ c_S), without end. The present displacement is the column's only memory. It
 //! radiates as much as a ground can, and has no static stiffness. A spring of `held` Pa/m adds one, so that
 //! the structure can stand.
+//!
+//! The traction of a step is the traction in its middle, where the spring has the mean displacement of both ends. A spring
+//! alone therefore has the step compliance 2/k and the history −s₀; with s = τ/k it would damp at first order
+//! in the time step.
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use basemat::interface::Coulomb;
@@ -41,7 +45,8 @@ impl Columns {
 
     /// Factors of the displacement at the end of the next step, `kept · old + gained · traction`.
     ///
-    /// They follow from the midpoint rule for `z ds/dt + k s = traction`.
+    /// They follow from the midpoint rule for `z ds/dt + k s = traction`. `SpringGround::of_elements` is a bed of
+    /// such pairs that can be a part of another ground.
     fn step_factors(&self, component: usize) -> [f64; 2] {
         let z = self.impedance[usize::from(component >= self.elements.len())] / self.time_step;
         let k = 0.5 * self.held;

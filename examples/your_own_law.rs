@@ -4,21 +4,17 @@
 //! cargo run --release --example your_own_law
 //! ```
 //!
-//! A law handles one contact element at a time. It provides three things:
-//!
-//! 1. the list of possible modes ([`InterfaceLaw::modes`]);
-//! 2. the conditions of a mode at the end of the step: two linear equations between gap, slip, pressure and
-//!    shear ([`InterfaceLaw::conditions`]);
-//! 3. whether a trial is admissible, and if not, the mode to try next ([`InterfaceLaw::next_mode`]).
+//! A law handles one contact element at a time. It needs one method: the limits of the element's tractions in a
+//! step ([`InterfaceLaw::limits`]). Sticking, sliding and opening follow from them, in the plane and in plan. A
+//! law of the plane that no limits describe has its own modes and conditions instead
+//! ([`InterfaceLaw::conditions`]).
 //!
 //! The end of the previous step is in [`PreviousContact`]; here the law uses the speed at which the element
 //! slid. Values that a law needs for longer are its state variables ([`InterfaceLaw::state_variables`]).
 //!
 //! If only the coefficient changes, a closure in [`VariableFriction`] is enough, as in the last but one row.
 
-use basemat::interface::{
-    Condition, ContactState, Mode, PreviousContact, Tolerance, VariableFriction,
-};
+use basemat::interface::{Limits, PreviousContact, VariableFriction};
 use basemat::prelude::*;
 
 /// Friction that decreases with the speed of sliding (m/s): fast + (slow − fast) e^(−|v|/speed).
@@ -29,61 +25,16 @@ struct VelocityWeakening {
 }
 
 impl VelocityWeakening {
-    /// Coefficient of this step. It depends on the start of the step alone, so it is constant in the search
-    /// of modes.
+    /// Coefficient of this step. It depends on the start of the step alone, so it is constant in the search of
+    /// modes.
     fn friction(&self, start: &PreviousContact) -> f64 {
         self.fast + (self.slow - self.fast) * (-start.slip_rate.abs() / self.speed).exp()
     }
 }
 
 impl InterfaceLaw for VelocityWeakening {
-    fn modes(&self) -> &[Mode] {
-        &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        // ±shear − friction · pressure = 0, divided by the friction where the friction is large. The
-        // condition thus stays valid up to infinite friction.
-        let cone = |side: f64| {
-            let friction = self.friction(start);
-            let [shear, pressure] =
-                if friction > 1.0 { [side / friction, -1.0] } else { [side, -friction] };
-            Condition { shear, pressure, ..Condition::default() }
-        };
-        let closed = Condition::gap_is(0.0);
-        match mode {
-            // The structure slides to the right and drags the soil with it: shear is positive.
-            Mode::SlipRight => [closed, cone(1.0)],
-            Mode::SlipLeft => [closed, cone(-1.0)],
-            Mode::Open => [Condition::pressure_is(0.0), Condition::shear_is(0.0)],
-            _ => [closed, Condition::slip_is(start.state.slip)],
-        }
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        let limit = self.friction(start) * trial.pressure.max(0.0) + tolerance.traction;
-        let advance = trial.slip - start.state.slip;
-        match mode {
-            // An open element that would penetrate the soil closes; a closed element in tension opens.
-            Mode::Open if trial.gap < -tolerance.length => Mode::Stick,
-            Mode::Open => Mode::Open,
-            _ if trial.pressure < -tolerance.traction => Mode::Open,
-            Mode::Stick if trial.shear > limit => Mode::SlipRight,
-            Mode::Stick if trial.shear < -limit => Mode::SlipLeft,
-            // Shear opposite to the direction of slip means a negative pressure.
-            Mode::SlipRight if trial.shear < -tolerance.traction => Mode::Open,
-            Mode::SlipLeft if trial.shear > tolerance.traction => Mode::Open,
-            // Friction must not drive the motion: an element that slides the wrong way sticks.
-            Mode::SlipRight if advance < -tolerance.length => Mode::Stick,
-            Mode::SlipLeft if advance > tolerance.length => Mode::Stick,
-            admissible => admissible,
-        }
+    fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
+        Ok(Limits { friction: self.friction(start), ..Limits::default() })
     }
 }
 

@@ -161,7 +161,7 @@
 //! | nonlinear force in it | [`structure::NonlinearForce`] | 2; 5 with a memory |
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 6 |
-//! | law between base and soil | [`interface::InterfaceLaw`] | 3 |
+//! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |

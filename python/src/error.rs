@@ -47,6 +47,14 @@ pub(crate) fn take_raised() -> Option<PyErr> {
     RAISED.take()
 }
 
+/// The result of a call of user code that may fail: its exception is not kept.
+pub(crate) fn quietly<T>(call: impl FnOnce() -> basemat::Result<T>) -> basemat::Result<T> {
+    let outer = take_raised();
+    let found = call();
+    RAISED.set(outer);
+    found
+}
+
 /// The result of a call that may run user code, or the exception that this code raised. One that was
 /// there before belongs to a run around this call and stays for it.
 pub(crate) fn heard<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {

@@ -60,6 +60,25 @@ class Bed(Unsaved):
         self.displacement = values
 
 
+class Helped(bm.SpringDashpots):
+    """The bed by the class of the package."""
+
+    elements = STRIP
+
+    def __init__(self, dashpots: bool = True) -> None:
+        super().__init__(np.repeat(STIFFNESS, 8), np.repeat(DASHPOTS, 8) if dashpots else None)
+
+
+class FirstOrder(Helped):
+    """Springs that follow the traction of the step: s₁ = τ/k."""
+
+    def step_compliance(self, time_step: float) -> np.ndarray:
+        return self.static_compliance()
+
+    def advance(self, traction: np.ndarray) -> np.ndarray:
+        return np.zeros_like(traction)
+
+
 def springs() -> bm.SpringGround:
     return bm.SpringGround(STRIP, *STIFFNESS, dashpots=DASHPOTS)
 
@@ -79,6 +98,62 @@ def test_springs_in_python_have_the_bits_of_the_packages(rocking) -> None:
     assert simulation.ground is not bed and simulation.ground.steps == 400 and bed.steps == 0
     assert simulation.elements == rocking(ground=springs()).elements
     assert simulation.history_choice is None
+
+
+@pytest.mark.parametrize("dashpots", [True, False])
+def test_springs_and_dashpots_of_the_package_in_a_ground_of_one_s_own(rocking, dashpots: bool) -> None:
+    own = bm.SpringGround(STRIP, *STIFFNESS, dashpots=DASHPOTS if dashpots else None)
+    found, expected = rocking(ground=Helped(dashpots)).run(400), rocking(ground=own).run(400)
+    for key in KEYS:
+        assert same_bits(found[key], expected[key]), key
+    simulation = rocking(ground=Helped(dashpots))
+    first = simulation.run(100)["base_shear"]
+    checkpoint = simulation.checkpoint()
+    other = rocking(ground=Helped(dashpots))
+    other.resume(checkpoint)
+    assert same_bits(np.concatenate([first, other.run(300)["base_shear"][1:]]), expected["base_shear"])
+
+
+def test_springs_and_dashpots_are_checked() -> None:
+    for stiffness, dashpots, words in (
+        ([1e6, 2e6], [1.0], r"shapes \(2,\) and \(1,\)"),
+        ([[1e6]], None, r"shapes \(1, 1\)"),
+        ([1e6, 0.0], None, "stiffness 0.0, but all must be finite and above zero"),
+        ([1e6, np.nan], None, "stiffness nan"),
+        ([1e6, 2e6], [0.0, -1.0], "dashpots -1.0"),
+    ):
+        with pytest.raises(ValueError, match=words):
+            bm.SpringDashpots(stiffness, dashpots)
+
+
+def test_energy_of_springs_returns_and_a_ground_of_first_order_is_named() -> None:
+    def run(ground: object) -> bm.Run:
+        # A bonded block that starts upwards, without weight.
+        initial = bm.InitialConditions(gravity=0.0, velocity=[0.0, 0.1, 0.0])
+        simulation = bm.Simulation(0.002, BLOCK, ground, bm.Bonded(), initial=initial)  # type: ignore[arg-type]
+        return simulation.run(1000, warn=False)
+
+    def soil_in_the_end(found: bm.Run) -> np.ndarray:
+        energies = found.energy_balances
+        return energies["soil"][-200:] / energies["input"][-1]
+
+    kept, lost = run(Helped(dashpots=False)), run(FirstOrder(dashpots=False))
+    assert soil_in_the_end(kept).min() < 0.02 and soil_in_the_end(kept).max() > 0.98
+    assert soil_in_the_end(lost).min() > 0.9 and lost.energy_error < 1e-9
+    assert [own for own in lost.warnings if own.startswith("ground of first order")]
+    assert not [own for own in kept.warnings if own.startswith("ground of first order")]
+    assert not [own for own in run(Helped()).warnings if own.startswith("ground of first order")]
+
+
+def test_a_table_for_one_step_runs(rocking) -> None:
+    class Table(Bed):
+        def step_compliance(self, time_step: float) -> np.ndarray:
+            if time_step != 0.01:
+                raise ArithmeticError("a table for 10 ms")
+            return super().step_compliance(time_step)
+
+    found = [rocking(ground=ground).run(50)["base_shear"] for ground in (Table(), Bed())]
+    assert same_bits(*found)
 
 
 def test_in_plan_and_in_a_trench() -> None:

@@ -56,6 +56,25 @@ use crate::soil::Soil;
 /// (a matrix) times the tractions of this step, which are constant over the step, and of the history, the effect of all
 /// earlier tractions. Tractions and displacements are **changes** from the static state.
 ///
+/// # Elastic parts in the mid-step form
+///
+/// The traction τ of a step, constant over it, is the traction in the **middle** of the step. A spring of stiffness k
+/// (Pa/m) therefore has the mean displacement (s₀ + s₁)/2 = τ/k, and at the end of the step
+///
+/// ```math
+/// s_1 = \frac{2}{k}\, \tau - s_0 :
+/// ```
+///
+/// its step compliance is 2/k, twice the static one, and its history −s₀. With s₁ = τ/k and no history each step would
+/// dissipate (Δτ)²/2k without any damping: the response would converge at first order, and the loss would count as
+/// radiated by the soil. A spring with a dashpot c in parallel has the step compliance 1/(k/2 + c/Δt) and the history
+/// (c/Δt − k/2)/(c/Δt + k/2) s₀. [`SpringGround::of_elements`] makes a bed of them, which can be a part of your ground.
+/// Parts that only rates displace (dashpots, waves, creep) have the exact displacement under a constant traction.
+///
+/// A run warns of an elastic part that follows the traction of the step:
+/// [`Warning::FirstOrderGround`](crate::coupled::Warning::FirstOrderGround). To find it, `build` prepares a ground of
+/// your own, unless it has waves, for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
+///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
 #[auto_impl::auto_impl(Box)]
 pub trait Ground: Any + Send {
@@ -222,6 +241,9 @@ const NOT_PREPARED: Error = Error::Scene {
 };
 
 /// Soil with convolution weights and a static compliance, as [`WeightsGround`] needs it.
+///
+/// In the [mid-step form](Ground#elastic-parts-in-the-mid-step-form) the weights of an elastic part of compliance C
+/// alternate for ever: 2C, −2C, 2C, … A single weight C would damp at first order. A [`Ground`] can have such a part.
 pub trait WeightsSource: Any + Send {
     /// Convolution weights of `elements` (left to right, not overlapping) for steps of `time_step` seconds.
     ///

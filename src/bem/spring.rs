@@ -5,14 +5,16 @@ use super::{Grading, Ground, NOT_PREPARED, Strip};
 use crate::error::{
     CheckpointError, Observer, Result, not_negative, positive, require, same_length,
 };
-use crate::geometry::{ContactElement, Patch, SPACE};
+use crate::geometry::{ContactElement, ContactLayout, Patch, SPACE};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
 /// Per unit of area, traction = stiffness · s + dashpot · ds/dt in each direction, stepped by a θ rule: θ = ½ (the
-/// default) conserves the springs' energy, θ = 1 damps the ringing of a released bed without dashpots. Stiff tangential
-/// springs without dashpots keep the sideways speed of a base that lands from a flight: it alternates from step to step.
+/// default, the [mid-step form](Ground#elastic-parts-in-the-mid-step-form)) conserves the springs' energy, θ = 1 damps the
+/// ringing of a released bed without dashpots. Stiff tangential springs without dashpots keep the sideways speed of a base
+/// that lands from a flight: it alternates from step to step. A ground of your own can contain a bed as one of its parts:
+/// [`SpringGround::of_elements`].
 ///
 /// ```
 /// use basemat::bem::{Ground, SpringGround};
@@ -26,10 +28,10 @@ use crate::structure::Structure;
 #[derive(Debug, Clone)]
 pub struct SpringGround {
     elements: Patch,
-    /// Stiffness downwards, along x and in plan along y, Pa/m.
-    stiffness: [f64; SPACE],
-    /// Dashpot coefficient downwards, along x and in plan along y, Pa·s/m.
-    dashpot: [f64; SPACE],
+    /// Stiffness of each number of a contact vector, Pa/m.
+    stiffness: Vec<f64>,
+    /// Dashpot coefficient of each number of a contact vector, Pa·s/m.
+    dashpot: Vec<f64>,
     theta: f64,
     time_step: f64,
     displacement: Vec<f64>,
@@ -106,19 +108,60 @@ impl SpringGround {
         Self::bed(plan.without_overhang()?.elements(), stiffness)
     }
 
-    fn bed(elements: Vec<ContactElement>, stiffness: [f64; SPACE]) -> Result<Self> {
+    /// Bed of any elements, with a spring and a dashpot for each number of a [contact vector](crate::bem).
+    ///
+    /// `stiffness` in Pa/m and `dashpot` in Pa·s/m have 2Q numbers for Q elements, in plan 3Q. A ground of your own that
+    /// consists of springs and dashpots, and of more, calls the bed's methods in its own methods of the same name, and
+    /// adds its other parts.
+    ///
+    /// ```
+    /// use basemat::bem::{Ground, SpringGround, Strip};
+    /// let elements = Strip::uniform(-2.0..2.0, 2)?.elements();
+    /// // Down, then to the right: the left half is softer.
+    /// let mut bed = SpringGround::of_elements(elements, &[1e7, 2e7, 5e6, 5e6], &[0.0; 4])?;
+    /// bed.prepare(0.01, None, &mut basemat::unobserved)?;
+    /// let (mut step, mut past) = ([0.0; 16], [0.0; 4]);
+    /// bed.step_compliance(&mut step)?;
+    /// assert_eq!([step[0], step[5]], [2.0 / 1e7, 2.0 / 2e7]);
+    /// bed.commit(&[1e4, 0.0, 0.0, 0.0]);
+    /// bed.history(&mut past)?;
+    /// assert_eq!(past[0], -2e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) for lists of another length, [`Error::Input`](crate::Error::Input) for a
+    /// stiffness not finite and above zero or a dashpot not finite or below zero, and for elements that overlap.
+    pub fn of_elements(
+        elements: Vec<ContactElement>,
+        stiffness: &[f64],
+        dashpot: &[f64],
+    ) -> Result<Self> {
         let elements = Patch::new(elements)?;
+        let size = elements.layout().len();
+        same_length("stiffnesses of the spring bed", stiffness.len(), size)?;
+        same_length("dashpots of the spring bed", dashpot.len(), size)?;
+        for (stiffness, dashpot) in stiffness.iter().zip(dashpot) {
+            positive("stiffness of the spring bed", *stiffness)?;
+            not_negative("dashpot of the spring bed", *dashpot)?;
+        }
+        Ok(Self {
+            elements,
+            stiffness: stiffness.to_vec(),
+            dashpot: dashpot.to_vec(),
+            theta: 0.5,
+            time_step: 0.0,
+            displacement: vec![0.0; size],
+        })
+    }
+
+    fn bed(elements: Vec<ContactElement>, stiffness: [f64; SPACE]) -> Result<Self> {
         positive("normal stiffness of the spring bed", stiffness[0])?;
         positive("tangential stiffness of the spring bed", stiffness[1])?;
         positive("tangential stiffness of the spring bed along y", stiffness[2])?;
-        Ok(Self {
-            displacement: vec![0.0; elements.layout().len()],
-            elements,
-            stiffness,
-            dashpot: [0.0; SPACE],
-            theta: 0.5,
-            time_step: 0.0,
-        })
+        let layout = ContactLayout::for_elements(&elements);
+        let stiffness = each_number(layout, stiffness);
+        Self::of_elements(elements, &stiffness, &vec![0.0; stiffness.len()])
     }
 
     /// Adds dashpots (Pa·s/m) parallel to the springs.
@@ -130,7 +173,7 @@ impl SpringGround {
     pub fn with_dashpots(mut self, normal: f64, tangential: f64) -> Result<Self> {
         let normal = not_negative("normal dashpot of the spring bed", normal)?;
         let tangential = not_negative("tangential dashpot of the spring bed", tangential)?;
-        self.dashpot = [normal, tangential, tangential];
+        self.dashpot = each_number(self.elements.layout(), [normal, tangential, tangential]);
         Ok(self)
     }
 
@@ -148,9 +191,9 @@ impl SpringGround {
         if self.time_step > 0.0 { Ok(()) } else { Err(NOT_PREPARED) }
     }
 
-    /// θ k + c/Δt of a component.
-    fn impedance(&self, component: usize) -> f64 {
-        self.theta * self.stiffness[component] + self.dashpot[component] / self.time_step
+    /// θ k + c/Δt of a number of a contact vector.
+    fn impedance(&self, index: usize) -> f64 {
+        self.theta * self.stiffness[index] + self.dashpot[index] / self.time_step
     }
 
     fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
@@ -158,14 +201,15 @@ impl SpringGround {
         same_length("matrix of the spring bed", matrix.len(), size * size)?;
         matrix.fill(0.0);
         for i in 0..size {
-            matrix[i * size + i] = value(self.component(i));
+            matrix[i * size + i] = value(i);
         }
         Ok(())
     }
+}
 
-    fn component(&self, index: usize) -> usize {
-        index / self.elements.len()
-    }
+/// Values down, along x and along y, for each number of a contact vector.
+fn each_number(layout: ContactLayout, values: [f64; SPACE]) -> Vec<f64> {
+    (0..layout.len()).map(|index| values[layout.origin(index)[0]]).collect()
 }
 
 impl Ground for SpringGround {
@@ -186,16 +230,15 @@ impl Ground for SpringGround {
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.check_prepared()?;
-        self.fill_diagonal(matrix, |component| 1.0 / self.impedance(component))
+        self.fill_diagonal(matrix, |i| 1.0 / self.impedance(i))
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         self.check_prepared()?;
         same_length("displacement of the history", displacement.len(), self.displacement.len())?;
         for (i, (out, last)) in displacement.iter_mut().zip(&self.displacement).enumerate() {
-            let k = self.component(i);
-            let impedance = self.impedance(k);
-            *out = (impedance - self.stiffness[k]) / impedance * last;
+            let impedance = self.impedance(i);
+            *out = (impedance - self.stiffness[i]) / impedance * last;
         }
         Ok(())
     }
@@ -203,9 +246,8 @@ impl Ground for SpringGround {
     fn commit(&mut self, traction: &[f64]) {
         for i in 0..self.displacement.len() {
             let traction = traction.get(i).copied().unwrap_or(0.0);
-            let k = self.component(i);
-            let impedance = self.impedance(k);
-            let kept = (impedance - self.stiffness[k]) / impedance * self.displacement[i];
+            let impedance = self.impedance(i);
+            let kept = (impedance - self.stiffness[i]) / impedance * self.displacement[i];
             self.displacement[i] = kept + traction / impedance;
         }
     }
@@ -224,7 +266,7 @@ impl Ground for SpringGround {
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.fill_diagonal(matrix, |component| 1.0 / self.stiffness[component])
+        self.fill_diagonal(matrix, |i| 1.0 / self.stiffness[i])
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
@@ -232,7 +274,7 @@ impl Ground for SpringGround {
         let size = parts * self.displacement.len();
         let mut matrix = vec![0.0; size * size];
         for i in 0..size {
-            matrix[i * (size + 1)] = 1.0 / self.stiffness[self.component(i / parts)];
+            matrix[i * (size + 1)] = 1.0 / self.stiffness[i / parts];
         }
         Ok(Some(matrix))
     }

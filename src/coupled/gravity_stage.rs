@@ -1,6 +1,17 @@
-//! Friction while the weight of the structure comes on.
+//! Friction while weight and loads at t = 0 come on.
 
 /// Friction while the structure is placed on the ground.
+///
+/// One rule holds for all that acts at t = 0:
+///
+/// 1. The **weight** comes on first, as the stage defines: gravity on all masses, and each
+///    [`Load::weight`](super::Load::weight).
+/// 2. All **other loads** at t = 0 come on after it, slowly, and the interface law acts: their static state is the end
+///    of a slow ramp of the same loads in time. Where elements slide or yield, the loads grow in ten increments.
+///
+/// A base that never opens ([`Bonded`](crate::interface::Bonded)) is bonded under weight and loads. On elastic ground a
+/// weight that acts as an ordinary load meets friction, which placing without friction does not have: with ν = 0.33 and a
+/// friction of 0.5 a strip settles by up to 1.5 % less, and carries a shear traction of up to half its pressure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -12,7 +23,7 @@ pub enum GravityStage {
     /// weight alone is open at the start.
     #[default]
     Frictionless,
-    /// The interface law acts while the weight comes on, in one step.
+    /// The interface law acts while the weight comes on, in one step, as it does under the loads.
     Frictional,
     /// The structure replaces soil at rest, for comparisons.
     ///

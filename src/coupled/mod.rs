@@ -49,7 +49,7 @@
 //! # Preload
 //!
 //! With [`SimulationBuilder::gravity`] above zero, the run starts from a static state that is computed in stages:
-//! first the weight, as [`GravityStage`] defines, then the loads at t = 0 with the interface laws, in increments
+//! first the weight, as [`GravityStage`] defines, then all other loads at t = 0 with the interface laws, in increments
 //! if elements slide or yield. Contact conditions hold, with the static compliance of the ground. Without
 //! equilibrium, the error names the cause ([`crate::coupled::StabilityError`]). The structure has no support of its own and
 //! the half-plane no static datum. The search is therefore a proximal point iteration: weak springs to the last
@@ -78,6 +78,7 @@ mod convergent_step;
 mod coordinates;
 mod free_vibration;
 mod gravity_stage;
+mod ground_order;
 mod identity;
 mod interaction;
 pub(crate) mod model;

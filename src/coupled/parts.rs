@@ -8,6 +8,7 @@ use crate::contact::ContactSearch;
 use crate::coupled::base::held::held;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::ground_order::is_first_order;
 use crate::coupled::model::load::Load;
 use crate::coupled::scheme::{Midpoint, SchemeCoefficients, TimeScheme};
 use crate::coupled::serviceability::Serviceability;
@@ -136,6 +137,8 @@ pub(crate) struct Parts {
     pub(crate) coefficients: SchemeCoefficients,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
     pub(crate) soil: Arc<Thinned>,
+    /// Whether the ground damps at first order in the time step.
+    pub(crate) first_order_ground: bool,
     /// Free field at t = 0, 2Q or 3Q.
     pub(crate) start_motion: Vec<f64>,
     /// Point `[x, y]` of the base moment.
@@ -187,6 +190,7 @@ impl Parts {
         let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
         // Before the ground is prepared, which can take long.
         let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
+        let first_order_ground = !given.held && is_first_order(ground.as_mut(), time_step, layout)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = Arc::new(instantaneous_operator(ground.as_ref(), &elements)?);
@@ -197,6 +201,7 @@ impl Parts {
             elements,
             coefficients,
             soil,
+            first_order_ground,
             start_motion,
             moment_center,
         })

@@ -7,9 +7,7 @@ impl Error {
     ///
     /// ```
     /// use basemat::bem::SpringGround;
-    /// use basemat::interface::{
-    ///     Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
-    /// };
+    /// use basemat::interface::{ContactScene, Coulomb, InterfaceLaw, Limits, PreviousContact};
     /// use basemat::structure::RigidBlock;
     /// use basemat::{Error, Result, Simulation};
     ///
@@ -23,16 +21,9 @@ impl Error {
     ///         }
     ///         Err(Error::part("bearing", format!("a step of {} s is too long", scene.time_step)))
     ///     }
-    ///     // The rest is Coulomb's.
-    ///     # fn modes(&self) -> &[Mode] { self.0.modes() }
-    ///     # fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-    ///     #     self.0.conditions(mode, start)
-    ///     # }
-    ///     # fn next_mode(
-    ///     #     &self, mode: Mode, start: &PreviousContact, trial: &ContactState, tolerance: Tolerance,
-    ///     # ) -> Mode {
-    ///     #     self.0.next_mode(mode, start, trial, tolerance)
-    ///     # }
+    ///     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+    ///         self.0.limits(start)
+    ///     }
     /// }
     ///
     /// let refused = Simulation::builder(0.01)

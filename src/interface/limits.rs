@@ -1,7 +1,7 @@
 //! Limits of an element's tractions, and the modes in the plane that follow from them.
 
 use super::{Condition, ContactState, Mode, PreviousContact, Tolerance};
-use crate::error::{Result, finite, not_negative, require};
+use crate::error::{Error, Result, finite, not_negative, require};
 
 /// Bounds of the tractions of an element during a step.
 ///
@@ -66,6 +66,18 @@ impl Limits {
     /// These limits without friction, attraction and shear strength, as they act in a frictionless gravity stage.
     pub(crate) fn frictionless(self) -> Self {
         Self { friction: 0.0, attraction: 0.0, shear_strength: 0.0, ..self }
+    }
+
+    /// Error of [`InterfaceLaw::limits`](super::InterfaceLaw::limits) for a law of the plane alone.
+    ///
+    /// Such a law has its own modes, conditions and next mode.
+    ///
+    /// # Errors
+    /// Always [`Error::Scene`](crate::Error::Scene), with the name of the law.
+    pub fn only_in_plane<Law: ?Sized>() -> Result<Self> {
+        let name = std::any::type_name::<Law>();
+        let quantity = name.rsplit("::").next().unwrap_or(name);
+        Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
     /// Returns these limits, or an error if one is not possible.

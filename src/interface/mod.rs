@@ -1,8 +1,8 @@
 //! Interface laws between the base and the soil.
 //!
-//! A law describes one contact element at a time. For each [`Mode`] it returns two linear [`Condition`]s
-//! between the element's opening and its traction; after a trial it returns the next mode. The mode search of
-//! [`crate::contact`] is the same for all laws.
+//! A law describes one contact element at a time, by the [`Limits`] of its tractions. In the plane two linear
+//! [`Condition`]s for each [`Mode`] follow from them, between the element's opening and its traction, and the next mode
+//! after a trial; a law may have its own. The mode search of [`crate::contact`] is the same for all laws.
 
 mod cohesive;
 mod condition;
@@ -28,7 +28,7 @@ pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
 pub use variable_friction::VariableFriction;
 pub use yielding::Yielding;
 
-use crate::error::{Error, Result, require_part, same_length};
+use crate::error::{Result, require_part, same_length};
 
 /// Opening and **total** traction (static part included) of one contact element, as element means.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -139,6 +139,11 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 
 /// Contact law between base and soil: implement this for a law of your own.
 ///
+/// A law needs one method: the [`limits`](InterfaceLaw::limits) of an element's tractions. A law of the plane that no
+/// limits describe (an open element that bears, a slip that is resisted by its speed) has its own
+/// [`modes`](InterfaceLaw::modes), [`conditions`](InterfaceLaw::conditions) and
+/// [`next_mode`](InterfaceLaw::next_mode), and [`Limits::only_in_plane`].
+///
 /// A law is a rule and stores nothing itself. [`PreviousContact`] holds the end of the previous step. If a
 /// law needs more of the past, it declares state variables per element. The simulation stores them, passes
 /// them in [`PreviousContact::state_variables`] and saves them in checkpoints. A law that returns a number
@@ -148,33 +153,16 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// ```
 /// use basemat::Simulation;
 /// use basemat::bem::SpringGround;
-/// use basemat::interface::{
-///     Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
-/// };
+/// use basemat::interface::{ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
 ///
 /// struct SlipWeakening;
 ///
-/// impl SlipWeakening {
-///     /// Coulomb's law with the friction of this step.
-///     fn now(&self, start: &PreviousContact) -> Coulomb {
-///         let slid = start.state_variables[0];
-///         Coulomb::new(0.3 + 0.2 * (-slid / 0.01).exp()).expect("a friction above zero")
-///     }
-/// }
-///
 /// impl InterfaceLaw for SlipWeakening {
-///     fn modes(&self) -> &[Mode] {
-///         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
-///     }
-///     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-///         self.now(start).conditions(mode, start)
-///     }
-///     fn next_mode(
-///         &self, mode: Mode, start: &PreviousContact, trial: &ContactState, tolerance: Tolerance,
-///     ) -> Mode {
-///         self.now(start).next_mode(mode, start, trial, tolerance)
+///     fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
+///         let slid = start.state_variables[0];
+///         Ok(Limits { friction: 0.3 + 0.2 * (-slid / 0.01).exp(), ..Limits::default() })
 ///     }
 ///     fn state_variables(&self) -> usize {
 ///         1
@@ -198,8 +186,25 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// assert!(run.energy_error < 1e-9);
 /// # Ok::<(), basemat::Error>(())
 /// ```
+///
+/// A law without its method does not compile:
+/// ```compile_fail,E0046
+/// struct Nothing;
+/// impl basemat::interface::InterfaceLaw for Nothing {}
+/// ```
 #[auto_impl::auto_impl(Box)]
 pub trait InterfaceLaw: Send {
+    /// Limits of the tractions of an element in the step after `start`.
+    ///
+    /// The one method that a law needs, on a ground in the plane or in plan. In plan the slip follows the shear
+    /// traction, and the limits are all that a run needs of the law: they are returned once per attempted step. In the
+    /// plane modes and conditions follow from them, unless the law has its own.
+    ///
+    /// # Errors
+    /// If the law has no limits for this element, as [`Error::Scene`](crate::Error::Scene) or
+    /// [`Error::part`](crate::Error::part); for a law of the plane alone [`Limits::only_in_plane`].
+    fn limits(&self, start: &PreviousContact) -> Result<Limits>;
+
     /// The modes that this law uses in the plane, first the mode of an element at rest in contact.
     ///
     /// The default has all modes of a law with [`limits`](InterfaceLaw::limits).
@@ -296,30 +301,13 @@ pub trait InterfaceLaw: Send {
     /// Called after a condition that is not finite; returns the reason if the law can name it.
     ///
     /// # Errors
-    /// An error with the cause, as [`Error::Input`] or [`Error::part`](crate::Error::part). By default errors of the
-    /// [`limits`](InterfaceLaw::limits) from which the conditions follow.
+    /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
+    /// default errors of the [`limits`](InterfaceLaw::limits) from which the conditions follow.
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
         if self.modes() != Mode::WITH_LIMITS {
             return Ok(());
         }
         self.limits(start)?.checked().map(drop)
-    }
-
-    /// Limits of the tractions of an element in the step after `start`.
-    ///
-    /// A law that returns limits needs no other method, on a ground in plan or in the plane. In plan the slip follows the
-    /// shear traction, and the limits are all that a run needs of the law: they are returned once per attempted step. In
-    /// the plane modes and conditions follow from them, unless the law has its own.
-    ///
-    /// The default returns an error that names the law: a law with modes and conditions of its own is valid in the plane
-    /// only.
-    ///
-    /// # Errors
-    /// If the law has no limits for this element, as [`Error::Scene`], [`Error::Input`] or [`Error::part`].
-    fn limits(&self, _start: &PreviousContact) -> Result<Limits> {
-        let quantity = std::any::type_name::<Self>();
-        let quantity = quantity.rsplit("::").next().unwrap_or(quantity);
-        Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 
     /// The same law without friction and cohesion, for the gravity stage on a ground in the plane.

@@ -33,7 +33,9 @@ impl TimeSeries {
 
     /// Floor (in-structure) response spectrum at the point of an acceleration probe.
     ///
-    /// The largest response of oscillators on that point, at `periods` (s) with the damping ratio `damping`.
+    /// The largest response of oscillators on that point, at `periods` (s) with the damping ratio `damping`. After the
+    /// end of the time series each oscillator vibrates freely for one period, and the peaks of this vibration count
+    /// too. In this period the point stands still: run until the floor is at rest.
     /// Periods of fewer than ten time steps are not exact: at a period of 0.05 s a step of 0.02 s reduces the
     /// response by 11 %. [`Record::coarse_spectrum`] warns of them. Use a shorter time step for such periods.
     ///

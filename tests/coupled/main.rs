@@ -19,6 +19,7 @@ mod preload_of_soft_structures;
 mod reduced;
 mod runs;
 mod soil_column;
+mod static_loads;
 mod sweep;
 mod travel;
 mod wave_passage;

@@ -5,7 +5,7 @@
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SchemeCoefficients, SimulationBuilder, Theta, TimeScheme};
 use basemat::interface::{
-    Bonded, Condition, ContactState, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Bonded, Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use basemat::motion::FreeField;
 use basemat::{Error, Simulation};
@@ -93,6 +93,10 @@ impl FreeField for Standing {
 struct NoModes;
 
 impl InterfaceLaw for NoModes {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[]
     }

@@ -10,7 +10,7 @@ use basemat::coupled::GravityStage;
 use basemat::coupled::StepError;
 use basemat::interface::LawError;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use basemat::{Error, Simulation};
 
@@ -44,6 +44,10 @@ impl Spoilt {
 }
 
 impl InterfaceLaw for Spoilt {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -199,6 +203,10 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
 struct Memorious(usize);
 
 impl InterfaceLaw for Memorious {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

@@ -15,6 +15,10 @@ use basemat_problems::block_on_springs::{bed, block};
 pub(crate) struct Glaze(pub(crate) f64);
 
 impl InterfaceLaw for Glaze {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -95,9 +99,13 @@ fn modes_follow_from_limits() {
 
 #[test]
 fn laws_without_valid_limits_name_them() {
-    /// Neither limits nor modes.
+    /// No limits, and no conditions of its own.
     struct Nothing;
-    impl InterfaceLaw for Nothing {}
+    impl InterfaceLaw for Nothing {
+        fn limits(&self, _: &PreviousContact) -> Result<Limits> {
+            Limits::only_in_plane::<Self>()
+        }
+    }
     /// Friction below zero.
     struct Wrong;
     impl InterfaceLaw for Wrong {

@@ -7,6 +7,7 @@ mod forwarding;
 mod free_field;
 mod fundamental_solution;
 mod ground;
+mod ground_order;
 mod hints;
 mod history;
 mod kernel;

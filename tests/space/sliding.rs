@@ -6,8 +6,8 @@ use basemat::bem::ElasticGround;
 use basemat::coupled::{GravityStage, Load};
 use basemat::coupled::{StabilityError, StepError};
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, UnilateralCondition,
-    VariableFriction, Yielding,
+    Bonded, Cohesive, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, ThinLayer,
+    UnilateralCondition, VariableFriction, Yielding,
 };
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial, el_centro_1940};
 use basemat::reference::SlidingBlock;
@@ -15,7 +15,7 @@ use basemat::structure::RigidBody;
 use basemat::{Result, Simulation, Soil};
 
 use basemat_problems::series::{Error, whole};
-use basemat_problems::{law_from, table};
+use basemat_problems::table;
 
 use super::cells::{BED, Bed, Cells, Waves, equal_in_slices, slices};
 
@@ -316,11 +316,13 @@ fn bonds_break_one_after_the_other() {
 /// A law of the plane alone, and one whose open elements bear something.
 #[test]
 fn laws_without_limits_are_named() {
-    struct Plane(Coulomb);
+    struct Plane;
     impl InterfaceLaw for Plane {
-        law_from!(0);
+        fn limits(&self, _: &PreviousContact) -> Result<Limits> {
+            Limits::only_in_plane::<Self>()
+        }
     }
-    let error = scene(Plane(Coulomb::new(0.5).unwrap()), 4e-3, 1.0).unwrap_err();
+    let error = scene(Plane, 4e-3, 1.0).unwrap_err();
     assert!(matches!(error, basemat::Error::Scene { quantity: "Plane", .. }), "{error}");
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
     let error = scene(layer, 4e-3, 1.0).unwrap_err();

@@ -8,6 +8,7 @@ soil. ``python -m basemat`` says what there is; the README of the package has a 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
 from . import _animation, _frames, _meshes, _pickling as _pickling, _plots, _report, _shapes
+from ._beds import SpringDashpots as SpringDashpots
 from ._core import *
 from ._core import __version__ as __version__
 from ._errors import *

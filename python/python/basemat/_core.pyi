@@ -1644,7 +1644,8 @@ class Run(Summary):
         """The `Record` of the acceleration probe called ``probe``."""
     def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
         """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
-        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A `BasematWarning`
+        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
+        vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
         tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
         """
     @property
@@ -1873,7 +1874,8 @@ class InitialConditions:
     Args:
         gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
             state: the base begins without pressure, and nothing resists uplift and sliding.
-        gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
+        gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
+            after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
             nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
             "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
             static state, weight and loads act from t = 0 on, as for a block let go.
@@ -2141,13 +2143,18 @@ class Load:
 
     ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
     (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
-    belongs to the static state.
+    belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
     """
 
     def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
     @staticmethod
     def constant(row: _RowLike, force: float) -> Load:
         """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
+    @staticmethod
+    def weight(row: _RowLike, force: float) -> Load:
+        """Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
+        whose mass the structure does not have.
+        """
     @staticmethod
     def released(row: _RowLike, force: float) -> Load:
         """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""

@@ -64,6 +64,12 @@ class UserGround(Protocol):
     Displacements of the elements at the end of a step are the step compliance times the tractions of this step, which are
     constant over it, plus the effect of all earlier tractions. Both are changes from the static state.
 
+    The traction τ of a step is the traction in its middle. A part that is elastic at once, a spring of stiffness k, therefore
+    has the mean displacement (s₀ + s₁)/2 = τ/k, and at the end of the step s₁ = 2 τ/k − s₀: its step compliance is 2/k,
+    twice the static one, and ``advance`` returns −s₁ for it. With s₁ = τ/k every step would dissipate energy, and the run
+    would converge at first order; a run warns of it. `SpringDashpots` has springs and dashpots in this form. Parts that only
+    rates displace (dashpots, waves, creep) have the exact displacement under a constant traction.
+
     Contact vectors have 2Q numbers: down (pressure is positive in compression) for each element, then to the right; with
     walls the normal into the soil, then along the outline. In plan they have 3Q: down, along x, along y. Numbers are means
     over the elements.
@@ -86,7 +92,9 @@ class UserGround(Protocol):
     def step_compliance(self, time_step: float) -> Any:
         """Displacements at the end of a step of ``time_step`` seconds by unit tractions: array of shape (2Q, 2Q), m/Pa.
 
-        It also clears all earlier tractions: called before the first step, and before ``restore`` if a run goes on.
+        It also clears all earlier tractions: called before the first step, and before ``restore`` if a run goes on. Before
+        the first step of a ground without ``shear_wave_speed`` it is also tried with a step 64 times shorter, once
+        followed by ``advance``, to find parts of first order; an exception of this trial does not matter.
         """
 
     def advance(self, traction: NDArray[np.float64]) -> Any:

@@ -316,7 +316,8 @@ impl PyRun {
     }
 
     /// Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
-    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). A `BasematWarning`
+    /// ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
+    /// vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
     /// tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
     #[pyo3(signature = (probe, periods, damping=0.05))]
     fn floor_spectrum(

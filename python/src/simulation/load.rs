@@ -15,7 +15,7 @@ use crate::row::{Order, RowLike};
 ///
 /// ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
 /// (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
-/// belongs to the static state.
+/// belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Make<Load>,
@@ -53,6 +53,13 @@ impl PyLoad {
     #[staticmethod]
     fn constant(row: RowLike, force: f64) -> Self {
         Self::from_recipe(row.1, move || Ok(Load::constant(row.0.clone(), force)))
+    }
+
+    /// Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
+    /// whose mass the structure does not have.
+    #[staticmethod]
+    fn weight(row: RowLike, force: f64) -> Self {
+        Self::from_recipe(row.1, move || Ok(Load::weight(row.0.clone(), force)))
     }
 
     /// A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back).

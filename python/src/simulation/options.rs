@@ -17,7 +17,8 @@ use crate::error::OrRaise;
 /// Args:
 ///     gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
 ///         state: the base begins without pressure, and nothing resists uplift and sliding.
-///     gravity_stage: friction while the weight comes on. "frictionless" (the default): neither friction
+///     gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
+///         after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
 ///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
 ///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
 ///         static state, weight and loads act from t = 0 on, as for a block let go.

@@ -77,7 +77,7 @@ pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[V
     loads(parts, assembled).map(|[_, weight, load]| [weight, load])
 }
 
-/// The structure's own load at t = 0, the weight, and all loads at t = 0.
+/// The structure's own load at t = 0, the weight with the loads that come on with it, and all other loads at t = 0.
 fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
     let Parts { structure, given, .. } = parts;
     let n = assembled.dofs();
@@ -85,13 +85,14 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
     structure.load(0.0, &mut own)?;
     all_finite("load of the structure at t = 0", &own)?;
     let mut load = own.clone();
-    for external in &given.loads {
-        let force = external.value(0.0);
-        external.row().iter().for_each(|&(i, weight)| load[i] += force * weight);
-    }
     let mut weight = vec![0.0; n];
     let up = assembled.influence.of(UP, n);
     assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
+    for external in &given.loads {
+        let force = external.value(0.0);
+        let total = if external.is_weight() { &mut weight } else { &mut load };
+        external.row().iter().for_each(|&(i, factor)| total[i] += force * factor);
+    }
     all_finite("weight", &weight)?;
     all_finite("load at t = 0", &load)?;
     Ok([own, weight, load])

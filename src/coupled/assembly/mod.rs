@@ -117,8 +117,8 @@ impl SimulationBuilder {
 
     /// Sets gravity g (m/s²), which gives the structure its weight.
     ///
-    /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state:
-    /// weight first, then the loads at t = 0 with the interface law. With zero there is no static state: the base
+    /// Default: [`STANDARD_GRAVITY`](crate::motion::STANDARD_GRAVITY). The run starts from the static state under weight
+    /// and the loads at t = 0 ([`GravityStage`] has the rule). With zero there is no static state: the base
     /// starts without pressure, so nothing resists uplift and sliding.
     #[must_use]
     pub fn gravity(mut self, gravity: f64) -> Self {
@@ -149,7 +149,7 @@ impl SimulationBuilder {
         self
     }
 
-    /// Sets the friction while the weight comes on.
+    /// Sets the friction while the weight comes on; the rule for weight and loads is in [`GravityStage`].
     #[must_use]
     pub fn gravity_stage(mut self, gravity_stage: GravityStage) -> Self {
         self.gravity_stage = gravity_stage;
@@ -342,7 +342,7 @@ impl SimulationBuilder {
             Stepped::choose(&parts, &assembled, reduction, &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
-        let Parts { mut structure, ground, given, .. } = parts;
+        let Parts { mut structure, ground, given, first_order_ground, .. } = parts;
         let mut solver = Solver::new(&scene, operators, given.search);
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
@@ -354,6 +354,7 @@ impl SimulationBuilder {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let mut warnings =
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
+        warnings.extend(first_order_ground.then_some(Warning::FirstOrderGround));
         let weight = Weight::new(given.gravity, &assembled);
         let description = structure.description();
         let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));

@@ -11,8 +11,8 @@ use std::fmt;
 ///
 /// The force on every degree of freedom is its weight in `row` times the load's value. The load thus does the work
 /// value × Δ(row): for the [`DofCombination`] of a displacement the value is a force (N per metre of thickness),
-/// for a rotation a moment. The value at t = 0 belongs to the static state, after the weight; a sudden load is
-/// zero at t = 0.
+/// for a rotation a moment. The value at t = 0 belongs to the static state, as if it had grown slowly after the weight
+/// ([`GravityStage`](crate::coupled::GravityStage)); a sudden load is zero at t = 0.
 ///
 /// `build` evaluates a load at t = 0, more than once. Each attempted step from t to t + Δt then evaluates it once,
 /// at the time at which the scheme writes the equation of motion: t + Δt/2 for
@@ -49,6 +49,8 @@ use std::fmt;
 pub struct Load {
     row: DofCombination,
     value: Box<dyn Fn(f64) -> f64 + Send>,
+    /// Whether it comes on with the weight.
+    is_weight: bool,
 }
 
 impl Load {
@@ -59,7 +61,36 @@ impl Load {
         row: impl Into<DofCombination>,
         value: impl Fn(f64) -> f64 + Send + 'static,
     ) -> Self {
-        Self { row: row.into(), value: Box::new(value) }
+        Self { row: row.into(), value: Box::new(value), is_weight: false }
+    }
+
+    /// Constant `force` that comes on with the weight, as the [gravity stage](crate::coupled::GravityStage) defines.
+    ///
+    /// For dead loads whose mass the structure does not have: equipment, fill, a fixed tank. Other loads at t = 0 come
+    /// on after the weight, with the interface law.
+    ///
+    /// ```
+    /// use basemat::bem::ElasticGround;
+    /// use basemat::coupled::Load;
+    /// use basemat::interface::Coulomb;
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::{Simulation, Soil};
+    ///
+    /// let block = RigidBlock::new(8.0, 10.0, 1000.0)?;
+    /// let ground = ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, 16)?;
+    /// let up = block.vertical_at(0.0);
+    /// let simulation = Simulation::builder(0.01)
+    ///     .structure(block)
+    ///     .ground(ground)
+    ///     .interface(Coulomb::new(0.5)?)
+    ///     .load(Load::weight(up, -400.0e3))
+    ///     .build()?;
+    /// // The base is placed without friction: it carries no shear. A constant load would leave 0.3 of the pressure.
+    /// assert!(simulation.state().contact.iter().all(|element| element.shear.abs() < 1.0));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    pub fn weight(row: impl Into<DofCombination>, force: f64) -> Self {
+        Self { is_weight: true, ..Self::constant(row, force) }
     }
 
     /// Load of constant `force`, in the static state too.
@@ -111,6 +142,11 @@ impl Load {
                 _ => 0.0,
             }
         }))
+    }
+
+    /// Whether the load comes on with the weight.
+    pub(crate) fn is_weight(&self) -> bool {
+        self.is_weight
     }
 
     /// Row of the degrees of freedom on which the load acts.

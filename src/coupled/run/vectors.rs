@@ -15,6 +15,21 @@ impl State {
         in_axes(self.is_plan(), [right, away, -down])
     }
 
+    /// In plan: horizontal force on the soil along y, N; zero in the plane.
+    ///
+    /// Along x it is [`base_shear`](State::base_shear). It is the sum of the foundations'
+    /// [`shear_across`](crate::coupled::Foundation::shear_across).
+    pub fn shear_across(&self) -> f64 {
+        self.value(Quantity::ShearAcross)
+    }
+
+    /// In plan: moment on the soil about the axis along x, by the right-hand rule, N·m; zero in the plane.
+    ///
+    /// About the point of [`base_moment`](State::base_moment), which is the moment about the axis along y.
+    pub fn moment_across(&self) -> f64 {
+        self.value(Quantity::MomentAcross)
+    }
+
     /// Moment on the soil as a vector by the right-hand rule, N·m/m.
     ///
     /// About the point of [`base_moment`](State::base_moment), with axes as in
@@ -41,7 +56,10 @@ impl State {
     /// let [x, y, vertical] = simulation.state().moment_vector();
     /// assert!((y / weight - 1.0).abs() < 1e-6);
     /// assert!(x.abs().max(vertical.abs()) < 1e-6 * weight);
-    /// assert!((simulation.state().force_vector()[2] / weight + 1.0).abs() < 1e-9);
+    /// let state = simulation.state();
+    /// assert!((state.force_vector()[2] / weight + 1.0).abs() < 1e-9);
+    /// assert_eq!(state.force_vector()[1], state.shear_across());
+    /// assert_eq!(x, state.moment_across());
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn moment_vector(&self) -> [f64; SPACE] {

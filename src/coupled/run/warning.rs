@@ -225,6 +225,15 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         friction: f64,
     },
+    /// An elastic part of a ground of your own takes the traction of a step as the traction at its end, s₁ = C τ.
+    ///
+    /// The ground is then of first order in the time step, and damps the motion without any damping. See
+    /// [`Ground`](crate::bem::Ground#elastic-parts-in-the-mid-step-form).
+    #[error(
+        "ground of first order: an elastic part follows the traction of the step, which damps; \
+         the traction belongs to the middle of the step"
+    )]
+    FirstOrderGround,
     /// The motion has a component along y, which a ground in the plane ignores.
     #[error("motion along y: a ground in the plane leaves it out")]
     MotionAcross,

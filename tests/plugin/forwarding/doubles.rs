@@ -134,6 +134,10 @@ impl InterfaceLaw for Double {
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         struct Smooth(Coulomb);
         impl InterfaceLaw for Smooth {
+            fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+                Limits::only_in_plane::<Self>()
+            }
+
             fn modes(&self) -> &[Mode] {
                 &[Mode::SlipRight]
             }

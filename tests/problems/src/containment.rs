@@ -9,7 +9,7 @@ use basemat::Soil;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
 use basemat::interface::{
-    Condition, ContactState, InterfaceLaw, Mode, PreviousContact, ThinLayer, Tolerance,
+    Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, ThinLayer, Tolerance,
 };
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{DofCombination, FemModel, RayleighDamping, Structure};
@@ -195,6 +195,10 @@ pub fn pounds_per_foot(force: f64) -> f64 {
 pub struct Glue(pub ThinLayer);
 
 impl InterfaceLaw for Glue {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

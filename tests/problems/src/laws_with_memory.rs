@@ -1,7 +1,7 @@
 //! Laws that remember something of each element.
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 
 /// Friction that falls with the distance slid: residual + (first − residual) e^(−slid/distance).
@@ -24,6 +24,10 @@ impl SlipWeakening {
 }
 
 impl InterfaceLaw for SlipWeakening {
+    fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
+        self.now(start).limits(start)
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -82,6 +86,10 @@ impl Adhesion {
 }
 
 impl InterfaceLaw for Adhesion {
+    fn limits(&self, start: &PreviousContact) -> basemat::Result<Limits> {
+        self.now(start).limits(&Self::seen(start))
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -132,6 +140,10 @@ impl SofteningPads {
 }
 
 impl InterfaceLaw for SofteningPads {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

@@ -1,7 +1,7 @@
 //! Wrappers of a structure: one that forwards the least, one that pulls it; and of a law: one with another rule for modes.
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
 use basemat::structure::{DofCombination, Structure, Triplets};
 
@@ -76,6 +76,13 @@ impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F
 #[macro_export]
 macro_rules! law_from {
     ($field:tt) => {
+        fn limits(
+            &self,
+            start: &basemat::interface::PreviousContact,
+        ) -> basemat::Result<basemat::interface::Limits> {
+            self.$field.limits(start)
+        }
+
         fn modes(&self) -> &[basemat::interface::Mode] {
             self.$field.modes()
         }
@@ -108,6 +115,10 @@ pub struct Wayward<F> {
 }
 
 impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> InterfaceLaw for Wayward<F> {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         self.law.modes()
     }

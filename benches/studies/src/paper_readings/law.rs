@@ -2,7 +2,7 @@
 
 use basemat::Soil;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, FrictionLimit, InterfaceLaw, Mode, PreviousContact,
+    Condition, ContactState, Coulomb, FrictionLimit, InterfaceLaw, Limits, Mode, PreviousContact,
     SlipSense, ThinLayer, Tolerance,
 };
 
@@ -68,6 +68,10 @@ struct Kinetic {
 }
 
 impl InterfaceLaw for Kinetic {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         self.still.modes()
     }
@@ -126,6 +130,10 @@ impl Read {
 }
 
 impl InterfaceLaw for Read {
+    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
+        Limits::only_in_plane::<Self>()
+    }
+
     fn modes(&self) -> &[Mode] {
         self.layer.modes()
     }
