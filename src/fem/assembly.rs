@@ -1,6 +1,7 @@
 //! Assembly of element matrices into the matrices of the whole mesh.
 
 use super::element::MassKind;
+use super::force_rotation::{StaticState, force_rotation};
 use super::mesh::Mesh;
 use super::numbering::Numbering;
 use crate::error::Result;
@@ -30,7 +31,7 @@ pub(crate) fn assemble(
 ) {
     let mut indices = Vec::new();
     let mut block = Vec::new();
-    for element in mesh.elements() {
+    for (index, element) in mesh.elements().enumerate() {
         let coordinates = mesh.coordinates(element.nodes());
         if !keep(&coordinates) {
             continue;
@@ -39,7 +40,12 @@ pub(crate) fn assemble(
         block.resize(element.order().pow(2), 0.0);
         match quantity {
             MatrixKind::Stiffness => element.stiffness(&coordinates, &mut block),
-            MatrixKind::GeometricStiffness => element.geometric_stiffness(&coordinates, &mut block),
+            MatrixKind::GeometricStiffness => {
+                element.geometric_stiffness(&coordinates, &mut block);
+                if let Some(rotation) = mesh.force_rotation(index) {
+                    rotation.add_to(&mut block);
+                }
+            }
             MatrixKind::Mass(kind) => element.mass(&coordinates, kind, &mut block),
             MatrixKind::Damping => element.damping(&coordinates, &mut block),
         }
@@ -60,19 +66,34 @@ pub(crate) fn assemble(
     }
 }
 
-/// Replaces elements of `mesh` by their versions in the static state, with its axial forces.
+/// Replaces elements of `mesh` by their versions in the static state, and lets its forces turn with the elements.
 ///
-/// `displacements` (m, rad): degrees of freedom of each element; `gravity` is in m/s².
+/// `displacements` (m, rad): degrees of freedom of each element; `gravity` is in m/s². Returns whether the
+/// user gave the axial force of an element, which does not change.
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) for an element whose new version has other nodes or directions.
 pub(crate) fn set_static_state(
     mesh: &mut Mesh,
-    displacements: Vec<Vec<f64>>,
+    displacements: &[Vec<f64>],
     gravity: f64,
-) -> Result<()> {
-    let mut displacements = displacements.into_iter();
+    mass_kind: MassKind,
+) -> Result<bool> {
+    let mut is_given = Vec::with_capacity(displacements.len());
     mesh.replace_elements(|element, points| {
-        element.in_static_state(points, &displacements.next()?, gravity)
-    })
+        let displacement = displacements.get(is_given.len())?;
+        let replaced = element.in_static_state(points, displacement, gravity);
+        is_given.push(replaced.is_none() && element.compression().is_some());
+        replaced
+    })?;
+    let has_depth = mesh.has_depth();
+    let mut rotations = Vec::with_capacity(displacements.len());
+    for ((element, displacement), is_given) in mesh.elements().zip(displacements).zip(&is_given) {
+        let state = StaticState { displacement, gravity, mass_kind, has_depth };
+        let points = mesh.coordinates(element.nodes());
+        let rotation = force_rotation(element, &points, &state).filter(|_| !is_given);
+        rotations.push(rotation);
+    }
+    mesh.set_force_rotations(rotations);
+    Ok(is_given.contains(&true))
 }

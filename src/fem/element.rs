@@ -76,7 +76,8 @@ pub trait Element: Any + Send + Sync {
     ///
     /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
     /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
-    /// Default: none.
+    /// [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) adds what the other forces of the element give in
+    /// a rotation, if the element moves in all directions. Default: none.
     fn geometric_stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
 
     /// This element with the geometric stiffness of the static state under the structure's weight.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::element::{Element, MassKind};
 use super::element_face::ElementFace;
+use super::force_rotation::ForceRotation;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
 };
@@ -45,6 +46,8 @@ pub struct Mesh {
     /// Indices of elements by the sorted nodes of their faces or, for elements without faces, by all their nodes.
     places: HashMap<Vec<usize>, Vec<usize>>,
     has_depth: bool,
+    /// Geometric stiffness by which static forces turn with the elements, if there is a static state.
+    force_rotations: Vec<Option<ForceRotation>>,
 }
 
 short_debug! {
@@ -341,6 +344,15 @@ impl Mesh {
             *element = Arc::from(changed);
         }
         Ok(())
+    }
+
+    /// Geometric stiffness by which the static forces of an element turn with it.
+    pub(super) fn force_rotation(&self, element: usize) -> Option<&ForceRotation> {
+        self.force_rotations.get(element)?.as_ref()
+    }
+
+    pub(super) fn set_force_rotations(&mut self, force_rotations: Vec<Option<ForceRotation>>) {
+        self.force_rotations = force_rotations;
     }
 
     /// Coordinates of `nodes`, which must exist.

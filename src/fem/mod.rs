@@ -20,6 +20,7 @@ mod beam;
 mod condensation;
 mod element;
 mod element_face;
+mod force_rotation;
 mod grid;
 mod hex8;
 mod layer;

@@ -8,6 +8,7 @@ macro_rules! forward_structure {
             fn dofs(&$own) -> usize;
             fn base(&$own) -> $crate::structure::Base;
             fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
+            fn geometric_stiffness(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
             fn has_active_damping(&$own) -> bool;
             fn has_active_stiffness(&$own) -> bool;
             fn description(&$own) -> $crate::structure::StructureDescription;
@@ -186,6 +187,17 @@ pub trait Structure: Any + Send {
     /// # Errors
     /// Any: `build` returns it.
     fn damping(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+
+    /// Adds the part of the stiffness that comes from the forces at rest (P–Δ), n × n, to `matrix`. Default: none.
+    ///
+    /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure buckles,
+    /// and damping in proportion to the rest of the stiffness counts as proportional.
+    ///
+    /// # Errors
+    /// Any; `build` returns it.
+    fn geometric_stiffness(&self, _matrix: &mut Triplets) -> Result<()> {
         Ok(())
     }
 

@@ -21,7 +21,8 @@ use crate::geometry::{Direction, IN_SPACE};
 /// Its lumped mass is diagonal in the axes of the beam; in other directions it couples the rotations of a
 /// node, and offsets couple these to the displacements. As for [`Beam`](super::Beam), rotary inertia of bending
 /// and the P–Δ effect of axial forces are options. Warping and the effect of axial forces on the torsion are
-/// left out.
+/// left out. In the static state of [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta) shear forces,
+/// moments and torque turn with the beam, so that several beams along a girder buckle sideways.
 ///
 /// ```
 /// use basemat::fem::{BeamSection, Element, Material, SpaceBeam};

@@ -58,7 +58,8 @@ use crate::geometry::{Direction, IN_SPACE};
 /// nodes and the moments −qL²/12 and +qL²/12 about the normal, in the order counter-clockwise. Without these
 /// moments a strip of one row bulges at its loaded end.
 ///
-/// Shells have no geometric stiffness: P–Δ leaves them as they are.
+/// Shells have no geometric stiffness by themselves. In [`FemModel::with_p_delta`](crate::structure::FemModel::with_p_delta)
+/// their forces at rest turn with them.
 ///
 /// The mass matrix has rotary inertia, ρt³/12 times the area, about all three axes. The lumped one is diagonal in any
 /// axes.

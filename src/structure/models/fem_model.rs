@@ -38,7 +38,7 @@ pub struct FemModel {
     pub(super) numbering: Numbering,
     pub(super) links: Option<RigidLinks>,
     /// Points that touch the ground, line by line or face by face.
-    feet: Vec<Vec<Foot>>,
+    pub(super) feet: Vec<Vec<Foot>>,
     base: Base,
     pub(super) mass_kind: MassKind,
     pub(super) damping: RayleighDamping,
@@ -46,6 +46,8 @@ pub struct FemModel {
     active_stiffness: bool,
     /// Acceleration of gravity for the axial forces of P–Δ.
     pub(super) p_delta: Option<f64>,
+    /// Geometric stiffness of P–Δ by rigid links and by the reactions at the base.
+    pub(super) base_reactions: Vec<(usize, usize, f64)>,
 }
 
 impl FemModel {
@@ -73,6 +75,7 @@ impl FemModel {
             active_damping: false,
             active_stiffness: false,
             p_delta: None,
+            base_reactions: Vec::new(),
         };
         Ok(Self { base: model.base_of_feet()?, ..model })
     }
@@ -302,37 +305,6 @@ impl FemModel {
         Ok(own)
     }
 
-    /// Values of all degrees of freedom in a unit rigid motion.
-    ///
-    /// A displacement of 1 m, or a small rotation of 1 rad about `point` (z is zero in the plane). No motion for a
-    /// direction that the mesh does not have.
-    pub fn rigid_motion(&self, direction: Direction, point: [f64; 3]) -> Vec<f64> {
-        let mut motion = vec![0.0; self.dofs()];
-        self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.dof(node, own));
-        motion
-    }
-
-    /// Writes a rigid motion of the mesh, in any numbering of its degrees of freedom.
-    pub(super) fn fill_rigid_motion(
-        &self,
-        direction: Direction,
-        point: [f64; 3],
-        motion: &mut [f64],
-        number: impl Fn(usize, Direction) -> Option<usize>,
-    ) {
-        if !self.mesh.directions().contains(&direction) {
-            return;
-        }
-        for (node, place) in self.mesh.nodes().iter().enumerate() {
-            let arm = [0, 1, 2].map(|axis| place[axis] - point[axis]);
-            for &own in self.mesh.directions() {
-                if let Some(dof) = number(node, own) {
-                    motion[dof] = own.in_rigid_motion(direction, arm);
-                }
-            }
-        }
-    }
-
     /// Adds matrices of all elements, each times its factor, for the remaining degrees of freedom.
     pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
         let fill = |matrix: &mut Triplets| {
@@ -347,6 +319,11 @@ impl FemModel {
                 fill(&mut own);
                 links.add_condensed(&own, matrix);
             }
+        }
+        let is_geometric = |(kind, _): &&_| matches!(kind, MatrixKind::GeometricStiffness);
+        for (_, factor) in parts.iter().filter(is_geometric) {
+            let entries = self.base_reactions.iter();
+            matrix.extend(entries.map(|&(row, column, value)| (row, column, factor * value)));
         }
     }
 }
@@ -367,6 +344,11 @@ impl Structure for FemModel {
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.add(matrix, &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)]);
+        Ok(())
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add(matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
         Ok(())
     }
 

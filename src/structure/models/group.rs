@@ -237,6 +237,10 @@ impl Structure for StructureGroup {
         self.write(matrix, Structure::stiffness)
     }
 
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.write(matrix, Structure::geometric_stiffness)
+    }
+
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.write(matrix, Structure::damping)
     }

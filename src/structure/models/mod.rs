@@ -1,5 +1,6 @@
 //! Structures that come with the crate.
 
+mod base_reactions;
 mod cut;
 mod dof_names;
 mod feet;
@@ -14,6 +15,7 @@ mod p_delta;
 mod rigid_block;
 mod rigid_body;
 mod rigid_links;
+mod rigid_motion;
 mod section;
 mod shear_building;
 mod shell_rows;

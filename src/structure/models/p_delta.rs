@@ -4,7 +4,7 @@ use crate::error::{Error, Result, StructureError, not_negative};
 use crate::fem::{MatrixKind, set_static_state};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
-use crate::structure::{BaseNode, FemModel, Structure, Triplets};
+use crate::structure::{FemModel, Structure, Triplets};
 
 const HELD: &str = "stiffness matrix with the contact nodes held";
 /// Residual forces of a solution, relative to the weight, above which the structure is a mechanism.
@@ -17,20 +17,26 @@ const ACCURACY: f64 = 1e-9;
 impl FemModel {
     /// Adds the P–Δ effect of the structure's own weight.
     ///
-    /// Beams and trusses get the geometric stiffness of the axial forces that they carry at rest. The forces
+    /// The elements get the geometric stiffness of the forces that they carry at rest. The forces
     /// follow from first-order statics under `gravity` (m/s², downwards) with the contact nodes held, and do not
-    /// change in the shaking. In a beam the force grows downwards with the beam's own weight; a truss has the
-    /// mean. Every degree of freedom that moves a contact node is held: a rigid basemat is clamped, a column that
-    /// ends on a contact node is hinged there, as on the ground. Walls in a trench are free. A force given by
-    /// [`Beam::with_compression`](crate::fem::Beam::with_compression) stays;
-    /// [`Element::compression`](crate::fem::Element::compression) returns the force. Solids have no geometric
-    /// stiffness.
+    /// change in the shaking. Every degree of freedom that moves a contact node is held: a rigid basemat is clamped, a
+    /// column that ends on a contact node is hinged there, as on the ground. Walls in a trench are free.
+    ///
+    /// * All forces at the nodes of an element turn with it: shear forces and moments of beams, forces of shells, solids
+    ///   and springs between two nodes. A solid or shell has no curvature between its nodes; take several along a
+    ///   member that may buckle.
+    /// * The axial forces of beams and trusses act on the curvature between their ends too. In a beam the force grows
+    ///   downwards with the beam's own weight; a truss has the mean.
+    ///   [`Element::compression`](crate::fem::Element::compression) returns the force.
+    /// * Reactions of the ground that are not vertical, such as the thrust of a portal, turn with the base.
+    /// * A force given by [`Beam::with_compression`](crate::fem::Beam::with_compression) stays as it is. Given forces are
+    ///   not in equilibrium with the weights, so the last rule and the next paragraph do not hold with them.
     ///
     /// The present kind of mass matrix counts: call [`with_mass`](FemModel::with_mass) before. Rigid links may
     /// follow; the forces are then computed anew.
     ///
-    /// A translation meets no force, so the structure still translates freely. In a rigid rotation the weight on
-    /// bars above the base exerts its overturning moment.
+    /// Translations and a rotation about the vertical meet no force, so the structure still moves freely. In a rocking
+    /// rotation ψ it meets the overturning moment −W h ψ of its weight W at the height h above the base.
     ///
     /// ```
     /// use basemat::fem::{Beam, LumpedMass, Mesh};
@@ -61,10 +67,19 @@ impl FemModel {
     /// errors of its matrices.
     pub fn with_p_delta(mut self, gravity: f64) -> Result<Self> {
         not_negative("acceleration of gravity", gravity)?;
+        // They belong to the links of an earlier call.
+        self.base_reactions = Vec::new();
         let displacement = self.under_weight(gravity)?;
         let of_element = |element| self.element_displacements(element, &displacement);
-        let displacements = self.mesh.elements().map(of_element).collect::<Result<_>>()?;
-        set_static_state(&mut self.mesh, displacements, gravity)?;
+        let displacements: Vec<_> = self.mesh.elements().map(of_element).collect::<Result<_>>()?;
+        let has_given_force =
+            set_static_state(&mut self.mesh, &displacements, gravity, self.mass_kind)?;
+        let mut entries = self.rotation_of_links(&displacement, gravity)?;
+        // Forces given by hand are not in equilibrium with the weights.
+        if !has_given_force {
+            self.add_base_reactions(&displacement, gravity, &mut entries)?;
+        }
+        self.base_reactions = entries;
         self.p_delta = Some(gravity);
         let held = HeldStructure::new(&self)?;
         if held.stands(1.0)? {
@@ -126,13 +141,7 @@ impl HeldStructure {
     /// Assembles both stiffnesses; returns an error for invalid entries.
     fn new(model: &FemModel) -> Result<Self> {
         let n = model.dofs();
-        let mut is_held = vec![false; n];
-        // Walls carry no weight at rest.
-        let base = model.base();
-        let floors = base.parts().iter().flat_map(|own| BaseNode::floor(own));
-        for dof in floors.flat_map(BaseNode::dofs) {
-            is_held[dof] = true;
-        }
+        let is_held = model.is_held();
         let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();
         let mut place = vec![None; n];
         free.iter().enumerate().for_each(|(k, &dof)| place[dof] = Some(k));

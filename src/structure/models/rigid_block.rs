@@ -134,6 +134,10 @@ impl Structure for RigidBlock {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.geometric_stiffness(matrix)
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         if self.gravity > 0.0 {
             let overturning = self.mass * self.gravity * self.center_height;
             matrix.add(Self::ROTATION, Self::ROTATION, -overturning);

@@ -216,6 +216,10 @@ impl Structure for RigidBody {
     }
 
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.geometric_stiffness(matrix)
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         if self.gravity > 0.0 {
             let overturning = self.mass * self.gravity * self.gravity_center[2];
             matrix.add(3, 3, -overturning);

@@ -32,6 +32,14 @@ impl Link {
     }
 }
 
+/// A node that follows another one.
+pub(super) struct Follower {
+    pub(super) node: usize,
+    pub(super) leader: usize,
+    /// Whether it follows in all directions, and not in a horizontal plane only.
+    pub(super) is_body: bool,
+}
+
 /// Rigid links: every degree of freedom of the mesh as a weighted sum of the remaining ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
@@ -152,6 +160,14 @@ impl RigidLinks {
             }
         }
         sums
+    }
+
+    /// All nodes that follow another one.
+    pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
+        self.leader.iter().enumerate().filter_map(|(node, leader)| {
+            let (link, leader) = (*leader)?;
+            Some(Follower { node, leader, is_body: link == Link::Body })
+        })
     }
 
     /// Marks all nodes of each rigid body of which one node is marked.

@@ -42,9 +42,8 @@ impl Storey {
 /// the base. A storey's drift is the relative displacement of its floors without the part caused by the rotation,
 /// `d_j = u_j − u_(j−1) + h_j θ`.
 ///
-/// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law
-/// ([`with_law`](ShearBuilding::with_law)), and the building may stand on isolators
-/// ([`isolated`](ShearBuilding::isolated)).
+/// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law ([`with_law`](ShearBuilding::with_law)), and
+/// the building may stand on isolators ([`isolated`](ShearBuilding::isolated)).
 ///
 /// ```
 /// use basemat::structure::{ShearBuilding, Storey, Structure};
@@ -307,12 +306,11 @@ impl ShearBuilding {
 
     /// Adds the curvature of the weight's potential.
     ///
-    /// Columns lower the weight by half the square of the floors' relative displacement over their height. A level
-    /// of isolators has no columns: a slider moves along the plane of the rotated base, which lifts the weight W
-    /// by d θ − h θ²/2 for a drift d at the height h. The term in d² is part of the isolators' law: W/R of a
-    /// pendulum, and the stiffness of a rubber bearing as measured under its load.
+    /// Columns lower the weight by half the square of the floors' relative displacement over their height. Isolators
+    /// are no columns: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2 for
+    /// a drift d at the height h. The term in d² is part of the law: W/R, or rubber as measured under its load.
     fn add_p_delta(&self, matrix: &mut Triplets) {
-        for (index, storey) in self.storeys.iter().enumerate() {
+        for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             let weight = self.weight_on(index);
             if self.isolated && index == 0 {
                 for (dof, sign) in Self::sway_row(0) {
@@ -378,9 +376,11 @@ impl Structure for ShearBuilding {
         self.add_drifts(matrix, |storey| {
             if self.tangents[storey].is_some() { 0.0 } else { self.storeys[storey].stiffness }
         });
-        if self.gravity > 0.0 {
-            self.add_p_delta(matrix);
-        }
+        self.geometric_stiffness(matrix)
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add_p_delta(matrix);
         Ok(())
     }
 

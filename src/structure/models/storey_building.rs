@@ -266,6 +266,19 @@ impl StoreyBuilding {
         }
         Ok(())
     }
+
+    /// Adds the curvature of the floors' weight.
+    fn add_p_delta(&self, matrix: &mut Triplets) {
+        for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
+            for floor in &self.storeys[index..] {
+                let [along, across, twist] = sway([index, index + 1], floor.mass_center);
+                let softening = -self.gravity / storey.height;
+                matrix.add_outer(along, softening * floor.mass);
+                matrix.add_outer(across, softening * floor.mass);
+                matrix.add_outer(twist, softening * floor.inertia[2]);
+            }
+        }
+    }
 }
 
 /// Degree of freedom of the mat: rotation about x.
@@ -320,15 +333,13 @@ impl Structure for StoreyBuilding {
             let (stiffness, has_law) = (self.storeys[storey].stiffness, self.has_law[storey]);
             [0, 1, 2].map(|k| if has_law[k] { 0.0 } else { stiffness[k] })
         })?;
-        for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
-            for floor in &self.storeys[index..] {
-                let [along, across, twist] = sway([index, index + 1], floor.mass_center);
-                let softening = -self.gravity / storey.height;
-                matrix.add_outer(along, softening * floor.mass);
-                matrix.add_outer(across, softening * floor.mass);
-                matrix.add_outer(twist, softening * floor.inertia[2]);
-            }
-        }
+        self.add_p_delta(matrix);
+        Ok(())
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.mat.geometric_stiffness(matrix)?;
+        self.add_p_delta(matrix);
         Ok(())
     }
 

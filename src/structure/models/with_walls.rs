@@ -71,6 +71,7 @@ impl Structure for WithWalls {
         fn dofs(&self) -> usize;
         fn mass(&self, matrix: &mut Triplets) -> Result<()>;
         fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()>;
         fn damping(&self, matrix: &mut Triplets) -> Result<()>;
         fn has_active_damping(&self) -> bool;
         fn has_active_stiffness(&self) -> bool;

@@ -15,6 +15,7 @@ mod meshes;
 mod modal_damping;
 mod own_element;
 mod p_delta;
+mod p_delta_in_space;
 mod patch;
 mod quad8;
 mod rigid_block;

@@ -1,0 +1,414 @@
+//! GOAL: forces at rest turn with the structure: P–Δ meets no rotation about the vertical, overturns by the weights,
+//! and has the effects of shear forces and moments.
+//! SCENE: random frames with offsets, releases, braces, links and diaphragms; walls, bricks; cantilevers.
+//! REFERENCE: statics, potentials of bars and rigid bodies by finite differences, Euler, Prandtl 1899.
+
+use basemat::Simulation;
+use basemat::bem::SpringGround;
+use basemat::coupled::GravityStage;
+use basemat::fem::{
+    BeamSection, Direction, Hex8, LumpedMass, MassKind, Material, Mesh, Shell, SpaceBeam, Spring,
+    Truss,
+};
+use basemat::interface::Coulomb;
+use basemat::structure::FemModel;
+use basemat_problems::dense::{form, largest, mass, multiply, stiffness};
+use basemat_problems::random::Random;
+
+const GRAVITY: f64 = 9.81;
+const TRANSLATIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+const ROTATIONS: [Direction; 3] =
+    [Direction::RotationX, Direction::RotationY, Direction::RotationZ];
+
+fn concrete() -> Material {
+    Material::new(30e9, 0.2, 2500.0).unwrap()
+}
+
+/// Rigid motions of a structure in space with P–Δ, about a point at the height of its base.
+///
+/// Translations and the rotation about the vertical meet no force, the others the moment of the weights.
+fn assert_rotates(model: &FemModel, point: [f64; 3], scene: &str) {
+    let (stiffness, mass) = (stiffness(model), mass(model));
+    let [translations, rotations] =
+        [TRANSLATIONS, ROTATIONS].map(|own| own.map(|own| model.rigid_motion(own, point)));
+    let weight = GRAVITY * form(&translations[2], &mass, &translations[2]);
+    let height = form(&translations[0], &mass, &rotations[1])
+        / form(&translations[0], &mass, &translations[0]);
+    let scale = weight * height.max(1.0);
+    let stiffest = stiffness.iter().map(|row| largest(row)).fold(0.0, f64::max);
+    let rounding = 1e-9 * scale + 1e-13 * stiffest;
+    for motion in translations.iter().chain([&rotations[2]]) {
+        let force = largest(&multiply(&stiffness, motion));
+        assert!(force < rounding, "{scene}: {:.3e} of the weight", force / weight);
+    }
+    for a in 0..3 {
+        for b in 0..3 {
+            let exact = if a == b && a < 2 { -weight * height } else { 0.0 };
+            let found = form(&rotations[a], &stiffness, &rotations[b]);
+            let error = (found - exact).abs();
+            assert!(error < 10.0 * rounding, "{scene}: {a} {b} {found} {exact}");
+        }
+    }
+}
+
+fn section(side: f64) -> BeamSection {
+    BeamSection::new(side * side, [side.powi(4) / 12.0; 2], 0.14 * side.powi(4)).unwrap()
+}
+
+/// Two storeys of columns, beams and braces on a raft; everything differs, nothing is symmetric.
+fn frame(random: &mut Random) -> FemModel {
+    let mut mesh = Mesh::in_space();
+    let raft = mesh
+        .add_grid(3, 3, |row, column| [6.0 * (column as f64 - 1.0), 4.0 * (row as f64 - 1.0), 0.0])
+        .unwrap();
+    for (_, nodes) in raft.cells() {
+        mesh.add(Shell::new(nodes, concrete(), 1.0).unwrap()).unwrap();
+    }
+    let mut feet = [raft.row(0)[0], raft.row(0)[2], raft.row(2)[2], raft.row(2)[0]];
+    let mut floors = Vec::new();
+    for storey in 0..2 {
+        let tops = feet.map(|foot| {
+            let [x, y, _] = mesh.nodes()[foot];
+            let aside = random.within(-0.4, 0.4);
+            mesh.add_node_at([x + aside, y - 0.5 * aside, 4.0 * f64::from(storey + 1)]).unwrap()
+        });
+        for k in 0..4 {
+            let side = section(random.within(0.4, 0.8));
+            let mut column =
+                SpaceBeam::new([feet[k], tops[k]], concrete(), side, [1.0, 0.3, 0.0]).unwrap();
+            if random.chance(0.4) {
+                let offsets = [[0.2, random.within(-0.3, 0.3), 0.0], [0.0, 0.1, -0.3]];
+                column = column.with_offsets(offsets).unwrap();
+            }
+            if random.chance(0.2) {
+                column =
+                    column.with_releases(1, &[Direction::RotationY, Direction::RotationZ]).unwrap();
+            }
+            mesh.add(column).unwrap();
+            let depth = random.within(0.4, 0.7);
+            let beam = BeamSection::new(
+                0.3 * depth,
+                [0.3 * depth.powi(3) / 12.0, depth * 0.3_f64.powi(3) / 12.0],
+                0.0037,
+            );
+            let ends = [tops[k], tops[(k + 1) % 4]];
+            let beam = SpaceBeam::new(ends, concrete(), beam.unwrap(), [0.0, 0.0, 1.0]).unwrap();
+            mesh.add(beam).unwrap();
+            let inertia = if random.chance(0.3) { [1e4, 2e4, 3e4] } else { [0.0; 3] };
+            let floor = random.log_within(10e3, 100e3);
+            mesh.add(LumpedMass::in_space(tops[k], floor, inertia).unwrap()).unwrap();
+        }
+        let brace = [feet[0], tops[1]];
+        match random.pick(&[0, 1, 2]) {
+            0 => drop(mesh.add(Truss::in_space(brace, 200e9, 4e-3, 7850.0).unwrap()).unwrap()),
+            1 => drop(mesh.add(Spring::axial_in_space(brace, 2e8).unwrap()).unwrap()),
+            _ => (),
+        }
+        floors.push(tops);
+        feet = tops;
+    }
+    let kind = random.pick(&[MassKind::Consistent, MassKind::Lumped]);
+    let model = FemModel::on_base(mesh).unwrap().with_mass(kind);
+    let [lower, upper] = [floors[0], floors[1]];
+    let model = if random.chance(0.4) {
+        model.with_rigid_link(lower[0], &lower[1..]).unwrap()
+    } else {
+        model
+    };
+    if random.chance(0.4) {
+        model.with_rigid_diaphragm(upper[0], &upper[1..]).unwrap()
+    } else {
+        model
+    }
+}
+
+/// Before, the axial forces alone turned: r_zᵀ K r_z of such frames was as much as −3e5 N·m.
+#[test]
+fn a_rotation_of_a_frame_about_the_vertical_meets_no_force() {
+    for number in 0..60 {
+        let model = frame(&mut Random(71 + number)).with_p_delta(GRAVITY).unwrap();
+        assert_rotates(&model, [0.0, 0.0, -0.5], &format!("frame {number}"));
+    }
+}
+
+/// Frames come to rest on a ground without friction. Before, a torque that friction must carry refused some.
+#[test]
+fn frames_stand_without_friction() {
+    for number in 0..10 {
+        let model = || frame(&mut Random(71 + number)).with_p_delta(GRAVITY).unwrap();
+        for stage in [GravityStage::Frictionless, GravityStage::Frictional] {
+            let ground = SpringGround::under(&model(), 6, 5e7, 4e7).unwrap();
+            let built = Simulation::builder(0.005)
+                .gravity(GRAVITY)
+                .gravity_stage(stage)
+                .ground(ground.with_dashpots(4e5, 3e5).unwrap())
+                .structure(model())
+                .interface(Coulomb::new(0.0).unwrap())
+                .build();
+            assert!(built.is_ok(), "{number}: {}", built.err().unwrap());
+        }
+    }
+}
+
+/// A frame on a rigid basemat: the contact nodes follow a node 0.7 m above them.
+#[test]
+fn a_frame_on_a_rigid_basemat_rotates_freely() {
+    let mut mesh = Mesh::in_space();
+    let corners = [[-3.0, -2.0], [3.0, -2.0], [3.0, 2.0], [-3.0, 2.0]]
+        .map(|[x, y]| mesh.add_node_at([x, y, 0.0]).unwrap());
+    let leader = mesh.add_node_at([0.4, 0.2, 0.7]).unwrap();
+    mesh.add(LumpedMass::in_space(leader, 50e3, [1e4; 3]).unwrap()).unwrap();
+    let mut tops = Vec::new();
+    for (k, &corner) in corners.iter().enumerate() {
+        mesh.add(LumpedMass::in_space(corner, 5e3, [1.0; 3]).unwrap()).unwrap();
+        let [x, y, _] = mesh.nodes()[corner];
+        let top = mesh.add_node_at([0.8 * x, 0.7 * y, 5.0]).unwrap();
+        let column = section(0.3 + 0.1 * k as f64);
+        mesh.add(SpaceBeam::new([corner, top], concrete(), column, [1.0, 0.0, 0.0]).unwrap())
+            .unwrap();
+        mesh.add(LumpedMass::in_space(top, 30e3, [0.0; 3]).unwrap()).unwrap();
+        tops.push(top);
+    }
+    for k in 0..4 {
+        let ends = [tops[k], tops[(k + 1) % 4]];
+        let beam = SpaceBeam::new(ends, concrete(), section(0.4), [0.0, 0.0, 1.0]).unwrap();
+        mesh.add(beam).unwrap();
+    }
+    let model = FemModel::on_faces(mesh, &[corners.to_vec()]).unwrap();
+    let model = model.with_rigid_link(leader, &corners).unwrap().with_p_delta(GRAVITY).unwrap();
+    assert_rotates(&model, [0.0; 3], "rigid basemat");
+}
+
+/// A tower of bricks and one of shells, bent by an eccentric mass.
+fn solids() -> [FemModel; 2] {
+    let mut mesh = Mesh::in_space();
+    let foot = mesh.add_grid(3, 2, |row, column| [column as f64, row as f64, 0.0]).unwrap();
+    for brick in foot.extrude(&mut mesh, &[1.5, 3.0, 4.5, 6.0]).unwrap() {
+        mesh.add(Hex8::new(brick, concrete())).unwrap();
+    }
+    let top = mesh.node_at_point([1.0, 2.0, 6.0]).unwrap();
+    mesh.add(LumpedMass::in_space(top, 80e3, [0.0; 3]).unwrap()).unwrap();
+    let bricks = FemModel::on_base(mesh).unwrap();
+    let mut mesh = Mesh::in_space();
+    let raft = mesh.add_grid(3, 4, |row, column| [2.0 * column as f64, 2.0 * row as f64, 0.0]);
+    let raft = raft.unwrap();
+    for (_, nodes) in raft.cells() {
+        mesh.add(Shell::new(nodes, concrete(), 0.8).unwrap()).unwrap();
+    }
+    let mut row = raft.row(1).to_vec();
+    for level in 1..4_usize {
+        let next: Vec<usize> = row
+            .iter()
+            .map(|&node| {
+                let [x, y, _] = mesh.nodes()[node];
+                mesh.add_node_at([x, y + 0.1 * level as f64, 1.5 * level as f64]).unwrap()
+            })
+            .collect();
+        for k in 0..row.len() - 1 {
+            let nodes = [row[k], row[k + 1], next[k + 1], next[k]];
+            if (k + level).is_multiple_of(2) {
+                mesh.add(Shell::new(nodes, concrete(), 0.3).unwrap()).unwrap();
+            } else {
+                for three in [[nodes[0], nodes[1], nodes[2]], [nodes[0], nodes[2], nodes[3]]] {
+                    mesh.add(Shell::new(three, concrete(), 0.3).unwrap()).unwrap();
+                }
+            }
+        }
+        row = next;
+    }
+    mesh.add(LumpedMass::in_space(row[0], 60e3, [0.0; 3]).unwrap()).unwrap();
+    [bricks, FemModel::on_base(mesh).unwrap()]
+}
+
+#[test]
+fn bricks_and_shells_rotate_with_their_forces() {
+    for (model, depth, name) in solids()
+        .into_iter()
+        .zip([0.0, 0.4])
+        .zip(["bricks", "shells"])
+        .map(|((model, depth), name)| (model, depth, name))
+    {
+        let model = model.with_p_delta(GRAVITY).unwrap();
+        assert_rotates(&model, [1.0, 1.0, -depth], name);
+    }
+}
+
+/// PROBLEM: a light column of bricks with a mass on it. RESULT: Euler's π²EI/(4 L²), from above with the square of the
+/// bricks' height.
+#[test]
+fn a_column_of_bricks_buckles_as_euler_says() {
+    let (length, side) = (12.0_f64, 0.5_f64);
+    let light = Material::new(30e9, 0.0, 1e-3).unwrap();
+    let euler = std::f64::consts::PI.powi(2) * 30e9 * side.powi(4) / 12.0 / (4.0 * length * length);
+    let errors = [6, 12].map(|count| {
+        let mut mesh = Mesh::in_space();
+        let foot =
+            mesh.add_grid(2, 2, |row, column| [side * column as f64, side * row as f64, 0.0]);
+        let heights: Vec<f64> =
+            (1..=count).map(|k| length * f64::from(k) / f64::from(count)).collect();
+        for brick in foot.unwrap().extrude(&mut mesh, &heights).unwrap() {
+            mesh.add(Hex8::new(brick, light)).unwrap();
+        }
+        for node in mesh.nodes_at_height(length, 1e-6).unwrap() {
+            mesh.add(LumpedMass::in_space(node, 1e3, [0.0; 3]).unwrap()).unwrap();
+        }
+        let model = FemModel::on_base(mesh).unwrap().with_p_delta(GRAVITY).unwrap();
+        model.buckling_factor().unwrap() * 4e3 * GRAVITY / euler - 1.0
+    });
+    println!("{errors:?}");
+    assert!(errors[1].abs() < 0.01, "{errors:?}");
+}
+
+/// PROBLEM: a narrow cantilever with a mass at its tip twists and bends sideways at 4.0126 √(EI GJ)/L² (Prandtl 1899;
+/// Timoshenko & Gere, Theory of Elastic Stability, eq. 6-24). Before, nothing but axial forces buckled a beam.
+#[test]
+fn a_narrow_cantilever_buckles_sideways() {
+    let (length, mass) = (5.0, 100.0);
+    let [lateral, torsion] = [2.0e-7, 6.0e-7];
+    let light = Material::new(200e9, 0.25, 1e-6).unwrap();
+    let exact = 4.0126 * 200e9 * (lateral * torsion / 2.5_f64).sqrt() / (length * length);
+    let errors = [8, 16].map(|count| {
+        let mut mesh = Mesh::in_space();
+        let foot = mesh.add_grid(2, 2, |row, column| [column as f64, row as f64, 0.0]).unwrap();
+        for brick in foot.extrude(&mut mesh, &[1.0]).unwrap() {
+            mesh.add(Hex8::new(brick, light)).unwrap();
+        }
+        let root = mesh.add_node_at([0.5, 0.5, 0.0]).unwrap();
+        let mut last = root;
+        for k in 1..=count {
+            let next = mesh.add_node_at([0.5 + length * f64::from(k) / f64::from(count), 0.5, 0.0]);
+            let next = next.unwrap();
+            // Much stiffer in the vertical plane.
+            let section = BeamSection::new(1e-2, [lateral * 1e4, lateral], torsion).unwrap();
+            let beam = SpaceBeam::new([last, next], light, section, [0.0, 1.0, 0.0]).unwrap();
+            mesh.add(beam).unwrap();
+            last = next;
+        }
+        mesh.add(LumpedMass::in_space(last, mass, [0.0; 3]).unwrap()).unwrap();
+        let held = mesh.node_at_point([0.0; 3]).unwrap();
+        mesh.add(LumpedMass::in_space(held, 1.0, [1.0; 3]).unwrap()).unwrap();
+        let corners: Vec<usize> = mesh
+            .nodes_at_height(0.0, 1e-6)
+            .unwrap()
+            .into_iter()
+            .filter(|&node| {
+                let [x, y, _] = mesh.nodes()[node];
+                node != held && x <= 1.0 && (y - 0.5).abs() > 0.4
+            })
+            .chain([root])
+            .collect();
+        let model = FemModel::on_base(mesh).unwrap().with_rigid_link(held, &corners).unwrap();
+        let model = model.with_p_delta(GRAVITY).unwrap();
+        model.buckling_factor().unwrap() * mass * GRAVITY / exact - 1.0
+    });
+    println!("{errors:?}");
+    assert!(errors[1].abs() < 0.01 && errors[1].abs() < 0.4 * errors[0].abs(), "{errors:?}");
+}
+
+/// Potential of a rigid slab with masses on inclined bars, beyond first order, at displacements and a rotation vector of
+/// its leader.
+fn slab_potential(
+    bars: &[([f64; 3], [f64; 3], f64, f64)],
+    masses: &[([f64; 3], f64)],
+) -> impl Fn(&[f64; 6]) -> f64 {
+    let (bars, masses) = (bars.to_vec(), masses.to_vec());
+    move |u: &[f64; 6]| {
+        let moved = |arm: [f64; 3]| -> [f64; 3] {
+            // Rodrigues' formula.
+            let vector = [u[3], u[4], u[5]];
+            let angle = (vector.iter().map(|x| x * x).sum::<f64>()).sqrt();
+            let [a, b] = if angle > 0.0 {
+                [angle.sin() / angle, (1.0 - angle.cos()) / (angle * angle)]
+            } else {
+                [1.0, 0.5]
+            };
+            let cross = |p: [f64; 3], q: [f64; 3]| {
+                [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
+            };
+            let once = cross(vector, arm);
+            let twice = cross(vector, once);
+            std::array::from_fn(|k| u[k] + arm[k] + a * once[k] + b * twice[k])
+        };
+        let distance =
+            |p: [f64; 3], q: [f64; 3]| (0..3).map(|k| (p[k] - q[k]).powi(2)).sum::<f64>().sqrt();
+        let mut potential = 0.0;
+        for &(foot, arm, stiffness, compression) in &bars {
+            let stretch = distance(moved(arm), foot) - distance(arm, foot);
+            potential += 0.5 * stiffness * stretch * stretch - compression * stretch;
+        }
+        for &(arm, mass) in &masses {
+            potential += mass * GRAVITY * moved(arm)[2];
+        }
+        potential
+    }
+}
+
+/// PROBLEM: a rigid slab of linked nodes on inclined bars. RESULT: the second derivatives of its potential, by finite
+/// differences of finite rotations. Before, the links had no part in P–Δ.
+#[test]
+fn linked_nodes_move_by_finite_rotations() {
+    let mut mesh = Mesh::in_space();
+    let feet = [[-3.0, -2.0, 0.0], [3.0, -2.0, 0.0], [3.0, 2.5, 0.0], [-3.0, 2.0, 0.0]]
+        .map(|place| mesh.add_node_at(place).unwrap());
+    for foot in feet {
+        mesh.add(LumpedMass::in_space(foot, 10.0, [0.0; 3]).unwrap()).unwrap();
+    }
+    let origin = [0.2, 0.1, 4.0];
+    let leader = mesh.add_node_at(origin).unwrap();
+    mesh.add(LumpedMass::in_space(leader, 7e3, [1e3; 3]).unwrap()).unwrap();
+    let arms = [[-2.0, -1.5, -0.6], [2.2, -1.0, 0.4], [1.8, 1.7, -0.3], [-2.0, 1.6, 0.5]];
+    let mut masses = vec![([0.0; 3], 7e3)];
+    let mut bars = Vec::new();
+    let followers: Vec<usize> = arms
+        .iter()
+        .enumerate()
+        .map(|(k, arm)| {
+            let place = std::array::from_fn(|axis| origin[axis] + arm[axis]);
+            let node = mesh.add_node_at(place).unwrap();
+            let mass = 2e3 + 1e3 * k as f64;
+            mesh.add(LumpedMass::in_space(node, mass, [0.0; 3]).unwrap()).unwrap();
+            masses.push((*arm, mass));
+            node
+        })
+        .collect();
+    // Two bars from each follower, to feet of both sides.
+    let mut ends = Vec::new();
+    for k in 0..4 {
+        for foot in [k, (k + 1) % 4] {
+            ends.push((foot, k));
+            let bar = Truss::in_space([feet[foot], followers[k]], 1e11, 1e-3, 0.0).unwrap();
+            mesh.add(bar).unwrap();
+        }
+    }
+    let model = FemModel::on_faces(mesh, &[feet.to_vec()]).unwrap();
+    let model = model.with_rigid_link(leader, &followers).unwrap().with_p_delta(GRAVITY).unwrap();
+    let mut forces = model.mesh().elements().filter_map(basemat::fem::Element::compression);
+    for (foot, k) in ends {
+        let foot = model.mesh().nodes()[feet[foot]];
+        let foot: [f64; 3] = std::array::from_fn(|axis| foot[axis] - origin[axis]);
+        let length = (0..3).map(|axis| (arms[k][axis] - foot[axis]).powi(2)).sum::<f64>().sqrt();
+        bars.push((foot, arms[k], 1e8 / length, forces.next().unwrap()));
+    }
+    let potential = slab_potential(&bars, &masses);
+    let dofs = TRANSLATIONS.iter().chain(&ROTATIONS);
+    let dofs: Vec<usize> = dofs.map(|&own| model.dof(leader, own).unwrap()).collect();
+    let found = stiffness(&model);
+    // Equilibrium.
+    for i in 0..6 {
+        let step = |sign: f64| {
+            let mut u = [0.0; 6];
+            u[i] = sign * 1e-4;
+            potential(&u)
+        };
+        let slope = (step(1.0) - step(-1.0)) / 2e-4;
+        assert!(slope.abs() < 1e-4 * 3e5, "{i}: {slope}");
+    }
+    let weight: f64 = masses.iter().map(|(_, mass)| mass * GRAVITY).sum();
+    for i in 0..6 {
+        for j in 0..6 {
+            let exact = crate::curvature(&potential, [i, j], 1e-4);
+            let error = (found[dofs[i]][dofs[j]] - exact).abs();
+            assert!(error < 1e-3 * weight, "{i} {j}: {} {exact}", found[dofs[i]][dofs[j]]);
+        }
+    }
+}
