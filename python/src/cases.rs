@@ -1,17 +1,18 @@
 //! Files of a sweep's cases, as the core writes and reads them.
 
 use std::path::PathBuf;
+use std::sync::Mutex;
 
-use basemat::sweep::{Parameter, Sweep};
+use basemat::sweep::{CaseFile, CaseTable, Parameter, Sweep};
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, returned};
+use crate::error::{OrRaise, refuse, returned};
 
 /// Names of parameters and their values.
 type Grid<'py> = Vec<(String, Bound<'py, PyAny>)>;
-/// Columns of results, and for each case its results or the text of its error.
-type Merged = (Vec<String>, Vec<(Option<Vec<f64>>, Option<String>)>);
+/// Columns of results, and for each case its number, its results, the texts of its warnings, and the text of its error.
+type Outcomes = (Vec<String>, Vec<(usize, Option<Vec<f64>>, Option<String>, Option<String>)>);
 
 /// The sweep over all combinations, or a shard of it.
 fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'static>> {
@@ -39,32 +40,80 @@ pub(crate) fn case_numbers(
     Ok(sweep(grid, shard)?.cases().collect())
 }
 
-/// Writes a file of cases: ``outcomes`` is the list of the results, in the order of ``columns``, or
-/// the text of the error of each case.
-#[pyfunction(name = "_save_cases")]
-pub(crate) fn save_cases(
-    path: PathBuf,
-    grid: Grid<'_>,
-    #[pyo3(from_py_with = whole)] shard: Option<(usize, usize)>,
-    columns: Vec<String>,
-    outcomes: Vec<Bound<'_, PyAny>>,
-) -> PyResult<()> {
-    let outcomes = outcomes.iter().map(|outcome| match outcome.extract::<String>() {
-        Ok(reason) => Ok(Err(reason)),
-        Err(_) => returned::<Numbers>("a case", outcome).map(|numbers| Ok(numbers.0)),
+/// Cases of a sweep's file: the columns of results, and the rows.
+fn outcomes(table: &CaseTable) -> Outcomes {
+    let rows = table.rows().map(|row| {
+        let (results, error) = match row.results {
+            Ok(results) => (Some(results.to_vec()), None),
+            Err(reason) => (None, Some(reason.to_owned())),
+        };
+        let warnings = Some(row.warnings).filter(|text| !text.is_empty()).map(str::to_owned);
+        (row.index, results, warnings, error)
     });
-    let outcomes: Vec<_> = outcomes.collect::<PyResult<_>>()?;
-    let table = sweep(grid, shard)?.tabulate(&columns, outcomes).or_raise()?;
-    table.csv().save(path).or_raise()
+    (table.columns().to_vec(), rows.collect())
 }
 
-/// Columns and results of all cases of a grid from the files of its shards, and the texts of errors.
+/// The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run.
+#[pyclass(name = "_CaseFile", module = "basemat._core", frozen)]
+pub(crate) struct PyCaseFile(Mutex<Option<CaseFile>>);
+
+/// Error of a file that two threads use at once.
+const IN_USE: &str = "the file of cases is in use by another thread";
+
+impl PyCaseFile {
+    /// Calls a function with the file, which `finish` closes.
+    fn with<T>(&self, call: impl FnOnce(&mut CaseFile) -> PyResult<T>) -> PyResult<T> {
+        let mut file = self.0.try_lock().map_err(|_| refuse(IN_USE))?;
+        call(file.as_mut().ok_or_else(|| refuse("the file of cases is finished"))?)
+    }
+}
+
+#[pymethods]
+impl PyCaseFile {
+    #[new]
+    #[pyo3(signature = (path, grid, shard=None))]
+    fn new(
+        path: PathBuf,
+        grid: Grid<'_>,
+        #[pyo3(from_py_with = whole)] shard: Option<(usize, usize)>,
+    ) -> PyResult<Self> {
+        let file = sweep(grid, shard)?.open(path).or_raise()?;
+        Ok(Self(Mutex::new(Some(file))))
+    }
+
+    /// Columns of results, and the rows so far: number of the case, results, warnings, error.
+    fn rows(&self) -> PyResult<Outcomes> {
+        self.with(|file| Ok(outcomes(&file.table())))
+    }
+
+    /// Appends the row of a case: ``results`` under ``names``, or the text of its ``error``.
+    fn append(
+        &self,
+        case: usize,
+        names: Vec<String>,
+        results: Bound<'_, PyAny>,
+        warnings: Option<String>,
+        error: Option<String>,
+    ) -> PyResult<()> {
+        let outcome = match error {
+            Some(reason) => Err(reason),
+            None => Ok(returned::<Numbers>(&format!("case {case}"), &results)?.0),
+        };
+        self.with(|file| {
+            file.append(case, &names, outcome, &warnings.unwrap_or_default()).or_raise()
+        })
+    }
+
+    /// Writes the whole file at once and returns its rows as `rows` does.
+    fn finish(&self) -> PyResult<Outcomes> {
+        let file = self.0.try_lock().map_err(|_| refuse(IN_USE))?.take();
+        let file = file.ok_or_else(|| refuse("the file of cases is finished"))?;
+        Ok(outcomes(&file.finish().or_raise()?))
+    }
+}
+
+/// Columns and rows of all cases of a grid from the files of its shards, as `_CaseFile.rows` returns them.
 #[pyfunction(name = "_merge_cases")]
-pub(crate) fn merge_cases(paths: Vec<PathBuf>, grid: Grid<'_>) -> PyResult<Merged> {
-    let table = sweep(grid, None)?.merge(paths).or_raise()?;
-    let outcomes = table.rows().map(|row| match row.results {
-        Ok(results) => (Some(results.to_vec()), None),
-        Err(reason) => (None, Some(reason.to_owned())),
-    });
-    Ok((table.columns().to_vec(), outcomes.collect()))
+pub(crate) fn merge_cases(paths: Vec<PathBuf>, grid: Grid<'_>) -> PyResult<Outcomes> {
+    Ok(outcomes(&sweep(grid, None)?.merge(paths).or_raise()?))
 }

@@ -17,6 +17,9 @@ mod classes {
 }
 
 thread_local! {
+    /// Warnings for the table of a sweep, while one of its cases runs on this thread.
+    static COLLECTED: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
+
     /// The first exception that a user's structure, law or function has raised on this thread
     /// while the core was running.
     static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
@@ -88,8 +91,25 @@ where
     })
 }
 
-/// A warning of the package, at the line of Python that is being run.
+/// A warning of the package, at the line of Python that is being run; in a case of a sweep, for its table.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
+    let mut text = Some(text);
+    COLLECTED.with_borrow_mut(|texts| {
+        if let Some(texts) = texts {
+            texts.extend(text.take());
+        }
+    });
+    text.map_or(Ok(()), |text| show(py, text))
+}
+
+/// Collects the warnings of this thread from now on, or shows them again; returns those that it has collected.
+#[pyfunction(name = "_collect_warnings")]
+pub(crate) fn collect_warnings(collect: bool) -> Vec<String> {
+    COLLECTED.replace(collect.then(Vec::new)).unwrap_or_default()
+}
+
+/// A warning of the package, also in a sweep.
+pub(crate) fn show(py: Python<'_>, text: String) -> PyResult<()> {
     let text = CString::new(text)?;
     PyErr::warn(py, &py.get_type::<classes::BasematWarning>(), &text, 1)
 }

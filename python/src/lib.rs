@@ -73,7 +73,8 @@ mod _core {
     use crate::{
         array::{memory_limit, set_memory_limit},
         base_node::{PyBaseFaces, PyBaseNode},
-        cases::{case_numbers, merge_cases, save_cases},
+        cases::{PyCaseFile, case_numbers, merge_cases},
+        error::collect_warnings,
         ground::{
             PyElasticGround, PyGround, PyImpedances, PyKinematicMotions, PyPlan, PySharedKernels,
             PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,

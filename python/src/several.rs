@@ -5,7 +5,7 @@ use std::ops::Deref;
 use pyo3::conversion::FromPyObjectOwned;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::PyType;
+use pyo3::types::{PyDict, PyType};
 use pyo3::{PyClass, PyTypeInfo};
 
 use crate::error::refuse;
@@ -36,6 +36,9 @@ impl<'py, T: PyClass> FromPyObject<'_, 'py> for Several<'py, T> {
         }
         let name = <T as PyTypeInfo>::type_object(object.py()).name()?;
         let needed = format!("a list of {name}");
+        if object.is_instance_of::<PyDict>() {
+            return Err(no_such(&object, &format!("{needed} without keys: list(….values())")));
+        }
         let entries = object.try_iter().map_err(|_| no_such(&object, &needed))?;
         let entry = |entry: PyResult<Bound<'py, PyAny>>| {
             let entry = entry?;

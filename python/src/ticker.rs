@@ -8,7 +8,7 @@ use basemat::{Observer, Progress};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, take_raised, warn};
+use crate::error::{OrRaise, show, take_raised};
 
 /// Time between two looks at Python.
 const INTERVAL: Duration = Duration::from_millis(50);
@@ -34,7 +34,7 @@ fn check_interrupt(py: Python<'_>) -> PyResult<()> {
         let text = "Ctrl-C does not end this run: the process ignores SIGINT, as one does that a script \
                     starts in the background; signal.signal(signal.SIGINT, \
                     signal.default_int_handler) before it changes that";
-        warn(py, text.into())?;
+        show(py, text.into())?;
     }
     Ok(())
 }

@@ -5,6 +5,8 @@ REFERENCE: the words of the warning or of the error; rigid motions, which no ele
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from test_opensees_space import core_on_a_mat
@@ -159,3 +161,72 @@ def test_masses_that_differ_by_direction_are_told() -> None:
     ops.element("elasticBeamColumn", 1, 1, 2, 0.25, 30e9, 0.005, 1)
     with pytest.warns(bm.BasematWarning, match=r"2e\+04 kg/m along x, 1e\+04 kg/m along y: the ground carries"):
         opensees.structure(ops, [1], width=4.0)
+
+
+def a_floor(offset: float) -> None:
+    """Four columns from a mat at node 100 to a floor at node 20; node 13 is off the floor's plane."""
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for k, (x, y) in enumerate(((0.0, 0.0), (6.0, 0.0), (6.0, 4.0), (0.0, 4.0))):
+        ops.node(k + 1, x, y, 0.0)
+        ops.node(k + 11, x, y, 3.5 + (offset if k == 2 else 0.0))
+        ops.mass(k + 11, 0.0, 0.0, 1e4, 0.0, 0.0, 0.0)
+    ops.node(20, 3.4, 2.2, 3.5)
+    ops.node(100, 3.0, 2.0, 0.0)
+    ops.mass(20, 4e4, 4e4, 0.0, 0.0, 0.0, 4e5)
+    ops.mass(100, 3e4, 3e4, 3e4, 4e4, 9e4, 1.2e5)
+    ops.geomTransf("Linear", 1, 1.0, 0.0, 0.0)
+    ops.geomTransf("Linear", 2, 0.0, 0.0, 1.0)
+    for k in range(4):
+        ops.element("elasticBeamColumn", k + 1, k + 1, k + 11, 0.16, 30e9, 12.5e9, 3.6e-3, 2.1e-3, 2.1e-3, 1)
+        ops.element("elasticBeamColumn", 10 + k, k + 11, (k + 1) % 4 + 11, 0.18, 30e9, 12.5e9, 4e-3, 2e-3, 5e-3, 2)
+        ops.rigidLink("beam", 100, k + 1)
+
+
+OUTLINE = [(-1.0, -1.0), (7.0, -1.0), (7.0, 5.0), (-1.0, 5.0)]
+
+
+@pytest.mark.parametrize("offset", [0.0, 0.02, -0.1, 1e-9])
+def test_a_node_off_the_plane_of_its_diaphragm_is_named_and_tied_as_opensees_ties_it(offset: float) -> None:
+    """OpenSees 3.7.1 writes that it ignores node 13, and ties it with the arms of node 12."""
+    a_floor(offset)
+    ops.rigidDiaphragm(3, 20, 11, 12, 13, 14)
+    ops.fix(20, 0, 0, 1, 1, 1, 0)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        model = opensees.structure(ops, [100], outline=OUTLINE)
+    texts = [str(own.message) for own in caught]
+    if offset:
+        assert len(texts) == 1, texts
+        assert texts[0].startswith(f"node 13 is {abs(offset):.3g} m off the plane of node 20, to which rigidDiaphragm ties it")
+    else:
+        assert texts == []
+    ops.fix(100, 1, 1, 1, 1, 1, 1)
+    ops.timeSeries("Linear", 1)
+    ops.pattern("Plain", 1, 1)
+    ops.load(20, 1e5, 3e4, 0.0, 0.0, 0.0, 2e5)
+    ops.constraints("Transformation")
+    ops.numberer("Plain")
+    ops.system("FullGeneral")
+    ops.algorithm("Linear")
+    ops.integrator("LoadControl", 1.0)
+    ops.analysis("Static")
+    assert ops.analyze(1) == 0
+    where = {"x": 0, "y": 1, "z": 2, "rx": 3, "ry": 4, "rz": 5}
+    names = [own.split() for own in model.dof_names]
+    moved = [ops.nodeDisp(int(tag))[where[direction]] for tag, direction in names]
+    for tag in (11, 12, 13, 14):
+        found = [model.row(tag, direction).value(moved) for direction in ("x", "y", "rz")]
+        np.testing.assert_allclose(found, [ops.nodeDisp(tag)[k] for k in (0, 1, 5)], rtol=1e-9)
+    arm = ops.nodeDisp(13)[0] - ops.nodeDisp(12)[0]
+    assert (abs(arm) < 1e-12) == bool(offset)
+
+
+def test_other_ties_between_heights_are_not_taken_for_diaphragms() -> None:
+    a_floor(0.02)
+    for tag in (11, 12, 13, 14):
+        ops.equalDOF(20, tag, 1, 2, 6)
+    ops.fix(20, 0, 0, 1, 1, 1, 0)
+    with pytest.warns(bm.BasematWarning) as caught:
+        opensees.structure(ops, [100], outline=OUTLINE)
+    assert not any("off the plane" in str(own.message) for own in caught)

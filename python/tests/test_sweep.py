@@ -144,8 +144,8 @@ def test_make_may_return_a_run_or_a_mapping() -> None:
     assert list(bm.sweep(lambda a: {"b": a * a}, {"a": [2, 3]})["b"]) == [4, 9]
     table = bm.sweep(lambda friction: make(friction, 2.0).run(50), {"friction": [0.3]})
     assert table["end"].iloc[0] == 0.5
-    table = bm.sweep(lambda a: a, {"a": [2]})
-    assert table["error"].iloc[0].startswith("TypeError: make returned int")
+    table = bm.sweep(lambda a: a if a == 2 else {"b": a}, {"a": [2, 3]})
+    assert table["error"].iloc[0].startswith("TypeError: make returned int") and table["b"].iloc[1] == 3
 
 
 def test_warnings_are_a_column() -> None:
@@ -166,6 +166,28 @@ def test_warnings_are_a_column() -> None:
     assert {warning.filename for warning in caught} == {__file__}
     with pytest.raises(ValueError, match="'warnings'"):
         bm.sweep(shaken, {"warnings": [1.0]})
+
+
+def test_a_frame_has_a_case_in_each_row() -> None:
+    cases = [{"a": 2, "b": "x"}, {"a": 3, "b": "y"}]
+    tables = [bm.sweep(lambda a, b: {"c": f"{a}{b}"}, grid) for grid in (cases, pandas.DataFrame(cases))]
+    assert tables[0]["c"].tolist() == ["2x", "3y"]
+    pandas.testing.assert_frame_equal(*tables)
+    with pytest.raises(bm.InputError, match="grid is 'ab', but must be names with lists of values"):
+        bm.sweep(lambda a: {"b": a}, "ab")
+
+
+def test_all_cases_that_fail_are_an_error_with_the_first_of_them() -> None:
+    def fails(a: int) -> dict[str, int]:
+        if a < 4:
+            raise KeyError(f"no {a}")
+        return {"b": a}
+
+    with pytest.raises(bm.Error, match=r"all 2 cases failed, the first of them with KeyError: 'no 2'$") as caught:
+        bm.sweep(fails, {"a": [2, 3]})
+    assert caught.value.table["error"].tolist() == ["KeyError: 'no 2'", "KeyError: 'no 3'"]
+    assert bm.sweep(fails, {"a": [2, 4]})["error"].isna().tolist() == [False, True]
+    assert len(bm.sweep(fails, [])) == 0
 
 
 def test_a_parameter_called_error_is_refused_before_anything_runs() -> None:
@@ -211,7 +233,7 @@ def test_files_of_shards_merge_to_the_table(tmp_path: Path) -> None:
         )
     merged = bm.merge([tmp_path / "1.csv", tmp_path / "0.csv"], AREAS)
     pandas.testing.assert_frame_equal(merged, bm.merge(tmp_path / "whole.csv", AREAS))
-    assert list(merged.columns) == ["width", "soil", "area", "flat", "none", "error"]
+    assert list(merged.columns) == ["width", "soil", "area", "flat", "none", "warnings", "error"]
     assert [error is None for error in merged["error"]] == [True] * 4 + [False, True]
     assert merged["error"][4] == "ValueError: no\nsuch case"
     right = merged.drop(4)
@@ -244,9 +266,9 @@ def test_a_file_needs_numbers_and_is_refused_before_anything_runs(tmp_path: Path
         bm.sweep(lambda a: {"b": "text"}, {"a": [1.0]}, file=tmp_path / "cases.csv")
     assert caught.value.table["b"].tolist() == ["text"]
     (tmp_path / "folder").write_text("no folder")
-    with pytest.raises(bm.FileError, match="cannot be written") as failed:
-        bm.sweep(lambda a: {"b": a}, {"a": [1.0]}, file=tmp_path / "folder" / "cases.csv")
-    assert failed.value.table["b"].tolist() == [1.0]
+    with pytest.raises(bm.FileError, match="cannot be written"):
+        bm.sweep(lambda **case: made.append(case), {"a": [1.0]}, file=tmp_path / "folder" / "cases.csv")
+    assert made == []
 
 
 @pytest.mark.skipif(os.name == "nt", reason="os.kill ends the process on Windows")

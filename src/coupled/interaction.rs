@@ -129,6 +129,9 @@ pub fn interaction(
     Ok(Interaction { on_ground, on_fixed_base, modes })
 }
 
+/// Ratio of responses above which the one on the fixed base is rounding, and the ratio says nothing.
+const LARGEST_RATIO: f64 = 1e6;
+
 /// Ratio of largest magnitudes; NaN if both are zero.
 fn ratio([on_ground, fixed]: [&Extremes; 2]) -> f64 {
     on_ground.magnitude() / fixed.magnitude()
@@ -158,7 +161,8 @@ impl Interaction {
         let row = |name: &str, (factor, unit): (f64, &str), pair: [&Extremes; 2]| {
             let value = |own: &Extremes| number(factor * own.magnitude());
             let ratio = ratio(pair);
-            let ratio = if ratio.is_finite() { format!("{ratio:.3}") } else { "–".to_owned() };
+            let ratio =
+                if ratio < LARGEST_RATIO { format!("{ratio:.3}") } else { "–".to_owned() };
             vec![name.to_owned(), unit.to_owned(), value(pair[0]), value(pair[1]), ratio]
         };
         let forces = Quantity::shown(ShownIn::ComparisonTime, in_plan).map(|quantity| {

@@ -30,8 +30,8 @@ pub(crate) use requirement::{
     not_negative, positive, require, require_part, same_length, short,
 };
 pub use soil::SoilError;
-pub(crate) use stability::along;
 pub use stability::{CoarseBaseError, StabilityError};
+pub(crate) use stability::{along, of_units};
 pub use step::StepError;
 pub use structure::StructureError;
 pub use sweep::{CaseError, SweepError};

@@ -212,9 +212,10 @@ fn edge(axis: Option<char>, eccentricity: f64) -> &'static str {
 /// A flexible base with too few contact elements: between them only the structure resists deformation.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed}{}",
+    "contact elements{} under foundation {foundation}: {elements}, but its flexible base needs about {needed}{}{}",
     along(*axis),
-    twice_as_many(*difference)
+    twice_as_many(*difference),
+    of_units(*elements, *needed)
 )]
 pub struct CoarseBaseError {
     /// Number of the foundation, from the left, from 0.
@@ -227,6 +228,18 @@ pub struct CoarseBaseError {
     pub difference: Option<f64>,
     /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
     pub axis: Option<char>,
+}
+
+/// Ratio of needed to present elements above which the structure is far softer than any built one.
+const SOFTEST_BUILT_RATIO: usize = 16;
+
+/// Doubt about units of a base so soft that it needs many times its elements, as with moduli in GPa or lengths in mm.
+pub(crate) fn of_units(elements: usize, needed: usize) -> &'static str {
+    if needed / SOFTEST_BUILT_RATIO < elements {
+        ""
+    } else {
+        "; so soft a base is rare: check the units (moduli in Pa, lengths in m, masses in kg)"
+    }
 }
 
 fn twice_as_many(difference: Option<f64>) -> String {

@@ -133,7 +133,11 @@ impl Mesh {
         };
         require_part("direction of the element", fit, needed)?;
         let fits = !(self.has_depth && element.is_plane());
-        require_part("element of the plane", fits, "a mesh in the plane")?;
+        require_part(
+            "element of the plane",
+            fits,
+            "must be in a mesh in the plane, but this one is in space",
+        )?;
         for &index in nodes {
             in_bounds("node of the element", index, self.nodes.len())?;
         }

@@ -39,7 +39,11 @@ pub fn shell_plan(
     mesh: &Mesh,
     values: &[(usize, f64)],
 ) -> Result<Svg> {
-    require_part("plan of shells", mesh.has_depth(), "a mesh in space")?;
+    require_part(
+        "plan of shells",
+        mesh.has_depth(),
+        "must be in a mesh in space, but this one is in the plane",
+    )?;
     at_least("values of shells", values.len(), 1)?;
     for &(_, value) in values {
         finite("value of a shell", value)?;

@@ -35,7 +35,12 @@
 //! combines the files of all shards. `docs/guide.md` has a complete job array.
 
 #[cfg(feature = "io")]
+mod case_file;
+mod columns;
+#[cfg(feature = "io")]
 mod file;
+#[cfg(feature = "io")]
+mod gathered;
 mod run;
 #[cfg(feature = "io")]
 mod stored;
@@ -43,6 +48,8 @@ mod table;
 mod tables;
 
 pub use crate::error::{CaseError, SweepError};
+#[cfg(feature = "io")]
+pub use case_file::CaseFile;
 pub use run::{Sweep, SweepCase};
 pub use table::{CaseRow, CaseTable};
 
@@ -117,12 +124,15 @@ impl Grid {
     }
 }
 
-/// Column of a table after the results.
+/// Column of a table after the results, in files of programs whose runs warn.
+pub(super) const WARNINGS: &str = "warnings";
+
+/// Last column of a table.
 pub(super) const ERROR: &str = "error";
 
 /// Error for a column without a name, or with a name that occurs twice or is reserved.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut before = HashSet::from(["case", ERROR]);
+    let mut before = HashSet::from(["case", WARNINGS, ERROR]);
     for name in names {
         require_part("column", !name.is_empty(), "it must have a name")?;
         if !before.insert(name) {

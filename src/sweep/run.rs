@@ -109,8 +109,8 @@ impl<'a> Sweep<'a> {
     /// one case.
     ///
     /// # Errors
-    /// [`Error::DuplicateName`] if two parameters have the same name, or one is called `case`, `error` or
-    /// `check`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
+    /// [`Error::DuplicateName`] if two parameters have the same name, or one is called `case`, `warnings` or
+    /// `error`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
     /// is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
         Ok(Self::over(Grid::new(parameters.into_iter().collect())?))

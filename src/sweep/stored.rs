@@ -1,31 +1,17 @@
 //! Tables of a sweep in files: stored while they are computed, merged from shards.
 
-use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::fmt::Display;
-use std::fs::{File, OpenOptions, remove_file};
-use std::io::{ErrorKind, Seek, SeekFrom, Write};
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use super::file::{Content, Ending, name, read};
+use super::case_file::CaseFile;
+use super::columns::Columns;
+use super::file::{Ending, name, read};
+use super::gathered::{RowsByCase, gather};
 use super::run::{Sweep, SweepCase};
-use super::table::{CaseTable, FIRST, Row, first_lines, heading_sum};
+use super::table::CaseTable;
 use super::tables::row;
-use crate::error::{Error, FileFault, Result, SweepError};
-use crate::text::check_sum::CheckSum;
-use crate::text::file::{make_folder_of, replaced, unwritten};
-
-/// Rows by their cases, each with the file that contains it.
-type RowsByCase = BTreeMap<usize, (Row, PathBuf)>;
-
-/// Adds a row to a file, and then to its check sum: a process that is killed in between has not stored the row.
-fn append(file: &mut File, row: &str, sum: CheckSum) -> std::io::Result<()> {
-    file.seek(SeekFrom::End(0))?;
-    file.write_all(row.as_bytes())?;
-    file.seek(SeekFrom::Start(FIRST.len() as u64))?;
-    file.write_all(sum.text().as_bytes())
-}
+use crate::error::{FileFault, Result, SweepError};
 
 impl Sweep<'_> {
     /// Runs a [`Sweep::table`] and stores its rows in a file, so that it can be restarted.
@@ -50,63 +36,16 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let (path, columns) = (path.as_ref(), self.named(&columns)?);
-        let part = PathBuf::from([path.as_os_str(), ".part".as_ref()].join("".as_ref()));
-        let mut there = RowsByCase::new();
-        if path.exists() {
-            self.gather(&mut there, path, Some(&columns), Ending::Whole)?;
-        }
-        let (mut begun, mut sum) = (0, heading_sum(&self.grid, &columns));
-        if part.exists() {
-            let content = self.gather(&mut there, &part, Some(&columns), Ending::Anywhere)?;
-            (begun, sum) = (content.end, content.sum);
-        }
-        let left: Vec<_> = self.cases().filter(|case| !there.contains_key(case)).collect();
-        let mut rows: Vec<_> = there.into_values().map(|(row, _)| row).collect();
-        make_folder_of(path)?;
-        if !left.is_empty() {
-            let open = || {
-                let mut options = OpenOptions::new();
-                let mut file = options.create(true).truncate(false).write(true).open(&part)?;
-                // The row within which a process was killed is deleted.
-                file.set_len(begun)?;
-                if begun == 0 {
-                    file.write_all(first_lines(&self.grid, &columns, sum).as_bytes())?;
-                }
-                Ok(file)
-            };
-            let mut file = open().map_err(unwritten(&part))?;
-            let mut fault = None;
-            self.run_each(left.len(), &|place| left[place], run, |case, result| {
-                let row = row(case, result);
-                // After a failed write nothing more is written, so that only the last line can be incomplete.
-                if fault.is_none() {
-                    row.add_to(&self.grid, &mut sum);
-                    fault = append(&mut file, &row.csv(&self.grid, &columns), sum).err();
-                }
-                rows.push(row);
-                if fault.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            });
-            if let Some(fault) = fault {
-                return Err(self.unwritten(&part, fault.kind(), &self.tabled(columns, rows)));
-            }
-        }
-        let table = self.tabled(columns, rows);
-        if !left.is_empty() || part.exists() || !path.exists() {
-            if let Err(fault) = replaced(path, table.csv().as_ref()) {
-                return Err(self.unwritten(path, fault.kind(), &table));
-            }
-            // If the file cannot be removed, it contains the same rows as `path`.
-            let _ = remove_file(&part);
-        }
-        Ok(table)
-    }
-
-    /// The error for a file that cannot be written, with the rows of `table`.
-    fn unwritten(&self, file: &Path, reason: ErrorKind, table: &CaseTable) -> Error {
-        let (file, computed) = (name(file), table.rows.len());
-        let left = self.cases().len() - computed;
-        SweepError::Unwritten { file, reason, computed, left, rows: table.csv().0 }.into()
+        let columns = Columns::of_results(self.named(&columns)?);
+        let mut file = CaseFile::new(self, path.as_ref(), columns, true)?;
+        let missing = file.missing();
+        let mut fault = None;
+        self.run_each(missing.len(), &|place| missing[place], run, |case, result| {
+            // After a failed write the file only collects the rows of the cases that still run.
+            fault = file.append_row(row(case, result)).err();
+            if fault.is_none() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        fault.map_or_else(|| file.finish(), Err)
     }
 
     /// Combines the files of all shards into the table of all cases.
@@ -116,15 +55,21 @@ impl Sweep<'_> {
     ///
     /// # Errors
     /// [`Error::File`] for a file that cannot be read, that was cut off, has other columns than the first
-    /// one or other values of parameters than this sweep, bit for bit, is of another version of the format, does not
+    /// one (a file whose cases all failed may have no names of results) or other values of parameters than this sweep, bit for bit, is of another version of the format, does not
     /// agree with its check sum, or has a case that another file has; [`SweepError::Missing`] for cases in no file.
     pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {
-        let (mut rows, mut columns, mut files) = (RowsByCase::new(), None, 0);
+        let (mut rows, mut columns, mut files) = (RowsByCase::new(), None::<Columns>, 0);
+        let mut with_warnings = false;
+        let wanted = |case| self.place(case).is_some();
         for path in paths {
-            let content =
-                self.gather(&mut rows, path.as_ref(), columns.as_deref(), Ending::Whole)?;
-            columns.get_or_insert(content.columns);
+            let path = path.as_ref();
+            let content = read(path, &self.grid, &wanted, columns.as_ref(), Ending::Whole)?;
+            gather(&mut rows, content.rows, path, Ending::Whole)?;
             files += 1;
+            with_warnings |= content.columns.with_warnings;
+            if !content.columns.names.is_empty() {
+                columns.get_or_insert(content.columns);
+            }
         }
         let cases: Vec<_> = self.cases().filter(|case| !rows.contains_key(case)).collect();
         if !cases.is_empty() {
@@ -132,40 +77,19 @@ impl Sweep<'_> {
             let shards = missing_shards(&places, self.cases().len(), files);
             return Err(SweepError::Missing { cases, shards }.into());
         }
-        let columns = self.named(&columns.unwrap_or_default())?;
-        Ok(self.tabled(columns, rows.into_values().map(|(row, _)| row).collect()))
-    }
-
-    /// Adds the rows of a file to `rows`.
-    ///
-    /// With [`Ending::Anywhere`], a row that is already there may occur again, in a file that was not
-    /// removed.
-    fn gather(
-        &self,
-        rows: &mut RowsByCase,
-        path: &Path,
-        columns: Option<&[String]>,
-        ending: Ending,
-    ) -> Result<Content> {
-        let wanted = |case| self.place(case).is_some();
-        let mut content = read(path, &self.grid, &wanted, columns, ending)?;
-        for row in content.rows.drain(..) {
-            match rows.entry(row.case) {
-                Entry::Vacant(entry) => {
-                    entry.insert((row, path.to_owned()));
-                }
-                Entry::Occupied(entry) => {
-                    let (before, first) = entry.get();
-                    if ending == Ending::Whole || *before != row {
-                        let found = format!("here and in {}", name(first));
-                        let case = format!("case {}", row.case);
-                        let fault = FileFault::value(case, found, "in one place");
-                        return Err(fault.of(name(path), 0));
-                    }
-                }
+        let columns = Columns { with_warnings, ..columns.unwrap_or_default() };
+        self.named(&columns.names)?;
+        // Without names of results all cases of a file must have failed.
+        for (row, path) in rows.values() {
+            let count = row.outcome.as_ref().map_or(columns.names.len(), Vec::len);
+            if count != columns.names.len() {
+                let results = format!("results of case {}", row.case);
+                let needed = columns.names.len().to_string();
+                return Err(FileFault::count(&results, count, needed).of(name(path), 0));
             }
         }
-        Ok(content)
+        let rows = rows.into_values().map(|(row, _)| row).collect();
+        Ok(CaseTable { grid: self.grid.clone(), columns, rows })
     }
 }
 

@@ -3,7 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::{ERROR, Grid};
+use super::columns::Columns;
+use super::{ERROR, Grid, WARNINGS};
 use crate::error::{Error, Result};
 use crate::text::check_sum::CheckSum;
 use crate::text::column::Cell;
@@ -21,7 +22,7 @@ use crate::text::table::{LONGEST_LINE, Table};
 #[derive(Debug, Clone)]
 pub struct CaseTable {
     pub(super) grid: Arc<Grid>,
-    pub(super) columns: Vec<String>,
+    pub(super) columns: Columns,
     /// Rows, ascending by case.
     pub(super) rows: Vec<Row>,
 }
@@ -31,6 +32,8 @@ pub struct CaseTable {
 pub(super) struct Row {
     pub(super) case: usize,
     pub(super) outcome: std::result::Result<Vec<f64>, String>,
+    /// Texts of the run's warnings, empty without any.
+    pub(super) warnings: String,
 }
 
 impl Row {
@@ -42,33 +45,34 @@ impl Row {
             Err(reason) if reason.is_empty() => Err("failed".to_owned()),
             Err(reason) => Err(reason),
         };
-        Self { case, outcome }
+        Self { case, outcome, warnings: String::new() }
     }
 
     /// Adds the values of all cells to the check sum of a table.
-    pub(super) fn add_to(&self, grid: &Grid, sum: &mut CheckSum) {
+    pub(super) fn add_to(&self, grid: &Grid, columns: &Columns, sum: &mut CheckSum) {
         sum.add(self.case as u64);
         parameter_cells(grid, self.case).for_each(|cell| sum.add_text(&cell));
         match &self.outcome {
             Ok(results) => sum.add_numbers(results),
             Err(reason) => sum.add_text(reason),
         }
+        if columns.with_warnings {
+            sum.add_text(&self.warnings);
+        }
     }
 
     /// Writes the row as a line of CSV, with its line end.
-    pub(super) fn csv(&self, grid: &Grid, columns: &[String]) -> String {
+    pub(super) fn csv(&self, grid: &Grid, columns: &Columns) -> String {
         let mut cells = vec![self.case.to_string()];
         cells.extend(parameter_cells(grid, self.case));
         match &self.outcome {
-            Ok(results) => {
-                cells.extend(results.iter().map(|&value| Cell(value).to_string()));
-                cells.push(String::new());
-            }
-            Err(reason) => {
-                cells.extend(columns.iter().map(|_| String::new()));
-                cells.push(reason.clone());
-            }
+            Ok(results) => cells.extend(results.iter().map(|&value| Cell(value).to_string())),
+            Err(_) => cells.extend(columns.names.iter().map(|_| String::new())),
         }
+        if columns.with_warnings {
+            cells.push(self.warnings.clone());
+        }
+        cells.push(self.outcome.as_ref().err().cloned().unwrap_or_default());
         csv_line(&cells)
     }
 }
@@ -79,7 +83,7 @@ impl PartialEq for Row {
             Ok(results) => Ok(results.iter().map(|value| value.to_bits()).collect::<Vec<_>>()),
             Err(reason) => Err(reason.clone()),
         };
-        self.case == other.case && bits(self) == bits(other)
+        self.case == other.case && self.warnings == other.warnings && bits(self) == bits(other)
     }
 }
 
@@ -99,10 +103,13 @@ pub(super) fn parameter_cells(grid: &Grid, case: usize) -> impl Iterator<Item = 
 }
 
 /// Headings of all columns.
-pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
+pub(super) fn heading(grid: &Grid, columns: &Columns) -> Vec<String> {
     let mut cells = vec!["case".to_owned()];
     cells.extend(grid.parameters.iter().map(|parameter| parameter.name().to_owned()));
-    cells.extend_from_slice(columns);
+    cells.extend_from_slice(&columns.names);
+    if columns.with_warnings {
+        cells.push(WARNINGS.to_owned());
+    }
     cells.push(ERROR.to_owned());
     cells
 }
@@ -111,7 +118,7 @@ pub(super) fn heading(grid: &Grid, columns: &[String]) -> Vec<String> {
 pub(super) const FIRST: &str = "# basemat sweep 1 check sum ";
 
 /// Check sum of a table without rows.
-pub(super) fn heading_sum(grid: &Grid, columns: &[String]) -> CheckSum {
+pub(super) fn heading_sum(grid: &Grid, columns: &Columns) -> CheckSum {
     let mut sum = CheckSum::default();
     for name in heading(grid, columns) {
         sum.add_text(&name);
@@ -120,7 +127,7 @@ pub(super) fn heading_sum(grid: &Grid, columns: &[String]) -> CheckSum {
 }
 
 /// The first two lines of a table's file.
-pub(super) fn first_lines(grid: &Grid, columns: &[String], sum: CheckSum) -> String {
+pub(super) fn first_lines(grid: &Grid, columns: &Columns, sum: CheckSum) -> String {
     format!("{FIRST}{}\n{}", sum.text(), csv_line(&heading(grid, columns)))
 }
 
@@ -132,6 +139,9 @@ pub struct CaseRow<'a> {
     pub index: usize,
     /// The results in the order of [`CaseTable::columns`], or the text of the error if the case failed or panicked.
     pub results: std::result::Result<&'a [f64], &'a str>,
+    /// Texts of the run's warnings as a program stored them with [`CaseFile::append`](super::CaseFile::append); empty
+    /// without any.
+    pub warnings: &'a str,
     table: &'a CaseTable,
 }
 
@@ -145,10 +155,10 @@ impl<'a> CaseRow<'a> {
         if let Some(number) = self.table.grid.number(self.index, column) {
             return Ok(number);
         }
-        let index = self.table.columns.iter().position(|name| name == column);
-        let index = index.ok_or_else(|| {
-            self.table.grid.no_name("column of numbers", column, &self.table.columns)
-        })?;
+        let columns = &self.table.columns.names;
+        let index = columns.iter().position(|name| name == column);
+        let index =
+            index.ok_or_else(|| self.table.grid.no_name("column of numbers", column, columns))?;
         match self.results {
             Ok(results) => Ok(results[index]),
             Err(reason) => Err(Error::part(format!("case {} failed", self.index), reason)),
@@ -177,24 +187,24 @@ impl CaseTable {
     pub fn rows(&self) -> impl ExactSizeIterator<Item = CaseRow<'_>> {
         self.rows.iter().map(|row| {
             let results = row.outcome.as_deref().map_err(String::as_str);
-            CaseRow { index: row.case, results, table: self }
+            CaseRow { index: row.case, results, warnings: &row.warnings, table: self }
         })
     }
 
     /// Names of the results.
     pub fn columns(&self) -> &[String] {
-        &self.columns
+        &self.columns.names
     }
 
     /// Writes the table as CSV (RFC 4180): a comment, a heading, and a line for each case.
     ///
     /// The comment has the version of the format and the check sum of all values, which are needed to read the table
-    /// again: other programs skip the first line. Columns are `case`, the parameters, the results and `error`. Numbers,
-    /// in the caller's units, have enough digits to be read back to the last bit. NaN is an empty cell, infinities are
+    /// again: other programs skip the first line. Columns are `case`, the parameters, the results, `warnings` if a case of a
+    /// [`CaseFile`](super::CaseFile) has some, and `error`. Numbers, in the caller's units, have enough digits to be read back to the last bit. NaN is an empty cell, infinities are
     /// `inf` and `-inf`. A case that failed has empty results and a text in `error`.
     pub fn csv(&self) -> Csv {
         let mut sum = heading_sum(&self.grid, &self.columns);
-        self.rows.iter().for_each(|row| row.add_to(&self.grid, &mut sum));
+        self.rows.iter().for_each(|row| row.add_to(&self.grid, &self.columns, &mut sum));
         let mut text = first_lines(&self.grid, &self.columns, sum);
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
         Csv(text)
@@ -215,8 +225,9 @@ fn figures(value: f64) -> String {
 
 impl fmt::Display for CaseTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let columns = self.columns.len();
-        let mut heading = heading(&self.grid, &self.columns);
+        let columns = self.columns.names.len();
+        let results = Columns::of_results(self.columns.names.clone());
+        let mut heading = heading(&self.grid, &results);
         heading.pop();
         let rows = self.rows.iter().map(|row| {
             let mut cells = vec![row.case.to_string()];
@@ -228,12 +239,15 @@ impl fmt::Display for CaseTable {
             cells
         });
         f.write_str(&Table { heading, repeated: 1, rows: rows.collect() }.text())?;
-        for row in &self.rows {
-            if let Err(reason) = &row.outcome {
-                for line in in_columns(&format!("case {} failed: {reason}", row.case), LONGEST_LINE)
-                {
-                    write!(f, "\n{line}")?;
-                }
+        let failed = |row: &Row| {
+            row.outcome.as_ref().err().map(|reason| format!("case {} failed: {reason}", row.case))
+        };
+        let warned = |row: &Row| {
+            (!row.warnings.is_empty()).then(|| format!("case {} warns: {}", row.case, row.warnings))
+        };
+        for text in self.rows.iter().flat_map(|row| [failed(row), warned(row)]).flatten() {
+            for line in in_columns(&text, LONGEST_LINE) {
+                write!(f, "\n{line}")?;
             }
         }
         Ok(())

@@ -2,11 +2,12 @@
 
 use std::fmt::Display;
 
+use super::columns::Columns;
 use super::run::{Sweep, SweepCase};
 use super::table::{CaseTable, Row};
 use super::{Parameter, check_names};
 use crate::error::CaseError;
-use crate::error::{Result, same_length};
+use crate::error::Result;
 
 /// Row of a case from its result.
 pub(super) fn row<const N: usize, E: Display>(
@@ -49,29 +50,6 @@ impl Sweep<'_> {
         Ok(self.tabled(columns, rows))
     }
 
-    /// Table of cases that another program ran.
-    ///
-    /// `columns` are the names of the results. `outcomes` has for each case of [`Sweep::cases`] its results
-    /// or the text of its error.
-    ///
-    /// # Errors
-    /// [`Error::Size`](crate::Error::Size) if the number of outcomes differs from the number of cases, or the number
-    /// of results from the number of columns; the errors of [`Sweep::table`].
-    pub fn tabulate<S: AsRef<str>>(
-        &self,
-        columns: &[S],
-        outcomes: impl IntoIterator<Item = std::result::Result<Vec<f64>, String>>,
-    ) -> Result<CaseTable> {
-        let columns = self.named(columns)?;
-        let outcomes: Vec<_> = outcomes.into_iter().collect();
-        same_length("list of outcomes", outcomes.len(), self.cases().len())?;
-        for results in outcomes.iter().flatten() {
-            same_length("list of results of a case", results.len(), columns.len())?;
-        }
-        let rows = self.cases().zip(outcomes).map(|(case, outcome)| Row::new(case, outcome));
-        Ok(self.tabled(columns, rows.collect()))
-    }
-
     /// The columns' names, checked together with the parameters' names.
     pub(super) fn named<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
         let own = || columns.iter().map(AsRef::as_ref);
@@ -81,34 +59,6 @@ impl Sweep<'_> {
 
     pub(super) fn tabled(&self, columns: Vec<String>, mut rows: Vec<Row>) -> CaseTable {
         rows.sort_unstable_by_key(|row| row.case);
-        CaseTable { grid: self.grid.clone(), columns, rows }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::error::Error;
-
-    #[test]
-    fn outcomes_of_another_program() {
-        let sweep = Sweep::grid([Parameter::numbers("width_m", [4.0, 6.0, 8.0])]).unwrap();
-        let run = |case: &SweepCase<'_>| match case.value("width_m") {
-            Ok(width) if width < 7.0 => Ok([width, -0.0]),
-            _ => Err("too wide"),
-        };
-        let wide = || Err("too wide".to_owned());
-        let shard = || sweep.table(["width", "zero"], run).unwrap();
-        let given = [Ok(vec![4.0, -0.0]), Ok(vec![6.0, -0.0]), wide()];
-        assert_eq!(sweep.tabulate(&["width", "zero"], given.clone()).unwrap(), shard());
-        assert_eq!(
-            sweep.tabulate(&["width", "zero"], given[..2].to_vec()).unwrap_err(),
-            Error::Size { quantity: "list of outcomes", found: 2, needed: 3 }
-        );
-        assert_eq!(
-            sweep.tabulate(&["width"], given.clone()).unwrap_err(),
-            Error::Size { quantity: "list of results of a case", found: 2, needed: 1 }
-        );
-        assert!(sweep.tabulate(&["width", "width_m"], given).is_err());
+        CaseTable { grid: self.grid.clone(), columns: Columns::of_results(columns), rows }
     }
 }

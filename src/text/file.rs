@@ -18,8 +18,10 @@ pub(crate) fn replaced(path: &Path, content: &[u8]) -> std::io::Result<()> {
     if path.exists() && !path.is_file() {
         return std::fs::write(&path, content);
     }
-    // The hash of no data with random keys: two processes must not use the same name.
-    let mark = RandomState::new().build_hasher().finish();
+    // Random keys tell threads and machines apart, the number of the process tells forks apart, which inherit the keys.
+    let mut hasher = RandomState::new().build_hasher();
+    hasher.write_u32(std::process::id());
+    let mark = hasher.finish();
     let mut temporary = path.as_os_str().to_owned();
     temporary.push(format!(".{mark:016x}.tmp"));
     let write = || {

@@ -2,6 +2,7 @@
 //! SCENE: a block on the half-plane that rocks and slides.
 //! REFERENCE: the states they were made of, and statics.
 
+mod case_files;
 mod case_tables;
 mod damaged_tables;
 mod files;

@@ -6,6 +6,7 @@ import traceback
 from collections.abc import Callable, Mapping
 from typing import Any, Optional
 
+from . import _core
 from ._core import Run, Simulation
 
 # Results of a case, the texts of its run's warnings, and that of its error.
@@ -17,16 +18,18 @@ def results_of(
     steps: int | None,
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
-) -> Outcome:
-    """Columns of a row from what ``make`` returned."""
+    warnings: list[str],
+) -> dict[str, Any]:
+    """Results of a row from what ``make`` returned; adds to ``warnings``."""
     if isinstance(found, Simulation):
         # A table says it in its column, once for every case.
         found = found.run(steps, duration=duration, series=results is not None, warn=False)
     if isinstance(found, Run):
-        warnings = "; ".join(found.warnings) or None
-        return dict(found.summary() if results is None else results(found)), warnings, None
+        # Also if they were not shown.
+        warnings.extend(found.warnings)
+        return dict(found.summary() if results is None else results(found))
     if isinstance(found, Mapping):
-        return dict(found), None, None
+        return dict(found)
     raise TypeError(
         f"make returned {type(found).__name__}, but must return a Simulation, a Run or a mapping"
     )
@@ -39,11 +42,17 @@ def run_case(
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
 ) -> Outcome:
-    """Results of a case and the text of its error; importable, for other processes."""
+    """Results of a case, its warnings and the text of its error; importable, for other processes."""
+    warnings: list[str] = []
+    _core._collect_warnings(True)
     try:
-        return results_of(make(**case), steps, duration, results)
+        found, reason = results_of(make(**case), steps, duration, results, warnings), None
     except Exception as error:
-        return {}, None, described(error)
+        found, reason = {}, described(error)
+    finally:
+        heard = _core._collect_warnings(False)
+    # Each once, as when a run was shown and then returned.
+    return found, "; ".join(dict.fromkeys([*heard, *warnings])) or None, reason
 
 
 def described(error: BaseException) -> str:

@@ -303,7 +303,8 @@ class ElasticGround(Ground):
         """Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
         structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
         outline that is oblique to them.
-        A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
+        A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+        ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
 
         ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
         ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and
@@ -397,7 +398,8 @@ class SpringGround(Ground):
         """Strips of ``count`` equal elements under each foundation of a ``structure``, or under one in plan ``count`` cells along
         the shorter side of its base; ``normal_stiffness``, ``tangential_stiffness`` (Pa/m), ``across_stiffness``, ``dashpots``
         and ``theta`` are as in the class, the last three if given.
-        A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
+        A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+        ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
         """
 
 @final
@@ -1622,9 +1624,11 @@ class Run(Summary):
     ) -> None:
         """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
-        The page has the ground motion, the model, warnings, peaks and the text of the run; pictures of time series, floor
-        spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of `Simulation.run`), of
-        the contact, the deformed structure and both in motion.
+        The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
+        series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
+        `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+        their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
+        be written leaves the one before as it was.
 
         Args:
             path: name of the file, such as "run.html".
@@ -2075,6 +2079,9 @@ class Simulation:
         copies that this simulation works on, with their internal variables, in the order of storeys or
         springs.
         """
+    @property
+    def _arguments(self) -> dict[str, Any]:
+        """All arguments by their names, as they were given; those that were not are None, an empty list or False."""
     @property
     def probe_names(self) -> list[str]:
         """Names of the probes, in their order."""
@@ -3738,19 +3745,37 @@ def set_memory_limit(bytes: int) -> None:
     Sizes are held against it before anything is allocated, and raise an error that says what they would take.
     """
 def _cancel_when(event: Any = None) -> None: ...
+def _collect_warnings(collect: bool) -> list[str]: ...
 def _restored(kind: str, data: bytes) -> Any: ...
 def _case_numbers(
     grid: Sequence[tuple[str, Sequence[Any]]],
     shard: tuple[int, int] | None = None,
 ) -> list[int]: ...
-def _save_cases(
-    path: str | os.PathLike[str],
-    grid: Sequence[tuple[str, Sequence[Any]]],
-    shard: tuple[int, int] | None,
-    columns: Sequence[str],
-    outcomes: Sequence[Sequence[Any] | str],
-) -> None: ...
+
+@final
+class _CaseFile:
+    """The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run."""
+
+    def __new__(
+        cls,
+        path: str | os.PathLike[str],
+        grid: Sequence[tuple[str, Sequence[Any]]],
+        shard: tuple[int, int] | None = None,
+    ) -> Self: ...
+    def rows(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
+        """Columns of results, and the rows so far: number of the case, results, warnings, error."""
+    def append(
+        self,
+        case: int,
+        names: Sequence[str],
+        results: Sequence[Any],
+        warnings: str | None,
+        error: str | None,
+    ) -> None:
+        """Appends the row of a case: ``results`` under ``names``, or the text of its ``error``."""
+    def finish(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
+        """Writes the whole file at once and returns its rows as `rows` does."""
 def _merge_cases(
     paths: Sequence[str | os.PathLike[str]],
     grid: Sequence[tuple[str, Sequence[Any]]],
-) -> tuple[list[str], list[tuple[list[float] | None, str | None]]]: ...
+) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]: ...

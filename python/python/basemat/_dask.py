@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from ._case import Outcome, described, run_case
+from ._executors import Ended
 
 
 def is_client(executor: Any) -> bool:
@@ -15,14 +16,14 @@ def is_client(executor: Any) -> bool:
     )
 
 
-def outcomes(
+def run(
     client: Any,
     make: Callable[..., Any],
     cases: Sequence[dict[str, Any]],
     options: tuple[Any, ...],
-    tell: Callable[[int], Any],
-) -> list[Outcome]:
-    """Outcomes in the order of the cases, whichever worker they ran on and however often.
+    ended: Ended,
+) -> None:
+    """Runs cases, and tells of each when it ends, whichever worker it ran on and however often.
 
     Dask runs the cases of a worker that died on another one. It counts a death against every case
     that the worker had been given, and gives up one with more than ``allowed-failures``: also one
@@ -31,42 +32,33 @@ def outcomes(
     """
     from distributed import KilledWorker, as_completed
 
-    found: list[Outcome] = [({}, None, "was not run")] * len(cases)
-    done = 0
-
-    def run(numbers: Sequence[int]) -> list[int]:
+    def some(places: Sequence[int]) -> dict[int, BaseException]:
         """Runs these cases; returns those that the scheduler gave up."""
-        nonlocal done
         # In one group the scheduler hands cases out as workers come free, and not all at once.
-        futures = client.map(
-            _run, [cases[number] for number in numbers], make=make, options=options, pure=False
-        )
-        number_of = dict(zip(futures, numbers))
-        given_up = []
+        futures = client.map(_run, [cases[place] for place in places], make=make, options=options, pure=False)
+        place_of = dict(zip(futures, places))
+        given_up: dict[int, BaseException] = {}
         try:
             for future in as_completed(futures):
-                number = number_of[future]
+                place = place_of[future]
                 try:
-                    found[number] = future.result()
+                    found = future.result()
                 except (KeyboardInterrupt, SystemExit):
                     raise
                 except BaseException as error:  # Cancelled futures are no Exception.
-                    found[number] = {}, None, described(error)
                     if isinstance(error, KilledWorker):
-                        given_up.append(number)
+                        given_up[place] = error
                         continue
-                done += 1
-                tell(done)
+                    found = {}, None, described(error)
+                ended(place, found)
         except BaseException:
             client.cancel(futures)
             raise
         return given_up
 
-    for number in sorted(run(range(len(cases)))):
-        if run([number]):
-            done += 1
-            tell(done)
-    return found
+    for place in sorted(some(range(len(cases)))):
+        for dead, error in some([place]).items():
+            ended(dead, ({}, None, described(error)))
 
 
 def _run(case: dict[str, Any], make: Callable[..., Any], options: tuple[Any, ...]) -> Outcome:

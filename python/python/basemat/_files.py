@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import hashlib
 import os
+import secrets
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +13,27 @@ from . import _core
 from ._errors import FileError
 
 _KINDS = ("Run",)
+
+
+def replace(path: str | os.PathLike[str], data: bytes) -> None:
+    """Writes a file under another name and renames it: the file is then complete, or as it was before."""
+    target = os.path.realpath(path)
+    temporary = f"{target}.{secrets.token_hex(8)}.tmp"
+    try:
+        if os.path.exists(target) and not os.path.isfile(target):
+            # A pipe or a terminal.
+            Path(target).write_bytes(data)
+            return
+        with open(temporary, "xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        os.replace(temporary, target)
+    except OSError as error:
+        raise FileError(f"{os.fspath(path)} cannot be written: {error.strerror}") from error
+    finally:
+        with suppress(OSError):
+            os.remove(temporary)
 
 
 def save(self: _core.Run, path: str | os.PathLike[str]) -> None:
@@ -24,10 +47,7 @@ def save(self: _core.Run, path: str | os.PathLike[str]) -> None:
     kind, data = made[1]
     digest = hashlib.sha256(data).hexdigest()
     heading = f"basemat {_core.__version__} {kind} {digest}\n"
-    try:
-        Path(path).write_bytes(heading.encode() + data)
-    except OSError as error:
-        raise FileError(f"{os.fspath(path)} cannot be written: {error.strerror}") from error
+    replace(path, heading.encode() + data)
 
 
 def load(path: str | os.PathLike[str]) -> _core.Run:

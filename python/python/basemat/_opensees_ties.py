@@ -10,6 +10,9 @@ import numpy as np
 #: Part of a diagonal entry below which a constraint only repeats the ones before it.
 _REPEATED = 1e-13
 
+#: Directions that a rigid diaphragm ties, by the axis across its plane.
+_DIAPHRAGM = {0: [1, 2, 3], 1: [0, 2, 4], 2: [0, 1, 5]}
+
 #: Constraints that a message names.
 _MOST = 8
 
@@ -44,6 +47,7 @@ class Ties:
         #: Tied directions of a node that follows, by the pair of nodes; ``retained``: of the other node.
         self._pairs = {pair: [int(own) - 1 for own in ops.getConstrainedDOFs(*pair)] for pair in tied(ops)}
         retained = {pair: [int(own) - 1 for own in ops.getRetainedDOFs(*pair[::-1])] for pair in self._pairs}
+        self._has_arms = {pair: self._turns(pair, held, penalty) for pair, held in self._pairs.items()}
         # Sparse matrices leave out what a fixed degree of freedom is tied to.
         for (tag, master), held in self._pairs.items():
             for k, j in zip(held, retained[tag, master]):
@@ -134,6 +138,35 @@ class Ties:
             edge = {own for far in edge for own in self._near.get(far, ())} - seen
             seen |= edge
         return seen
+
+    def _turns(self, pair: tuple[int, int], held: list[int], penalty: Any) -> bool:
+        """Whether a rotation of the other node moves the one that follows in its tied translations."""
+        own, other = (self._places[tag] for tag in pair)
+        lines = len(self.directions) // 2 + len(self.directions) % 2
+        return any(penalty[own[k], place] != 0.0 for k in held if k < lines for place in other[lines:])
+
+    def off_plane(self, at: dict[int, tuple[float, ...]]) -> str:
+        """Words for nodes beside the plane of their diaphragm; ``at``: coordinates of each node (its tag), m.
+
+        ``rigidDiaphragm`` of OpenSees 3.7.1 writes that it ignores such a node. It makes the constraint all the same,
+        with the arms of the node before it in the list.
+        """
+        found: dict[int, list[str]] = {}
+        for (tag, master), held in self._pairs.items():
+            for across, tied_directions in _DIAPHRAGM.items():
+                if held != tied_directions or len(self.directions) < 6:
+                    continue
+                offset = abs(at[tag][across] - at[master][across])
+                # An equalDOF of the same directions has no arms, nor have others to this master.
+                beside = (pair for pair, own in self._pairs.items() if pair[1] == master and own == held)
+                if offset and any(self._has_arms[pair] for pair in beside):
+                    found.setdefault(master, []).append(f"node {tag} is {offset:.3g} m")
+        return "; ".join(
+            f"{', '.join(nodes[:_MOST])} off the plane of node {master}, to which rigidDiaphragm ties it: OpenSees writes "
+            "that it ignores such a node, but ties it as if it stood at the place of the node before it in the list. Move it "
+            "into the plane, or leave it out of rigidDiaphragm"
+            for master, nodes in found.items()
+        )
 
     def about(self, place: int) -> str:
         """The constraints of the degree of freedom at ``place`` and of all that are tied to it, for people."""

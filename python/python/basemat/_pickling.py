@@ -141,7 +141,7 @@ def _reduce(self: Any) -> Any:
 
 
 def _repr(self: Any) -> str:
-    """The call that makes it."""
+    """The call that makes it; of a ground also its number of elements."""
     made = _how(self)
     if made.owner is _layer:
         return _values(self)
@@ -149,7 +149,9 @@ def _repr(self: Any) -> str:
     owner = made.owner if is_named else type(self)
     name = owner.__name__ if made.name is None else f"{owner.__name__}.{made.name}"
     keywords = [f"{name}={_short(value)}" for name, value in made.keywords.items()]
-    return f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
+    call = f"{name}({', '.join([*map(_short, made.arguments), *keywords])})"
+    # A count that was asked for may have been raised.
+    return f"{call}  # {len(self.elements)} elements" if isinstance(self, _core.Ground) else call
 
 
 def _values(self: Any) -> str:

@@ -10,7 +10,6 @@ import os
 from collections.abc import Iterator
 from contextlib import suppress
 from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,9 +17,11 @@ import numpy as np
 from . import _core
 from ._animation import film_of
 from ._core import DeformedShape, Interaction, Record, Run, Simulation, Summary
-from ._errors import FileError, InputError
+from ._errors import InputError
 from ._figures import axes_for, label_axes, pyplot, was_kept
+from ._files import replace
 from ._film import Film, quantized
+from ._report_model import model_of, table
 
 _STYLE = """
 body { font: 15px/1.45 sans-serif; max-width: 62rem; margin: 2rem auto; padding: 0 1rem; color: #222 }
@@ -28,6 +29,8 @@ h1 { font-size: 1.6rem } h2 { font-size: 1.2rem; border-bottom: 1px solid #ccc; 
 table { border-collapse: collapse } td, th { padding: .15rem .8rem; text-align: right; border-bottom: 1px solid #eee }
 td:first-child, th:first-child { text-align: left } .words td { text-align: left; vertical-align: top }
 img { max-width: 100% } pre { line-height: 1.2; overflow-x: auto } .warning { color: #a33 }
+.wide { overflow-x: auto } .words td, p { overflow-wrap: anywhere }
+@media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .7rem } td, th { padding: .15rem .4rem } }
 """
 _PLAYER = """
 <p><img id="film" alt="the run in motion"><br>
@@ -46,6 +49,8 @@ show(0); start();
 """
 _LEFT_OUT = {"time", "sliding_safety", "overturning_safety", "overturning_safety_across"}
 """Time series whose largest value says nothing."""
+_ROUNDING = 1e-6
+"""Response on a fixed base, over the one on the ground, that is zero but for rounding."""
 
 
 def report(
@@ -59,9 +64,11 @@ def report(
 ) -> None:
     """Writes the run as one page to the file at ``path``, which any browser opens without a network: pictures are in it.
 
-    The page has the ground motion, the model, warnings, peaks and the text of the run; pictures of time series, floor
-    spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of `Simulation.run`), of
-    the contact, the deformed structure and both in motion.
+    The page has the ground motion, the model, warnings, peaks, limits of service and the text of the run; pictures of time
+    series, floor spectra of all acceleration probes and, with snapshots (``contact_every`` and ``motion_every`` of
+    `Simulation.run`), of the contact, the deformed structure and both in motion. The model is a table of all parameters with
+    their units and a program that makes the run again, with its arrays as a file that the page holds. A page that cannot
+    be written leaves the one before as it was.
 
     Args:
         path: name of the file, such as "run.html".
@@ -79,21 +86,20 @@ def report(
         f"<h1>{escape(title)}</h1>",
         "<h2>Ground motion</h2>",
         *_motion(self, simulation),
-        *(() if simulation is None else ("<h2>Model</h2>", _model(simulation))),
+        *(() if simulation is None else ("<h2>Model</h2>", *model_of(self, simulation, os.path.basename(path)))),
         "<h2>Peaks</h2>",
         *(f'<p class="warning">{escape(text)}</p>' for text in self.warnings),
         _peaks(self, interaction),
+        *_service(self),
         *_pictures(self, shape),
         "<h2>All results</h2>",
         f"<pre>{escape(str(self))}</pre>",
         f"<p>Computed by basemat {_core.__version__}.</p>",
     ]
-    heading = f'<meta charset="utf-8"><title>{escape(title)}</title><style>{_STYLE}</style>'
+    sizes = '<meta name="viewport" content="width=device-width, initial-scale=1">'
+    heading = f'<meta charset="utf-8">{sizes}<title>{escape(title)}</title><style>{_STYLE}</style>'
     page = f'<!DOCTYPE html>\n<html lang="en"><head>{heading}</head><body>\n' + "\n".join(parts) + "\n</body></html>\n"
-    try:
-        Path(path).write_text(page, "utf-8")
-    except OSError as error:
-        raise FileError(f"{os.fspath(path)} cannot be written: {error.strerror}") from error
+    replace(path, page.encode())
 
 
 def _picture(figure: Any, text: str) -> str:
@@ -139,20 +145,6 @@ def _motion(run: Run, simulation: Simulation | None) -> Iterator[str]:
     yield _picture(figure, "ground motion")
 
 
-def _model(simulation: Simulation) -> str:
-    """The parts of the model, as their calls."""
-    parts = {
-        "structure": simulation.structure,
-        "ground": simulation.ground,
-        "interface": simulation.interface,
-        "motion": simulation.motion,
-        "time step": f"{simulation.time_step:g} s",
-        "contact elements": len(simulation.elements),
-    }
-    rows = (f"<tr><td>{name}</td><td>{escape(str(own))}</td></tr>" for name, own in parts.items())
-    return f'<table class="words">{"".join(rows)}</table>'
-
-
 def _shown(unit: str) -> tuple[float, str]:
     """Factor and unit for the table."""
     if unit[:1] == "N":
@@ -176,15 +168,39 @@ def _peaks(run: Run, interaction: Interaction | None) -> str:
         row = [name.replace("_", " "), unit, f"{factor * peak.value:.4g}", f"{peak.time:.3f}"]
         if fixed is not None:
             other = _largest(fixed, name)
-            row += ["", ""]
-            if other is not None and abs(other.value) > 1e-9 * abs(peak.value):
+            row += ["0", ""]
+            # Less is rounding, and no ratio says anything.
+            if other is not None and abs(other.value) > _ROUNDING * abs(peak.value):
                 row[4:] = [f"{factor * other.value:.4g}", f"{abs(peak.value / other.value):.3f}"]
         rows.append(row)
-    lines = [["th" if k == 0 else "td", *own] for k, own in enumerate(rows)]
-    table = "".join(f"<tr>{''.join(f'<{kind}>{escape(own)}</{kind}>' for own in row)}</tr>" for kind, *row in lines)
     modes = () if interaction is None else str(interaction).splitlines()
     words = "".join(f"<p>{escape(line)}</p>" for line in modes if "T̃" in line)
-    return f"<table>{table}</table>{words}"
+    return f"{table(rows)}{words}"
+
+
+def _service(run: Run) -> Iterator[str]:
+    """Limits of service beside the run."""
+    if not run.serviceability:
+        return
+    rows = [["limit of service", "unit", "limit", "largest value", "at s", "of the limit", "exceeded from s", ""]]
+    units = {"slip": "m", "gap": "m", "uplifted_fraction": "", "rotation": "rad"}
+    for check in run.serviceability:
+        factor, unit = _shown(units[check.criterion])
+        used = 1.0 - check.margin
+        rows.append(
+            [
+                check.criterion.replace("_", " "),
+                unit,
+                f"{factor * check.limit:.4g}",
+                f"{factor * check.largest.value:.4g}",
+                f"{check.largest.time:.3f}",
+                f"{100.0 * used:.1f} %" if np.isfinite(used) else "",
+                "" if check.first_excess is None else f"{check.first_excess:.3f}",
+                "met" if check.is_met else "exceeded",
+            ]
+        )
+    yield "<h2>Limits of service</h2>"
+    yield table(rows)
 
 
 def _largest(run: Run, name: str) -> _core.Peak | None:

@@ -36,7 +36,7 @@ class OpenSeesModel:
     def __init__(
         self, model: MatrixModel, rows: Rows, shape: DeformedShape, sparse: tuple[Any, Any, Any] | None
     ) -> None:
-        self._rows, self._shape = rows, shape
+        self._rows, self._shape, self._model = rows, shape, model
         self.dofs, self.dof = model.dofs, model.dof
         self.dof_names = model.dof_names
         self.base = model.base
@@ -111,7 +111,8 @@ def structure(
     Elements that are not linear, or are not known to be, give a `BasematWarning` with their tags
     and types. Elements without a tangent at rest are an error: contact, gaps, springs that only push,
     dashpots of a power of the velocity. Masses in total that differ by direction give a `BasematWarning`: floors
-    whose mass acts along x and y only have no weight. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
+    whose mass acts along x and y only have no weight. So does a node of ``rigidDiaphragm`` off its plane, which OpenSees
+    ties wrongly (and so does this) while it writes that it ignores it. OpenSees does not tell whether an ``ASDShellQ4`` or ``ASDShellT3`` is
     ``-corotational``: it counts as linear.
 
     Beyond 2400 degrees of freedom, SciPy makes the matrices sparse: nodes are fixed for a while to assemble window by
@@ -169,8 +170,10 @@ def structure(
         if width is not None:
             raise InputError("a width is for a model in the plane: give an outline or faces in space")
         base = faces_of(rows, elements, base_nodes, outline, faces, below, up)
-    if held := moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0):
-        warnings.warn(held, BasematWarning, stacklevel=2)
+    held = moves(rows, largest_entries(stiffness) + largest_entries(mass) > 0.0)
+    # A node off its plane is why the structure does not rotate freely.
+    if text := ties.off_plane(rows.at) or held:
+        warnings.warn(text, BasematWarning, stacklevel=2)
     if uneven := masses(rows, mass, up):
         warnings.warn(uneven, BasematWarning, stacklevel=2)
     names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, directions)}

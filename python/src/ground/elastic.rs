@@ -99,7 +99,8 @@ impl PyElasticGround {
     /// Strips of ``count`` elements under each foundation of a ``structure``, as wide as that is; under a
     /// structure in plan a `Plan` with ``count`` cells along the shorter side of its base, cut at an
     /// outline that is oblique to them.
-    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces.
+    /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces: then
+    /// ``count`` is raised. The ground prints its number of elements, and ``len(ground.elements)`` is that number.
     ///
     /// ``soil`` and the options are as in the class, whose values they have unless given: ``history``,
     /// ``history_tolerance``, ``history_memory``, ``stages``, ``tolerance``, ``kernel_file`` and

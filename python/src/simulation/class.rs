@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::build;
-use super::given::{Given, Made};
+use super::given::{Given, Groups, Made};
 use super::options::{
     Options, PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions, refuse_others,
 };
@@ -133,6 +133,12 @@ impl PySimulation {
         self.given.motion.as_ref()
     }
 
+    /// All arguments by their names, as they were given; those that were not are None, an empty list or False.
+    #[getter]
+    fn _arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.given.arguments(py)
+    }
+
     /// The springs of the structure that are written in Python (`UserHysteresis`): list of the
     /// copies that this simulation works on, with their internal variables, in the order of storeys or
     /// springs.
@@ -169,10 +175,10 @@ impl PySimulation {
         motion: Option<Bound<'_, PyAny>>,
         loads: Option<Several<'_, PyLoad>>,
         probes: Option<Several<'_, PyProbe>>,
-        initial: Option<PyInitialConditions>,
-        solver: Option<PySolverOptions>,
-        results: Option<PyResultOptions>,
-        service_limits: Option<PyServiceLimits>,
+        initial: Option<Py<PyInitialConditions>>,
+        solver: Option<Py<PySolverOptions>>,
+        results: Option<Py<PyResultOptions>>,
+        service_limits: Option<Py<PyServiceLimits>>,
         fixed_base: bool,
         progress: Option<Bound<'_, PyAny>>,
         others: Option<Bound<'_, PyDict>>,
@@ -190,11 +196,12 @@ impl PySimulation {
             loads: loads.map(Several::unbound).unwrap_or_default(),
             probes: probes.map(Several::unbound).unwrap_or_default(),
             options: Options {
-                initial: initial.unwrap_or_default(),
-                solver: solver.unwrap_or_default(),
-                results: results.unwrap_or_default(),
-                limits: service_limits.unwrap_or_default(),
+                initial: initial.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
+                solver: solver.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
+                results: results.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
+                limits: service_limits.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
             },
+            groups: Groups { initial, solver, results, service_limits },
             fixed_base,
         };
         let Made { builder, structure, ground, hysteresis, names, duration } = given.made(py)?;

@@ -3,8 +3,11 @@
 use basemat::coupled::SimulationBuilder;
 use basemat::{Result, Simulation};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
-use super::options::Options;
+use super::options::{
+    Options, PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions,
+};
 use super::{PyLoad, build};
 use crate::dof_names::DofNames;
 use crate::error::OrRaise;
@@ -24,7 +27,17 @@ pub(super) struct Given {
     pub(super) probes: Vec<Py<PyProbe>>,
     pub(super) loads: Vec<Py<PyLoad>>,
     pub(super) options: Options,
+    /// The groups that `options` were read from.
+    pub(super) groups: Groups,
     pub(super) fixed_base: bool,
+}
+
+/// Groups of options as Python gave them.
+pub(super) struct Groups {
+    pub(super) initial: Option<Py<PyInitialConditions>>,
+    pub(super) solver: Option<Py<PySolverOptions>>,
+    pub(super) results: Option<Py<PyResultOptions>>,
+    pub(super) service_limits: Option<Py<PyServiceLimits>>,
 }
 
 /// A builder, and what a simulation keeps of its parts.
@@ -45,6 +58,24 @@ fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
 }
 
 impl Given {
+    /// All arguments of the simulation by their names.
+    pub(super) fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let arguments = PyDict::new(py);
+        arguments.set_item("time_step", self.time_step)?;
+        arguments.set_item("structure", &self.structure)?;
+        arguments.set_item("ground", &self.ground)?;
+        arguments.set_item("interface", &self.interface)?;
+        arguments.set_item("motion", &self.motion)?;
+        arguments.set_item("loads", &self.loads)?;
+        arguments.set_item("probes", &self.probes)?;
+        arguments.set_item("initial", &self.groups.initial)?;
+        arguments.set_item("solver", &self.groups.solver)?;
+        arguments.set_item("results", &self.groups.results)?;
+        arguments.set_item("service_limits", &self.groups.service_limits)?;
+        arguments.set_item("fixed_base", self.fixed_base)?;
+        Ok(arguments)
+    }
+
     /// A builder of parts of its own.
     pub(super) fn made(&self, py: Python<'_>) -> PyResult<Made> {
         let (ground, own_ground) = ground::made(self.ground.bind(py))?;

@@ -4,7 +4,7 @@ use crate::coupled::run::Quantity;
 use crate::coupled::run::warning_text::{
     across, height, likely_slip, unit_of_motion, with_twice_as_many,
 };
-use crate::error::along;
+use crate::error::{along, of_units};
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -135,8 +135,8 @@ pub enum Warning {
     ///
     /// Between elements only the structure resists deformation of the base. It is softer there than the neglected
     /// soil, or not stiff enough relative to it.
-    #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}", along(*axis),
-        with_twice_as_many(*difference))]
+    #[error("elements{} under foundation {foundation}: {elements}, its flexible base needs {needed}{}{}", along(*axis),
+        with_twice_as_many(*difference), of_units(*elements, *needed))]
     CoarseBase {
         /// Number of the foundation, from the left, from 0.
         foundation: usize,

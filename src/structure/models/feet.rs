@@ -22,7 +22,11 @@ pub(super) struct Foot {
 /// nodes, [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input)
 /// when the nodes of all lines do not run to the right at one height.
 pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>> {
-    require_part("line of contact nodes", !mesh.has_depth(), "a mesh in the plane")?;
+    require_part(
+        "line of contact nodes",
+        !mesh.has_depth(),
+        "must be in a mesh in the plane, but this one is in space",
+    )?;
     let contact = lines.concat();
     at_least("contact nodes", contact.len(), 2)?;
     let (mut height, mut left) = (None, None);
@@ -45,7 +49,11 @@ pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>
 /// [`Error::Index`](crate::Error::Index) for a node that does not exist, [`Error::Input`](crate::Error::Input) for
 /// corners at different heights.
 pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot>>> {
-    require_part("faces of a base", mesh.has_depth(), "a mesh in space")?;
+    require_part(
+        "faces of a base",
+        mesh.has_depth(),
+        "must be in a mesh in space, but this one is in the plane",
+    )?;
     at_least("faces of the base", faces.len(), 1)?;
     let shells = faces_by_corners(mesh, |face| !face.is_side());
     let mut height = None;
@@ -74,7 +82,8 @@ pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
         face.corners().iter().all(|&node| mesh.nodes()[node][mesh.up()] <= highest)
     };
     let mut faces: Vec<_> = faces_by_corners(mesh, low).into_values().collect();
-    let needed = "shells or sides of solids at the lowest height of the mesh";
+    let needed = "must have shells or sides of solids at the lowest height of the mesh, which stand on the ground: \
+                  add them there, or name the faces that do";
     require_part("base of a mesh in space", !faces.is_empty(), needed)?;
     faces.sort_by(|a, b| a.corners().cmp(b.corners()));
     let feet = |face: &ElementFace| {

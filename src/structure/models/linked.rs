@@ -50,7 +50,11 @@ impl FemModel {
     /// As for [`FemModel::with_rigid_link`], except that the leader needs three degrees of freedom only;
     /// [`Error::Scene`](crate::Error::Scene) for a mesh in the plane or for nodes at different heights.
     pub fn with_rigid_diaphragm(self, leader: usize, followers: &[usize]) -> Result<Self> {
-        require_part("rigid diaphragm", self.mesh.has_depth(), "a mesh in space")?;
+        require_part(
+            "rigid diaphragm",
+            self.mesh.has_depth(),
+            "must be in a mesh in space, but this one is in the plane",
+        )?;
         self.with_link(Link::Floor, leader, followers)
     }
 

@@ -1,8 +1,8 @@
 //! Structures of given matrices.
 
-use crate::error::{Result, at_least, same_length};
+use crate::error::{Error, Result, at_least, same_length};
 use crate::linalg::{Elimination, SparseMatrix};
-use crate::structure::matrix_checks::{check_damping, check_mass};
+use crate::structure::matrix_checks::{check_damping, check_mass, check_stiffness};
 use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Structure, Triplets};
 
 const DAMPING: &str = "damping matrix";
@@ -68,10 +68,10 @@ impl MatrixModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for matrices without rows or of different order and for a base of fewer
-    /// than two nodes, [`Error::Index`](crate::Error::Index) and [`Error::Input`](crate::Error::Input) for entries,
-    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a
-    /// mass matrix that is not symmetric, [`Error::Indefinite`](crate::Error::Indefinite) for a negative mass
+    /// [`Error::Size`] for matrices without rows or of different order and for a base of fewer
+    /// than two nodes, [`Error::Index`] and [`Error::Input`] for entries,
+    /// coordinates or weights out of range or not finite, [`Error::Unsymmetric`] for a
+    /// mass matrix that is not symmetric, [`Error::Indefinite`] for a negative mass
     /// beyond rounding. Whether nodes are in order, and faces flat, convex and apart, is checked when a simulation
     /// is built.
     pub fn new(mass: Triplets, stiffness: Triplets, base: impl Into<Base>) -> Result<Self> {
@@ -112,8 +112,8 @@ impl MatrixModel {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Index`](crate::Error::Index) for a degree of freedom that does not exist,
-    /// [`Error::Input`](crate::Error::Input) for a displacement that is not finite.
+    /// [`Error::Index`] for a degree of freedom that does not exist,
+    /// [`Error::Input`] for a displacement that is not finite.
     pub fn section(&self, motion: impl Into<DofCombination>) -> Result<SectionRows> {
         let motion = motion.into();
         motion.check("degree of freedom of the part", self.dofs())?;
@@ -132,13 +132,24 @@ impl MatrixModel {
     /// Replaces the damping by a damping matrix (N s/m per metre).
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size) for another order, [`Error::Index`](crate::Error::Index) and
-    /// [`Error::Input`](crate::Error::Input) for entries out of range or not finite,
-    /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) for a matrix that is not symmetric,
-    /// [`Error::Indefinite`](crate::Error::Indefinite) for negative damping beyond rounding.
+    /// [`Error::Size`] for another order, [`Error::Index`] and
+    /// [`Error::Input`] for entries out of range or not finite,
+    /// [`Error::Unsymmetric`] for a matrix that is not symmetric (it names the stiffness if that is not symmetric either),
+    /// [`Error::Indefinite`] for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
-        check_damping(&check(DAMPING, &damping, self.mass.order())?, &Elimination::default())?;
+        let matrix = check(DAMPING, &damping, self.mass.order())?;
+        check_damping(&matrix, &Elimination::default()).map_err(|error| match error {
+            Error::Unsymmetric { .. } => self.unsymmetric_stiffness().unwrap_or(error),
+            other => other,
+        })?;
         Ok(Self { damping, active: false, ..self })
+    }
+
+    /// Error of a stiffness that is not symmetric: damping in proportion to it is not the cause.
+    fn unsymmetric_stiffness(&self) -> Option<Error> {
+        let stiffness = SparseMatrix::new("stiffness matrix", &self.stiffness).ok()?;
+        let mass = SparseMatrix::new("mass matrix", &self.mass).ok()?;
+        check_stiffness(&stiffness, &mass).err().filter(|_| !self.active_stiffness)
     }
 
     /// Replaces the damping by a matrix (N s/m per metre) without a check of symmetry and sign.
@@ -147,8 +158,8 @@ impl MatrixModel {
     /// [`damping`](crate::coupled::EnergyBalance::damping) in the energy balance.
     ///
     /// # Errors
-    /// [`Error::Size`](crate::Error::Size), [`Error::Index`](crate::Error::Index) and
-    /// [`Error::Input`](crate::Error::Input) as for [`with_damping`](MatrixModel::with_damping).
+    /// [`Error::Size`], [`Error::Index`] and
+    /// [`Error::Input`] as for [`with_damping`](MatrixModel::with_damping).
     pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
         check(DAMPING, &damping, self.mass.order())?;
         Ok(Self { damping, active: true, ..self })

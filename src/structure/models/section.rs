@@ -36,7 +36,11 @@ impl FemModel {
     /// element lies above it, or when an element crosses it; [`Error::Scene`](crate::Error::Scene) for a mesh in
     /// space, whose cuts are made by [`section_in_space`](FemModel::section_in_space).
     pub fn section(&self, height: f64, reference: f64) -> Result<Section> {
-        require_part("section of three resultants", !self.mesh.has_depth(), "a mesh in the plane")?;
+        require_part(
+            "section of three resultants",
+            !self.mesh.has_depth(),
+            "must be in a mesh in the plane, but this one is in space",
+        )?;
         let cut = Cut::new(self, height, [reference, 0.0])?;
         Ok(Section {
             height,

@@ -62,7 +62,11 @@ impl FemModel {
     /// element lies above it, or when an element crosses it; [`Error::Scene`](crate::Error::Scene) for a mesh in the
     /// plane, whose cuts are made by [`section`](FemModel::section).
     pub fn section_in_space(&self, height: f64, reference: [f64; 2]) -> Result<SpaceSection> {
-        require_part("section of six resultants", self.mesh.has_depth(), "a mesh in space")?;
+        require_part(
+            "section of six resultants",
+            self.mesh.has_depth(),
+            "must be in a mesh in space, but this one is in the plane",
+        )?;
         let cut = Cut::new(self, height, reference)?;
         let rows = |direction| cut.rows(direction, 1.0);
         Ok(SpaceSection {

@@ -58,7 +58,7 @@ fn a_mesh_takes_elements_of_its_kind_only() {
     assert_eq!(text(space.add(Beam::new([0, 4], 1.0, 1.0, 1.0, 0.0).unwrap())), direction);
     let turned = Spring::new([0, 4], Direction::Rotation, 1.0).unwrap();
     assert_eq!(text(space.add(turned.clone())), direction);
-    let plane = "element of the plane: a mesh in the plane";
+    let plane = "element of the plane: must be in a mesh in the plane, but this one is in space";
     assert_eq!(text(space.add(Truss::new([0, 4], 1.0, 1.0, 0.0).unwrap())), plane);
     assert_eq!(text(space.add(Spring::axial([0, 4], 1.0).unwrap())), plane);
     assert_eq!(text(space.add(LumpedMass::new(0, 1.0).unwrap())), plane);
@@ -212,7 +212,10 @@ fn a_diaphragm_ties_its_plane_only() {
     );
     let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
     let plane = FemModel::on_base(plane).unwrap();
-    assert_eq!(text(plane.with_rigid_diaphragm(0, &[1])), "rigid diaphragm: a mesh in space");
+    assert_eq!(
+        text(plane.with_rigid_diaphragm(0, &[1])),
+        "rigid diaphragm: must be in a mesh in space, but this one is in the plane"
+    );
     // Bricks cannot lead.
     let mut mesh = cube();
     mesh.add(StiffElement::brick([7, 6, 4, 5, 3, 2, 0, 1], 1.0, 1.0)).unwrap();
@@ -282,17 +285,17 @@ fn bricks_stand_on_their_lower_sides() {
     );
     assert_eq!(
         text(FemModel::new(mesh.clone(), &[0, 1])),
-        "line of contact nodes: a mesh in the plane"
+        "line of contact nodes: must be in a mesh in the plane, but this one is in space"
     );
-    let needed =
-        "base of a mesh in space: shells or sides of solids at the lowest height of the mesh";
+    let needed = "base of a mesh in space: must have shells or sides of solids at the lowest height of the mesh, which stand \
+                  on the ground: add them there, or name the faces that do";
     let mut bare = cube();
     bare.add(StiffElement::solid(&[0, 1, 2, 4], 1.0, 1.0)).unwrap();
     assert_eq!(text(FemModel::on_base(bare)), needed);
     let plane = Mesh::layered_block(0.0..1.0, 1, &[Layer::new(1.0, 1, solid())]).unwrap();
     assert_eq!(
         text(FemModel::on_faces(plane, &[vec![0, 1, 2]])),
-        "faces of a base: a mesh in space"
+        "faces of a base: must be in a mesh in space, but this one is in the plane"
     );
     let free = model.describe(&[0, 1, 2, 5]).unwrap();
     assert_eq!(free, "node 0 at (0, 0, -1), node 1 at (1, 0, -1) in Z");

@@ -1,0 +1,131 @@
+//! GOAL: files of cases that a program runs itself: rows survive the process, columns grow, warnings stay.
+//! SCENE: six cases by formula, one of which fails, in files that are closed, cut and opened again.
+//! REFERENCE: the cells that were appended; the table of the same cases in one process.
+
+use std::path::{Path, PathBuf};
+
+use basemat::sweep::{CaseFile, CaseTable, Parameter, Sweep, SweepError};
+use basemat::{Error, FileFault};
+
+fn path(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("case_files").join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    folder.join("cases.csv")
+}
+
+fn part(path: &Path) -> PathBuf {
+    path.with_file_name("cases.csv.part")
+}
+
+fn sweep() -> Sweep<'static> {
+    Sweep::grid([
+        Parameter::numbers("friction", [0.1, 0.2, 0.3]),
+        Parameter::texts("record", ["a, b", "two\nlines"]),
+    ])
+    .unwrap()
+}
+
+/// Appends a case; the fourth has a second result, the third fails and the sixth warns.
+fn append(file: &mut CaseFile, case: usize) {
+    let slip = case as f64 / 3.0;
+    let (names, outcome): (&[&str], _) = match case {
+        2 => (&[], Err("no, \"not\"\nthis".to_owned())),
+        3 => (&["gap_m", "slip_m"], Ok(vec![1.0, slip])),
+        _ => (&["slip_m"], Ok(vec![slip])),
+    };
+    let warnings = if case == 5 { "slips, and\nwarns" } else { "" };
+    file.append(case, names, outcome, warnings).unwrap();
+}
+
+fn whole(name: &str) -> CaseTable {
+    let mut file = sweep().open(path(name)).unwrap();
+    (0..6).for_each(|case| append(&mut file, case));
+    file.finish().unwrap()
+}
+
+#[test]
+fn rows_survive_the_process_in_any_order() {
+    let expected = whole("expected");
+    for first in [vec![], vec![2], vec![5, 0, 2], vec![0, 2, 1, 3], vec![5, 4, 3, 2, 1, 0]] {
+        let path = path("resumed");
+        let mut file = sweep().open(&path).unwrap();
+        first.iter().for_each(|&case| append(&mut file, case));
+        drop(file);
+        // A row within which the process was killed.
+        let text = std::fs::read_to_string(part(&path)).unwrap();
+        std::fs::write(part(&path), format!("{text}4,0.3,\"a,")).unwrap();
+        let mut file = sweep().open(&path).unwrap();
+        let missing: Vec<_> = (0..6).filter(|case| !first.contains(case)).collect();
+        assert_eq!(file.missing(), missing);
+        assert_eq!(file.table().rows().len(), first.len());
+        missing.into_iter().for_each(|case| append(&mut file, case));
+        let table = file.finish().unwrap();
+        assert!(!part(&path).exists());
+        // Columns are in the order in which results came.
+        for (row, other) in table.rows().zip(expected.rows()) {
+            assert_eq!((row.index, row.warnings), (other.index, other.warnings));
+            assert_eq!(row.results.err(), other.results.err());
+            for name in ["slip_m", "gap_m"] {
+                let bits =
+                    |row: &basemat::sweep::CaseRow<'_>| row.value(name).ok().map(f64::to_bits);
+                assert_eq!(bits(&row), bits(&other), "{name} of case {}", row.index);
+            }
+        }
+        assert_eq!(table, sweep().merge([&path]).unwrap());
+        let again = sweep().open(&path).unwrap();
+        assert_eq!((again.missing(), again.finish().unwrap()), (vec![], table));
+    }
+    let warned: Vec<_> = expected.rows().filter(|row| !row.warnings.is_empty()).collect();
+    assert_eq!((warned[0].index, warned[0].warnings, warned.len()), (5, "slips, and\nwarns", 1));
+    let text = expected.csv();
+    assert!(text.contains("\ncase,friction,record,slip_m,gap_m,warnings,error\n"), "{text}");
+    assert!(expected.to_string().contains("case 5 warns: slips, and"), "{expected}");
+}
+
+#[test]
+fn a_case_twice_and_a_table_with_holes_are_refused() {
+    let path = path("refused");
+    let mut file = sweep().shard(1, 2).unwrap().open(&path).unwrap();
+    append(&mut file, 3);
+    for case in [3, 2, 6] {
+        let again = file.append(case, &["slip_m"], Ok(vec![0.0]), "");
+        assert!(matches!(again, Err(Error::Scene { quantity: "case", .. })), "{again:?}");
+    }
+    let size = file.append(1, &["slip_m"], Ok(vec![]), "");
+    assert!(matches!(size, Err(Error::Size { found: 0, needed: 1, .. })), "{size:?}");
+    for name in ["friction", "case", "warnings", "error"] {
+        let named = file.append(1, &[name], Ok(vec![0.0]), "");
+        assert!(matches!(named, Err(Error::DuplicateName { .. })), "{named:?}");
+    }
+    let missing = file.finish();
+    assert!(
+        matches!(&missing, Err(Error::Sweep(SweepError::Missing { cases, .. })) if *cases == [1, 5])
+    );
+    // Another grid does not take the rows.
+    let other = Sweep::grid([Parameter::numbers("friction", [0.1, 0.2, 0.3])]).unwrap();
+    assert!(matches!(other.open(&path), Err(Error::File(_))));
+}
+
+#[test]
+fn a_shard_whose_cases_all_failed_merges_and_one_without_results_does_not() {
+    let two = || Sweep::grid([Parameter::numbers("x", [1.0, 2.0])]).unwrap();
+    let paths = [path("failed"), path("good")];
+    for (index, outcome) in [Err("failed".to_owned()), Ok(vec![7.0])].into_iter().enumerate() {
+        let mut file = two().shard(index, 2).unwrap().open(&paths[index]).unwrap();
+        let names: &[&str] = if index == 0 { &[] } else { &["y"] };
+        file.append(index, names, outcome, "").unwrap();
+        file.finish().unwrap();
+    }
+    let [one, other] = [0, 1].map(|k| two().merge([&paths[k], &paths[1 - k]]).unwrap());
+    assert_eq!(one, other);
+    assert_eq!(
+        (one.columns(), one.rows().nth(1).unwrap().value("y")),
+        (&["y".to_owned()][..], Ok(7.0))
+    );
+    let bare = path("bare");
+    let mut file = two().shard(0, 2).unwrap().open(&bare).unwrap();
+    file.append::<&str>(0, &[], Ok(vec![]), "").unwrap();
+    file.finish().unwrap();
+    let Err(Error::File(error)) = two().merge([&bare, &paths[1]]) else { panic!() };
+    assert!(matches!(error.fault, FileFault::Value { .. }), "{error}");
+}
