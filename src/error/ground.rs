@@ -71,10 +71,21 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Faces that overlap.
+    /// Two faces that overlap: what stands there would touch the ground twice.
     #[error(
-        "cells inside the faces have an area of {} m2, but the faces together one of {} m2: the faces overlap, or are \
-         too narrow for cells of {} m x {} m (at most 1 % may differ)",
+        "faces {} and {} overlap by {} m2 (give each part of the base once; faces of one mat share corners)",
+        faces[0], faces[1], short(*area)
+    )]
+    Overlap {
+        /// Numbers of the two faces.
+        faces: [usize; 2],
+        /// Area that they share, m².
+        area: f64,
+    },
+    /// Faces too narrow for their cells.
+    #[error(
+        "cells inside the faces have an area of {} m2, but the faces together one of {} m2: the faces are too narrow for \
+         cells of {} m x {} m (at most 1 % may differ)",
         short(*cells),
         short(*faces),
         short(pitch[0]),

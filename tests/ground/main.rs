@@ -17,6 +17,7 @@ mod layered_passivity;
 mod observers;
 mod passivity;
 mod plan_cells;
+mod plan_faces;
 mod plan_ground;
 mod plan_impedances;
 mod plan_outlines;

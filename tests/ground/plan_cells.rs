@@ -109,9 +109,24 @@ fn faces_that_are_no_mat_are_errors() {
     ] {
         assert_eq!(no_polygon(&[bad]), "face 0");
     }
-    // Overlapping faces count twice.
-    let found = fault(&[square.clone(), rectangle([0.2, 1.0], [0.0, 1.0])], 8);
-    assert!(matches!(found, PlanError::Uncovered { .. }), "{found}");
+    // Faces that overlap by 80, 0.5 and 1e-5 of 1; a smaller overlap is the rounding of coordinates.
+    for part in [0.8, 5e-3, 1e-5] {
+        let found = fault(&[square.clone(), rectangle([1.0 - part, 2.0], [0.0, 1.0])], 8);
+        let PlanError::Overlap { faces: [0, 1], area } = found else { panic!("{found}") };
+        assert!((area / part - 1.0).abs() < 1e-9, "{area} {part}");
+    }
+    let close = Plan::on_faces(&[square.clone(), rectangle([1.0 - 1e-7, 2.0], [0.0, 1.0])], 8);
+    assert!(close.unwrap().area_error().abs() < 1e-6);
+    // One inside the other, and a cross.
+    let inner = rectangle([0.2, 0.4], [0.3, 0.5]);
+    let found = fault(&[inner, rectangle([3.0, 4.0], [0.0, 1.0]), square.clone()], 8);
+    assert!(
+        matches!(found, PlanError::Overlap { faces: [0, 2], area } if (area - 0.04).abs() < 1e-12)
+    );
+    let cross = [rectangle([-1.0, 2.0], [0.4, 0.6]), square.clone()];
+    assert!(
+        matches!(fault(&cross, 8), PlanError::Overlap { area, .. } if (area - 0.2).abs() < 1e-12)
+    );
     // A mat between the centres of cells.
     let narrow = [rectangle([0.0, 4.0], [0.0, 1.0]), rectangle([0.0, 4.0], [3.0, 3.01])];
     let found = fault(&narrow, 4);

@@ -3,14 +3,16 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
+use super::boundary::Boundary;
 use super::faces::{Face, apart, mat_by_mat};
-use super::outline::{Cut, Grid, OVERHANG, cut, error};
+use super::outline::{Cut, OVERHANG, cut, error};
+use super::region::Grid;
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
 use crate::geometry::{ContactElement, Lattice, circle, middle};
 use crate::history::PairClasses;
 
-/// Largest relative difference of the areas of faces and cells.
+/// Largest relative difference of the areas of mats and cells.
 const MISSING: f64 = 0.01;
 /// Memory for a cell, bytes.
 const CELL: f64 = 1000.0;
@@ -69,11 +71,13 @@ impl Plan {
     /// Cells under some faces, with `cells` along the shorter side of all.
     ///
     /// Faces are convex polygons, each given by its corners (m) in either order. Faces that share a corner, or have
-    /// one on the other's edge, form one mat; between mats there is at least one empty cell.
+    /// one on the other's edge, form one mat; between mats there is at least one empty cell. Cells depend on the outline
+    /// of the mats alone, and not on the faces that fill it.
     ///
     /// # Errors
     /// [`Error::Input`] for less than two cells; [`Error::Size`] for no faces; [`Error::Memory`];
-    /// [`Error::Item`], [`PlanError::NoCells`], [`PlanError::TooClose`], [`PlanError::Uncovered`].
+    /// [`Error::Item`], [`PlanError::Overlap`], [`PlanError::NoCells`], [`PlanError::TooClose`],
+    /// [`PlanError::Uncovered`].
     pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
         check_faces(faces.len())?;
         let faces: Result<Vec<_>> =
@@ -189,6 +193,7 @@ impl Plan {
 
     /// Cells under faces of mats with this D/(G R³), infinite for rigid mats.
     pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigidity: f64) -> Result<Self> {
+        Face::check_overlap(&faces)?;
         let bounds = Face::bounds(&faces);
         let sides = bounds.map(|[least, greatest]| greatest - least);
         let shorter = sides[0].min(sides[1]);
@@ -204,17 +209,17 @@ impl Plan {
             pitch[1] = pitch[0];
         }
         let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
-        let mats = Face::mats(&faces);
+        let mats = Boundary::of_mats(&faces);
         let grid = Grid { corner, pitch, counts };
-        let (owners, mut found) = cut(&faces, &mats, grid, overhang, rigidity);
+        let (owners, mut found) = cut(&mats, grid, overhang, rigidity);
         apart(&owners, counts[0], pitch)?;
         if let Some(mat) = found.iter().position(|(cells, _)| cells.is_empty()) {
             return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        let error = if rigidity.is_infinite() { error(&faces, &mats, pitch) } else { 0.0 };
+        let error = if rigidity.is_infinite() { error(&mats, pitch) } else { 0.0 };
         found.sort_by_key(|(cells, _)| cells.first().map(|[i, j]| [*j, *i]));
         let (own, cuts): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-        let area = faces.iter().map(Face::area).sum();
+        let area = mats.iter().map(Boundary::area).sum();
         let (cells, cuts, faces) = (own.concat(), cuts.concat(), (faces, cells));
         let lattice = Lattice { pitch, counts };
         let plan =
@@ -242,7 +247,7 @@ impl Plan {
         [0, 1].map(|axis| self.corner[axis] + 0.5 * sides[axis])
     }
 
-    /// Relative error of the area inside the outline, due to faces that overlap.
+    /// Relative error of the area inside the outline, due to narrow faces.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
     }

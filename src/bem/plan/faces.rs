@@ -3,15 +3,13 @@
 use std::collections::HashMap;
 
 use crate::error::{Error, PlanError, Result};
+use crate::geometry::span;
 use crate::linalg::Partition;
 
+/// Area that two faces may share, relative to the smaller one: rounding of coordinates in files.
+const OVERLAP_TOLERANCE: f64 = 1e-6;
 /// Distance that counts as touching, relative to the size of a face.
 const TOUCHING: f64 = 1e-9;
-/// Points of an edge at which another face is looked for, and their distance from it, relative to its length.
-const POINTS: usize = 16;
-const BESIDE: f64 = 1e-6;
-/// Sine of the angle between two edges that count as one.
-const STRAIGHT: f64 = 1e-6;
 
 /// A convex polygon, counter-clockwise seen from above.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,61 +65,18 @@ impl Face {
     }
 
     /// Corners, counter-clockwise, m.
-    pub(super) fn corners(&self) -> &[[f64; 2]] {
+    pub(crate) fn corners(&self) -> &[[f64; 2]] {
         &self.corners
     }
 
-    /// Corners of the polygon whose edges lie farther out by a distance (m) that depends on their unit normal.
-    ///
-    /// Sharp corners move by three times this distance at most.
-    pub(super) fn moved_outwards(&self, distance: impl Fn([f64; 2]) -> f64) -> Vec<[f64; 2]> {
-        let edges: Vec<_> = self.edges().collect();
-        let normals = edges.iter().map(|[a, b]| {
-            let length = (b[0] - a[0]).hypot(b[1] - a[1]);
-            let normal = [(b[1] - a[1]) / length, (a[0] - b[0]) / length];
-            (normal, distance(normal))
-        });
-        let normals: Vec<_> = normals.collect();
-        let moved = |k: usize| {
-            let ((one, near), (other, far)) =
-                (normals[(k + normals.len() - 1) % normals.len()], normals[k]);
-            let turn = one[0] * other[1] - one[1] * other[0];
-            let mut step = other.map(|x| x * far);
-            if turn.abs() > STRAIGHT {
-                step = [near * other[1] - far * one[1], far * one[0] - near * other[0]];
-                step = step.map(|x| x / turn);
-            }
-            let most = 3.0 * near.max(far);
-            let ratio = (most / step[0].hypot(step[1])).min(1.0);
-            let ratio = if ratio.is_nan() { 1.0 } else { ratio };
-            [0, 1].map(|axis| edges[k][0][axis] + ratio * step[axis])
-        };
-        (0..edges.len()).map(moved).collect()
-    }
-
-    /// Length of the outer edges of a mat of some faces whose angle to x and y has a larger sine, m.
-    pub(super) fn oblique_edges(faces: &[&Self], sine: f64) -> f64 {
-        let outer = |[a, b]: [[f64; 2]; 2]| {
-            let step = [b[0] - a[0], b[1] - a[1]];
-            let length = step[0].hypot(step[1]);
-            // Beside points of an edge between two faces lies the other face.
-            let is_outer = |k: &usize| {
-                let along = (*k as f64 + 0.5) / POINTS as f64;
-                let beside = [step[1] * BESIDE, -step[0] * BESIDE];
-                let point = [0, 1].map(|axis| a[axis] + along * step[axis] + beside[axis]);
-                !faces.iter().any(|face| face.contains(point))
-            };
-            let is_oblique = step[0].abs().min(step[1].abs()) > sine * length;
-            let points = (0..POINTS).filter(|_| is_oblique).filter(is_outer);
-            length * points.count() as f64 / POINTS as f64
-        };
-        faces.iter().flat_map(|face| face.edges()).map(outer).sum()
+    /// Distance that counts as touching, m.
+    pub(crate) fn near(&self) -> f64 {
+        self.near
     }
 
     /// Area, m².
     pub(super) fn area(&self) -> f64 {
-        let fan = self.corners.windows(2).map(|pair| side([pair[0], pair[1]], self.corners[0]));
-        0.5 * fan.sum::<f64>()
+        area(&self.corners)
     }
 
     /// Whether a point lies inside or on the edge.
@@ -136,6 +91,58 @@ impl Face {
     fn touches(&self, other: &Self) -> bool {
         let meets = |one: &Self, two: &Self| one.corners.iter().any(|p| two.contains(*p));
         meets(self, other) || meets(other, self)
+    }
+
+    /// Error for two faces that overlap.
+    ///
+    /// # Errors
+    /// [`PlanError::Overlap`].
+    pub(crate) fn check_overlap(faces: &[Self]) -> Result<()> {
+        let bounds: Vec<[[f64; 2]; 2]> = faces
+            .iter()
+            .map(|face| [0, 1].map(|axis| span(face.corners.iter().map(|p| p[axis]))))
+            .collect();
+        let mut order: Vec<usize> = (0..faces.len()).collect();
+        order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
+        for (place, &one) in order.iter().enumerate() {
+            for &other in &order[place + 1..] {
+                if bounds[other][0][0] >= bounds[one][0][1] {
+                    break;
+                }
+                let [[low, high], [from, to]] = [bounds[one][1], bounds[other][1]];
+                if low >= to || from >= high {
+                    continue;
+                }
+                let area = faces[one].common_area(&faces[other]);
+                let smaller = faces[one].area().min(faces[other].area());
+                if area > OVERLAP_TOLERANCE * smaller {
+                    let faces = [one.min(other), one.max(other)];
+                    return Err(PlanError::Overlap { faces, area }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Area inside both faces, m².
+    fn common_area(&self, other: &Self) -> f64 {
+        let mut corners = self.corners.clone();
+        for edge in other.edges() {
+            let mut inner = Vec::with_capacity(corners.len() + 1);
+            for (k, &q) in corners.iter().enumerate() {
+                let p = corners[(k + corners.len() - 1) % corners.len()];
+                let [before, after] = [side(edge, p), side(edge, q)];
+                if (before < 0.0) != (after < 0.0) {
+                    let ratio = before / (before - after);
+                    inner.push([0, 1].map(|k| p[k] + ratio * (q[k] - p[k])));
+                }
+                if after >= 0.0 {
+                    inner.push(q);
+                }
+            }
+            corners = inner;
+        }
+        area(&corners)
     }
 
     /// Smallest and largest coordinates of all `faces`.
@@ -164,6 +171,11 @@ impl Face {
         }
         mats
     }
+}
+
+/// Area of a polygon, positive if its corners run counter-clockwise.
+fn area(corners: &[[f64; 2]]) -> f64 {
+    0.5 * corners.windows(2).map(|pair| side([pair[0], pair[1]], corners[0])).sum::<f64>()
 }
 
 // Cells of mats.

@@ -9,13 +9,15 @@
 //! | file | contents |
 //! |---|---|
 //! | unions | contact elements of several cells |
-//! | cells, faces, outline | plan: cells on a lattice under faces, discs, masks; cells cut at the outline |
+//! | cells, faces, points, boundary | plan: cells on a lattice under faces, discs, masks; the boundary of faces |
+//! | outline, region | cells cut at the outline |
 //! | under, overhang | plan under the base of a structure, and how far cells extend beyond it |
 //! | forms, corner_waves, form_table | form factors, at small and large wavenumbers, and their integrals |
 //! | integrals | compliances of cells at a Laplace variable |
 //! | kernel | convolution weights by convolution quadrature |
 //! | sectors, impedance | rigid mats at one frequency |
 
+mod boundary;
 mod cells;
 mod corner_waves;
 pub(crate) mod faces;
@@ -26,6 +28,8 @@ mod integrals;
 mod kernel;
 mod outline;
 mod overhang;
+pub(crate) mod points;
+mod region;
 mod sectors;
 mod under;
 mod unions;

@@ -9,9 +9,8 @@
 //! flexible mats move further, the more so the softer the mat is: soil near a load then holds it, and pressures at the edge
 //! count more. The distance is continuous in D and has no limit in the size of a cell, so that results do not jump.
 
-use super::faces::Face;
-use crate::geometry::span;
-use crate::linalg::gauss::Rule;
+use super::boundary::Boundary;
+use super::region::{Grid, Part, Region};
 
 /// Overhang of outer cells beyond the outline of a rigid mat, as a fraction of their side.
 pub(super) const OVERHANG: f64 = 0.105;
@@ -42,6 +41,8 @@ const SOFTER: f64 = 0.3;
 const ERROR: f64 = 0.045;
 /// Fraction of a cell that counts as rounding.
 const ROUNDING: f64 = 1e-9;
+/// Fraction of a cell inside a mat above which the cell belongs to it.
+const HALF: f64 = 0.5 - ROUNDING;
 
 /// A cell of a mat whose outline cuts cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,14 +57,6 @@ pub(super) struct Cut {
     pub(super) softness: f64,
 }
 
-/// Lattice with its place: corner (m), sides of a cell (m), columns and rows.
-#[derive(Clone, Copy)]
-pub(super) struct Grid {
-    pub(super) corner: [f64; 2],
-    pub(super) pitch: [f64; 2],
-    pub(super) counts: [usize; 2],
-}
-
 /// Cells of a mat row by row, and their cuts; no cuts if all cells of all mats are whole.
 pub(super) type Cells = (Vec<[usize; 2]>, Vec<Cut>);
 
@@ -72,8 +65,7 @@ type Found = ([usize; 2], Part, f64);
 
 /// Mat to which most of each cell belongs, and the cells of each mat; none for a mat that is too narrow.
 pub(super) fn cut(
-    faces: &[Face],
-    mats: &[usize],
+    mats: &[Boundary],
     grid: Grid,
     overhang: f64,
     rigidity: f64,
@@ -87,20 +79,19 @@ pub(super) fn cut(
         let shift = oblique + (overhang - oblique) * parallel;
         shift * (normal[0] * grid.pitch[0]).hypot(normal[1] * grid.pitch[1])
     };
-    let moved: Vec<_> = faces.iter().map(|face| face.moved_outwards(distance)).collect();
-    let mut areas = vec![0.0; mats.iter().max().map_or(0, |last| last + 1)];
-    let mut found: Vec<Vec<Found>> = areas.iter().map(|_| vec![]).collect();
+    let inner: Vec<_> = mats.iter().map(|mat| Region::new(&mat.loops, grid)).collect();
+    let outer: Vec<_> =
+        mats.iter().map(|mat| Region::new(&mat.moved_outwards(distance), grid)).collect();
+    let mut areas = vec![0.0; mats.len()];
+    let mut found: Vec<Vec<Found>> = mats.iter().map(|_| vec![]).collect();
     let mut owners = vec![None; grid.counts[0] * grid.counts[1]];
     for (place, owner) in owners.iter_mut().enumerate() {
         let cell = [place % grid.counts[0], place / grid.counts[0]];
-        let mut best = (0, Part::of(&[]), 0.0);
+        let mut best = (0, Part::NONE, 0.0);
         for (mat, area) in areas.iter_mut().enumerate() {
-            let own = || (0..faces.len()).filter(|face| mats[*face] == mat);
-            let clipped = |corners: &[[f64; 2]]| grid.clip(cell, corners);
-            let part = Part::of(&own().map(|face| clipped(&moved[face])).collect::<Vec<_>>());
-            if part.area > ROUNDING {
-                let inner: Vec<_> = own().map(|face| clipped(faces[face].corners())).collect();
-                let inside = Part::of(&inner).area;
+            let part = outer[mat].part(cell);
+            if !part.is_empty() {
+                let inside = inner[mat].part(cell).area;
                 *area += inside;
                 if part.area > best.1.area {
                     best = (mat, part, inside);
@@ -108,7 +99,7 @@ pub(super) fn cut(
             }
         }
         let (mat, part, inside) = best;
-        *owner = (part.area >= 0.5).then_some(mat);
+        *owner = (part.area >= HALF).then_some(mat);
         if part.area >= SLIVER {
             found[mat].push((cell, part, inside));
         }
@@ -126,50 +117,13 @@ pub(super) fn cut(
 }
 
 /// Estimated relative error of the rocking stiffness of a rigid mat, the largest of all mats.
-pub(super) fn error(faces: &[Face], mats: &[usize], pitch: [f64; 2]) -> f64 {
-    let error = |mat: usize| {
-        let own = faces.iter().zip(mats).filter(|(_, own)| **own == mat);
-        let own: Vec<_> = own.map(|(face, _)| face).collect();
-        let area: f64 = own.iter().map(|face| face.area()).sum();
-        ERROR * (pitch[0] * pitch[1]).sqrt() * Face::oblique_edges(&own, OBLIQUE) / area
-    };
-    let count = mats.iter().max().map_or(0, |last| last + 1);
-    (0..count).map(error).fold(0.0, f64::max)
+pub(super) fn error(mats: &[Boundary], pitch: [f64; 2]) -> f64 {
+    let size = (pitch[0] * pitch[1]).sqrt();
+    let errors = mats.iter().map(|mat| ERROR * size * mat.oblique_length(OBLIQUE) / mat.area());
+    errors.fold(0.0, f64::max)
 }
 
 impl Grid {
-    /// Corners of the part of a convex polygon in a cell, in units of the cell's sides from its corner.
-    fn clip(&self, cell: [usize; 2], corners: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let place =
-            |p: &[f64; 2]| [0, 1].map(|k| (p[k] - self.corner[k]) / self.pitch[k] - cell[k] as f64);
-        let mut corners: Vec<_> = corners.iter().map(place).collect();
-        let is_away = |k: usize| {
-            let [low, high] = span(corners.iter().map(|p| p[k]));
-            low >= 1.0 || high <= 0.0
-        };
-        if is_away(0) || is_away(1) {
-            return vec![];
-        }
-        for (axis, limit, sign) in [(0, 0.0, 1.0), (0, 1.0, -1.0), (1, 0.0, 1.0), (1, 1.0, -1.0)] {
-            let depth = |p: [f64; 2]| sign * (p[axis] - limit);
-            let mut next = Vec::with_capacity(corners.len() + 1);
-            for (k, &q) in corners.iter().enumerate() {
-                let p = corners[(k + corners.len() - 1) % corners.len()];
-                if (depth(p) < 0.0) != (depth(q) < 0.0) {
-                    let ratio = depth(p) / (depth(p) - depth(q));
-                    let mut cross = [0, 1].map(|k| p[k] + ratio * (q[k] - p[k]));
-                    cross[axis] = limit;
-                    next.push(cross);
-                }
-                if depth(q) >= 0.0 {
-                    next.push(q);
-                }
-            }
-            corners = next;
-        }
-        corners
-    }
-
     /// Cuts of the cells of a mat with this area, in cells.
     ///
     /// Slivers and cells shared with other mats leave their area to the other cut cells, half whole ones most.
@@ -219,59 +173,4 @@ impl Grid {
         let inside = if part.is_cut() { 1.0 } else { area.min(1.0) };
         Cut { ends, size: 4.0 * half[0] * half[1], inside, softness }
     }
-}
-
-/// Part of a unit cell inside an outline.
-struct Part {
-    area: f64,
-    center: [f64; 2],
-    is_rectangle: bool,
-}
-
-impl Part {
-    /// Union of convex polygons in the unit cell.
-    fn of(polygons: &[Vec<[f64; 2]>]) -> Self {
-        let corners = || polygons.iter().flatten();
-        let mut levels: Vec<f64> = corners().map(|p| p[1]).collect();
-        levels.sort_by(f64::total_cmp);
-        let (mut area, mut moments) = (0.0, [0.0; 2]);
-        let rule = Rule::new(3);
-        // Between levels the ends of each polygon are linear in y.
-        for pair in levels.windows(2).filter(|pair| pair[1] > pair[0]) {
-            for (x, weight) in rule.points_on_unit_interval() {
-                let (y, weight) = (pair[0] + x * (pair[1] - pair[0]), weight * (pair[1] - pair[0]));
-                let mut spans: Vec<_> = polygons.iter().filter_map(|own| span_at(own, y)).collect();
-                spans.sort_by(|one, other| one[0].total_cmp(&other[0]));
-                let mut end = f64::NEG_INFINITY;
-                for [low, high] in spans {
-                    let low = low.max(end);
-                    if high > low {
-                        area += weight * (high - low);
-                        moments[0] += weight * 0.5 * (high * high - low * low);
-                        moments[1] += weight * (high - low) * y;
-                        end = high;
-                    }
-                }
-            }
-        }
-        let sides = [0, 1].map(|axis| {
-            let [low, high] = span(corners().map(|p| p[axis]));
-            high - low
-        });
-        let is_rectangle = area > sides[0] * sides[1] - ROUNDING;
-        Self { area, center: moments.map(|moment| moment / area), is_rectangle }
-    }
-
-    fn is_cut(&self) -> bool {
-        self.area < 1.0 - ROUNDING
-    }
-}
-
-/// Ends of a convex polygon on a line of constant y.
-fn span_at(corners: &[[f64; 2]], y: f64) -> Option<[f64; 2]> {
-    let next = corners.iter().cycle().skip(1);
-    let edges = corners.iter().zip(next).filter(|(a, b)| (a[1] < y) != (b[1] < y));
-    let places = edges.map(|(a, b)| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]));
-    let [low, high] = span(places);
-    (high > low).then_some([low, high])
 }

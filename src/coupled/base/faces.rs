@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::shares::{Point, bilinear, distance, outside, shares};
-use super::transformation::Weights;
-use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
+use super::transformation::{Terms, Weights, accumulate};
+use super::{BasePoint, Outline, PlacedBase, check_covered};
 use crate::bem::plan::faces::{Face, side};
 use crate::error::{Error, Result, require};
 use crate::geometry::{ContactElement, Patch};
@@ -32,7 +32,7 @@ impl PlacedBase {
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = own.end;
             let corners = hull(nodes[own.clone()].iter());
-            let settlement = mean_settlement(&nodes[own.clone()]);
+            let settlement = surface.settlement(&own);
             let elements = 0..0;
             foundations.push(Outline { nodes: own, elements, settlement, rotations, corners });
         }
@@ -113,6 +113,30 @@ impl<'a> Faces<'a> {
         let corners = self.corners(triangle);
         let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
         side([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
+    }
+
+    /// Mean displacement over the area of the mat with these nodes, downwards.
+    fn settlement(&self, nodes: &Range<usize>) -> Weights {
+        let mut weights = vec![0.0; nodes.len()];
+        for piece in self.pieces.iter().filter(|piece| nodes.contains(&piece[0])) {
+            let corners = self.corners(piece);
+            // Both divisions of a quadrilateral into triangles.
+            let triangles: &[[usize; 3]] = match corners.len() {
+                3 => &[[0, 1, 2]],
+                _ => &[[0, 1, 2], [0, 2, 3], [1, 2, 3], [1, 3, 0]],
+            };
+            for triangle in triangles {
+                let [a, b, c] = triangle.map(|k| corners[k]);
+                let area = side([a, b], c).abs() / triangles.len().min(2) as f64;
+                triangle.iter().for_each(|k| weights[piece[*k] - nodes.start] += area);
+            }
+        }
+        let sum: f64 = weights.iter().sum();
+        let mut terms = Terms::new();
+        for (node, weight) in self.nodes[nodes.clone()].iter().zip(weights) {
+            accumulate(&mut terms, &node.vertical, -weight / sum);
+        }
+        Weights::Sparse(terms)
     }
 
     /// (node, weight) of the mean over `element`, by 2 × 2 Gauss points.
@@ -199,7 +223,9 @@ fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
     let checked = faces.iter().map(corners).enumerate();
     let checked: Result<Vec<_>> =
         checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
-    let owners = Face::mats(&checked?);
+    let checked = checked?;
+    Face::check_overlap(&checked)?;
+    let owners = Face::mats(&checked);
     let count = owners.iter().max().map_or(0, |last| last + 1);
     let mut mats = vec![Vec::new(); count];
     faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));
