@@ -10,6 +10,7 @@ const AMPLIFICATION: f64 = 30.0;
 
 /// The scene as it is usually written; `None`, and noted, if a builder refuses it.
 pub(crate) fn usual(choice: &Choice, ledger: &mut Ledger) -> Option<Response> {
+    super::grounds::next_scene();
     ledger.scene(&choice.words());
     match run(choice, &PLAIN, Writing::Usual) {
         Ok(response) => Some(response),

@@ -1,9 +1,10 @@
 //! Grounds, laws and motions of scenes in any view.
 
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
-use basemat::bem::{ElasticGround, Ground, SpringGround};
+use basemat::bem::{ElasticGround, Ground, SharedKernels, SpringGround};
 use basemat::interface::{
     Bonded, Cohesive, Coulomb, InterfaceLaw, SlipSense, ThinLayer, VariableFriction, Yielding,
 };
@@ -20,6 +21,16 @@ use super::numbers::{Numbers, SOIL_DENSITY, STEPS};
 use super::parts::{self, Choice, Law, Motion, Space};
 use super::structures::trench_depth;
 use super::view::View;
+
+thread_local! {
+    /// Convolution weights of the mats and trenches of a scene, which its views share where their numbers are equal.
+    static KERNELS: RefCell<SharedKernels> = RefCell::default();
+}
+
+/// Forgets the weights of the last scene.
+pub(crate) fn next_scene() {
+    KERNELS.replace(SharedKernels::default());
+}
 
 /// Elements of a strip; cells along the shorter side of a mat.
 pub(crate) const ELEMENTS: usize = 6;
@@ -61,7 +72,8 @@ pub(crate) fn ground(
     let frame = &view.frame;
     if choice.space == Space::Trench {
         let profile = profile(choice, numbers, view)?;
-        return Ok(Box::new(TrenchGround::new(profile, trench(numbers, view)?)?));
+        let ground = TrenchGround::new(profile, trench(numbers, view)?)?;
+        return Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))));
     }
     let count = if choice.space == Space::Plan { CELLS } else { ELEMENTS };
     if choice.ground == parts::Ground::Springs {
@@ -72,7 +84,11 @@ pub(crate) fn ground(
         return Ok(Box::new(bed.with_dashpots(2.0 * dashpot, dashpot)?));
     }
     let profile = profile(choice, numbers, view)?;
-    Ok(Box::new(ElasticGround::under(profile, structure, count)?))
+    let ground = ElasticGround::under(profile, structure, count)?;
+    if choice.space == Space::Plane {
+        return Ok(Box::new(ground));
+    }
+    Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))))
 }
 
 /// The law of a choice, for any element of its base.

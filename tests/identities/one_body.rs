@@ -128,6 +128,7 @@ fn any_division_of_the_base_is_one_face() {
             Division::TwoTriangles | Division::Fan | Division::UnevenTriangles => "triangles",
             _ => "quadrilateral faces",
         };
+        grounds::next_scene();
         ledger.scene(&words(&choice, form));
         let mut respond = |division: Division| {
             let faces = faces(division, numbers.sides, &mut random);
@@ -208,6 +209,7 @@ fn bricks_shells_and_rigid_links_are_the_rigid_body() {
         ["bricks", "shells", "shells of triangles", "rigid link", "rigid link of triangles"];
     for (number, (choice, numbers, _)) in choices(92, scenes(15, 200)).enumerate() {
         let form = forms[number % forms.len()];
+        grounds::next_scene();
         ledger.scene(&words(&choice, form));
         let [a, b] = numbers.sides;
         let whole = || -> Result<Response> {

@@ -133,9 +133,16 @@ impl Body {
         matches!(self, Self::Hysteretic | Self::Sprung)
     }
 
-    /// Whether modes need not decouple its damping.
-    fn has_any_damping(self) -> bool {
-        matches!(self, Self::Frame | Self::Slender | Self::SlenderFloors | Self::SlenderFrame)
+    /// Whether its damping or P–Δ couples the modes of the structure without ground.
+    fn couples_modes(self) -> bool {
+        match self {
+            Self::Slender
+            | Self::SlenderFloors
+            | Self::SlenderFrame
+            | Self::Frame
+            | Self::Damped => true,
+            _ => self.is_nonlinear(),
+        }
     }
 }
 
@@ -163,7 +170,7 @@ macro_rules! any {
 impl Choice {
     fn draw(random: &mut Random, space: Space) -> Self {
         let body = any!(random, space, Body);
-        let coordinate = if body.is_nonlinear() || body.has_any_damping() {
+        let coordinate = if body.couples_modes() {
             Coordinate::Physical
         } else {
             any!(random, space, Coordinate)

@@ -42,6 +42,7 @@ fn check_order(space: Space, row: &'static str, count: usize) {
         if choice.body.is_nonlinear() {
             continue;
         }
+        super::grounds::next_scene();
         ledger.scene(&choice.words());
         let runs = || -> Result<[Vec<f64>; 3]> {
             Ok([tops(&choice, 2)?, tops(&choice, 4)?, tops(&choice, 8)?])
