@@ -1,0 +1,233 @@
+//! Finite-element models as lists of points and pieces, which any view can write down.
+
+use basemat::Result;
+use basemat::fem::{
+    Beam, BeamSection, Dashpot, Direction, Element, Hex8, LumpedMass, Material, Mesh, Quad4, Quad8,
+    QuadFormulation, Shell, SpaceBeam, Spring, Truss,
+};
+use basemat::structure::{DofCombination, FemModel, RayleighDamping};
+
+use super::user;
+use super::view::View;
+
+/// An element on points of a [`Blueprint`]; lengths in m, masses in kg.
+#[derive(Debug, Clone)]
+pub(crate) enum Piece {
+    Quad([usize; 4]),
+    Quad8([usize; 8]),
+    Brick([usize; 8]),
+    /// Corners and thickness.
+    Shell(Vec<usize>, f64),
+    /// Ends and depth of a plane beam, per metre.
+    Beam([usize; 2], f64),
+    /// Ends and side of a square beam in space, with a vector in its local plane.
+    SpaceBeam([usize; 2], f64, [f64; 3]),
+    Truss([usize; 2], f64),
+    Mass(usize, f64),
+    /// Ends and axial stiffness, N/m.
+    Spring([usize; 2], f64),
+    /// Ends and axial coefficient, N s/m, in the plane per metre.
+    Dashpot([usize; 2], f64),
+}
+
+/// A model in SI units.
+#[derive(Debug, Clone)]
+pub(crate) struct Blueprint {
+    /// Points `[x, y, z]`; in the plane y is zero.
+    pub(crate) points: Vec<[f64; 3]>,
+    pub(crate) pieces: Vec<Piece>,
+    pub(crate) in_space: bool,
+    pub(crate) young: f64,
+    pub(crate) density: f64,
+    /// Leader and followers of a rigid link.
+    pub(crate) link: Option<(usize, Vec<usize>)>,
+    /// Damping ratio of Rayleigh damping at 1 and 20 Hz; zero without.
+    pub(crate) damping: f64,
+    pub(crate) p_delta: bool,
+}
+
+const POISSON: f64 = 0.2;
+
+impl Blueprint {
+    /// A model without points; forces in the plane are per metre.
+    pub(crate) fn new(in_space: bool, young: f64, density: f64) -> Self {
+        Self {
+            points: Vec::new(),
+            pieces: Vec::new(),
+            in_space,
+            young,
+            density,
+            link: None,
+            damping: 0.0,
+            p_delta: false,
+        }
+    }
+
+    pub(crate) fn point(&mut self, point: [f64; 3]) -> usize {
+        self.points.push(point);
+        self.points.len() - 1
+    }
+
+    /// Points of a grid over a range along x and y at a height, row by row.
+    pub(crate) fn grid(&mut self, sides: [f64; 2], counts: [usize; 2], z: f64) -> Vec<Vec<usize>> {
+        let at = |side: f64, k: usize, count: usize| side * (k as f64 / count as f64 - 0.5);
+        let mut rows = Vec::new();
+        for row in 0..=counts[1] {
+            let y = at(sides[1], row, counts[1]);
+            let nodes = (0..=counts[0]).map(|k| self.point([at(sides[0], k, counts[0]), y, z]));
+            rows.push(nodes.collect());
+        }
+        rows
+    }
+
+    /// Corners of the cells of a grid, counter-clockwise.
+    pub(crate) fn cells(rows: &[Vec<usize>]) -> Vec<[usize; 4]> {
+        let pairs = rows.windows(2);
+        pairs
+            .flat_map(|pair| {
+                let columns = 0..pair[0].len() - 1;
+                columns.map(move |k| [pair[0][k], pair[0][k + 1], pair[1][k + 1], pair[1][k]])
+            })
+            .collect()
+    }
+
+    /// Index of a point among the nodes of a view's mesh.
+    pub(crate) fn node(&self, point: usize, view: &View) -> usize {
+        if view.renumbered { self.points.len() - 1 - point } else { point }
+    }
+
+    /// The model as a view writes it.
+    pub(crate) fn model(&self, view: &View) -> Result<FemModel> {
+        let mut mesh = if self.in_space { Mesh::in_space() } else { Mesh::new() };
+        for point in view.ordered(self.points.clone()) {
+            let [x, y, z] = view.point(point);
+            if self.in_space {
+                mesh.add_node_at([x, y, z])?
+            } else {
+                mesh.add_node(x, z)?
+            };
+        }
+        for piece in view.ordered(self.pieces.clone()) {
+            self.add_piece(&mut mesh, piece, view)?;
+        }
+        let frame = &view.frame;
+        let mut model = FemModel::on_base(mesh)?;
+        if let Some((leader, followers)) = &self.link {
+            let followers: Vec<usize> =
+                followers.iter().map(|point| self.node(*point, view)).collect();
+            model = model.with_rigid_link(self.node(*leader, view), &view.ordered(followers))?;
+        }
+        if self.damping > 0.0 {
+            let frequencies = [1.0 / frame.time, 20.0 / frame.time];
+            let damping = RayleighDamping::from_ratios(frequencies, [self.damping; 2])?;
+            model = model.with_rayleigh(damping);
+        }
+        if self.p_delta {
+            model = model.with_p_delta(basemat_problems::scenes::GRAVITY * frame.acceleration())?;
+        }
+        Ok(model)
+    }
+
+    /// Adds the element of a piece as a view writes it.
+    fn add_piece(&self, mesh: &mut Mesh, piece: Piece, view: &View) -> Result<usize> {
+        let frame = &view.frame;
+        let (length, pressure) = (frame.length, frame.pressure());
+        let material =
+            Material::new(self.young * pressure, POISSON, self.density * frame.density())?;
+        // Force over length, and mass, of this model.
+        let stiffness = if self.in_space { pressure * length } else { pressure };
+        let mass_unit = if self.in_space { frame.mass } else { frame.mass / length };
+        let mirrored = frame.mirrored;
+        let at = |points: &[usize]| -> Vec<usize> {
+            points.iter().map(|point| self.node(*point, view)).collect()
+        };
+        match piece {
+            Piece::Quad(corners) => {
+                let corners = if mirrored { reversed(corners) } else { corners };
+                let nodes = fixed(at(&corners));
+                add(mesh, Quad4::new(nodes, material, QuadFormulation::default()), view)
+            }
+            Piece::Quad8([a, b, c, d, ab, bc, cd, da]) => {
+                let all = if mirrored {
+                    [d, c, b, a, cd, bc, ab, da]
+                } else {
+                    [a, b, c, d, ab, bc, cd, da]
+                };
+                add(mesh, Quad8::new(fixed(at(&all)), material), view)
+            }
+            Piece::Brick([a, b, c, d, e, f, g, h]) => {
+                let all =
+                    if mirrored { [d, c, b, a, h, g, f, e] } else { [a, b, c, d, e, f, g, h] };
+                add(mesh, Hex8::new(fixed(at(&all)), material), view)
+            }
+            Piece::Shell(corners, thickness) => {
+                add(mesh, Shell::new(at(&corners), material, thickness * length)?, view)
+            }
+            Piece::Beam(ends, depth) => {
+                let depth = depth * length;
+                let moment = depth.powi(3) / 12.0;
+                let young = self.young * pressure;
+                let density = self.density * frame.density();
+                add(mesh, Beam::new(fixed(at(&ends)), young, depth, moment, density)?, view)
+            }
+            Piece::SpaceBeam(ends, side, plane) => {
+                let side = side * length;
+                let moment = side.powi(4) / 12.0;
+                let section = BeamSection::new(side * side, [moment, 1.7 * moment], 1.6 * moment)?;
+                add(
+                    mesh,
+                    SpaceBeam::new(fixed(at(&ends)), material, section, view.vector(plane))?,
+                    view,
+                )
+            }
+            Piece::Truss(ends, area) => {
+                let (young, area) = (self.young * pressure, area * length * length);
+                let density = self.density * frame.density();
+                add(mesh, Truss::in_space(fixed(at(&ends)), young, area, density)?, view)
+            }
+            Piece::Mass(point, mass) => {
+                let (node, mass) = (self.node(point, view), mass * mass_unit);
+                if self.in_space {
+                    add(mesh, LumpedMass::in_space(node, mass, [0.0; 3])?, view)
+                } else {
+                    add(mesh, LumpedMass::new(node, mass)?, view)
+                }
+            }
+            Piece::Spring(ends, coefficient) => {
+                add(mesh, Spring::axial_in_space(fixed(at(&ends)), coefficient * stiffness)?, view)
+            }
+            Piece::Dashpot(ends, coefficient) => {
+                let coefficient = coefficient * stiffness * frame.time;
+                add(mesh, Dashpot::axial(fixed(at(&ends)), coefficient)?, view)
+            }
+        }
+    }
+
+    /// Displacements of a point along the axes of the view: x, y (none in the plane), up.
+    pub(crate) fn rows(
+        &self,
+        model: &FemModel,
+        point: usize,
+        view: &View,
+    ) -> Result<[DofCombination; 3]> {
+        let node = self.node(point, view);
+        let up = if self.in_space { Direction::Z } else { Direction::Y };
+        let across =
+            if self.in_space { model.row(node, Direction::Y)? } else { DofCombination::default() };
+        Ok([model.row(node, Direction::X)?, across, model.row(node, up)?])
+    }
+}
+
+fn reversed([a, b, c, d]: [usize; 4]) -> [usize; 4] {
+    [d, c, b, a]
+}
+
+/// A list of known length.
+fn fixed<const N: usize>(list: Vec<usize>) -> [usize; N] {
+    list.try_into().unwrap_or_else(|list: Vec<usize>| panic!("{} nodes, {N} needed", list.len()))
+}
+
+/// Adds an element, as a user's one if the view says so.
+fn add(mesh: &mut Mesh, element: impl Element + 'static, view: &View) -> Result<usize> {
+    if view.by_user { mesh.add(user::Element(Box::new(element))) } else { mesh.add(element) }
+}

@@ -1,0 +1,49 @@
+//! Comparison of two writings of a scene.
+
+use super::ledger::Ledger;
+use super::parts::Choice;
+use super::scene::{Response, Writing, kind, run};
+use super::view::{PLAIN, View};
+
+/// Factor by which two writings may differ more than two scenes that differ by 1e-10.
+const AMPLIFICATION: f64 = 30.0;
+
+/// The scene as it is usually written; `None`, and noted, if a builder refuses it.
+pub(crate) fn usual(choice: &Choice, ledger: &mut Ledger) -> Option<Response> {
+    super::grounds::next_scene();
+    ledger.scene(&choice.words());
+    match run(choice, &PLAIN, Writing::Usual) {
+        Ok(response) => Some(response),
+        Err(error) => {
+            ledger.refuse(format!("{}: {error}", choice.name()));
+            None
+        }
+    }
+}
+
+/// Compares a writing in a view with the `usual` response, to a limit relative to each group's largest number.
+///
+/// Landings and slips amplify rounding: where the limit is exceeded, scenes that differ by 1e-10 show by how much.
+pub(crate) fn same(
+    choice: &Choice,
+    usual: &Response,
+    (name, view, writing): (&str, &View, Writing),
+    limit: f64,
+    ledger: &mut Ledger,
+) {
+    let place = format!("{name}: {}", choice.name());
+    match run(choice, view, writing) {
+        Ok(response) => {
+            let (value, group) = usual.apart(&response);
+            let limit = if value > limit { limit.max(amplified(choice, usual)) } else { limit };
+            ledger.within(&format!("{group}, {place}"), value, limit);
+        }
+        Err(error) => ledger.fail(format!("{place}: refused, {}: {error}", kind(&error))),
+    }
+}
+
+/// How much a scene amplifies differences of 1e-10.
+fn amplified(choice: &Choice, usual: &Response) -> f64 {
+    let nearly = run(choice, &PLAIN, Writing::Nearly);
+    nearly.map_or(0.0, |nearly| AMPLIFICATION * usual.apart(&nearly).0)
+}

@@ -1,0 +1,228 @@
+//! Grounds, laws and motions of scenes in any view.
+
+use std::cell::RefCell;
+use std::f64::consts::TAU;
+
+use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
+use basemat::bem::{ElasticGround, Ground, SharedKernels, SpringGround};
+use basemat::interface::{
+    Bonded, Cohesive, Coulomb, InterfaceLaw, SlipSense, ThinLayer, VariableFriction, Yielding,
+};
+use basemat::motion::{
+    AtRest, FreeField, FreeFieldFn, PlaneWave, Record, RickerDisplacement, TravellingWave,
+    Triaxial, VerticalIncidence,
+};
+use basemat::site::TrenchMotion;
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::structure::Structure;
+use basemat::{Result, Soil, unobserved};
+
+use super::numbers::{Numbers, SOIL_DENSITY, STEPS};
+use super::parts::{self, Choice, Law, Motion, Space};
+use super::structures::trench_depth;
+use super::view::View;
+
+thread_local! {
+    /// Convolution weights of the mats and trenches of a scene, which its views share where their numbers are equal.
+    static KERNELS: RefCell<SharedKernels> = RefCell::default();
+}
+
+/// Forgets the weights of the last scene.
+pub(crate) fn next_scene() {
+    KERNELS.replace(SharedKernels::default());
+}
+
+/// Elements of a strip; cells along the shorter side of a mat.
+pub(crate) const ELEMENTS: usize = 6;
+pub(crate) const CELLS: usize = 4;
+
+/// A damped layer of the soil on rock.
+fn layers(numbers: &Numbers, view: &View) -> Result<SoilProfile> {
+    let frame = &view.frame;
+    let rock = Soil::new(5.0 * numbers.modulus * frame.pressure(), 0.3, 2200.0 * frame.density())?;
+    let band = [0.1 / frame.time, 30.0 / frame.time];
+    let damping = GeneralizedMaxwell::constant_q(0.04, band, 1.0 / frame.time)?;
+    let depth = numbers.sides[0] * (0.5 + numbers.depth) * frame.length;
+    let profile = SoilProfile::on_half_plane(rock).with_layer(numbers.soil(view), depth)?;
+    Ok(profile.with_damping(damping))
+}
+
+pub(crate) fn profile(choice: &Choice, numbers: &Numbers, view: &View) -> Result<SoilProfile> {
+    match choice.ground {
+        parts::Ground::Layers => layers(numbers, view),
+        _ => Ok(numbers.soil(view).into()),
+    }
+}
+
+/// Elements of the trench under the middle of the scene.
+pub(crate) fn trench(numbers: &Numbers, view: &View) -> Result<TrenchElements> {
+    let [center, _] = view.place([0.0; 2]);
+    let half = 0.5 * numbers.sides[0] * view.frame.length;
+    let depth = trench_depth(numbers) * view.frame.length;
+    Trench::new(center - half..center + half, depth)?.elements(4, 2)
+}
+
+/// The ground of a choice under its structure.
+pub(crate) fn ground(
+    choice: &Choice,
+    numbers: &Numbers,
+    structure: &dyn Structure,
+    view: &View,
+) -> Result<Box<dyn Ground>> {
+    let frame = &view.frame;
+    if choice.space == Space::Trench {
+        let profile = profile(choice, numbers, view)?;
+        let ground = TrenchGround::new(profile, trench(numbers, view)?)?;
+        return Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))));
+    }
+    let count = if choice.space == Space::Plan { CELLS } else { ELEMENTS };
+    if choice.ground == parts::Ground::Springs {
+        let stiffness = numbers.modulus * frame.pressure() / (numbers.sides[0] * frame.length);
+        let speed = (numbers.modulus / SOIL_DENSITY).sqrt() * frame.length / frame.time;
+        let dashpot = SOIL_DENSITY * frame.density() * speed;
+        let bed = SpringGround::under(structure, count, 2.0 * stiffness, 1.5 * stiffness)?;
+        return Ok(Box::new(bed.with_dashpots(2.0 * dashpot, dashpot)?));
+    }
+    let profile = profile(choice, numbers, view)?;
+    let ground = ElasticGround::under(profile, structure, count)?;
+    if choice.space == Space::Plane {
+        return Ok(Box::new(ground));
+    }
+    Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))))
+}
+
+/// The law of a choice, for any element of its base.
+pub(crate) fn law(kind: Law, numbers: &Numbers, view: &View) -> Result<Box<dyn InterfaceLaw>> {
+    let frame = &view.frame;
+    let friction = numbers.friction;
+    let pressure = numbers.pressure() * frame.pressure();
+    let stiffness = numbers.modulus * frame.pressure() / (0.05 * numbers.sides[0] * frame.length);
+    Ok(match kind {
+        Law::Bonded => Box::new(Bonded),
+        Law::Friction => Box::new(Coulomb::new(friction)?),
+        Law::Tension => Box::new(Coulomb::new(friction)?.with_tensile_strength(0.3 * pressure)?),
+        Law::Cohesive => Box::new(Cohesive::new(0.3 * pressure, 0.5 * pressure, friction)?),
+        Law::Yielding => Box::new(Yielding::new(4.0 * pressure, friction)?),
+        Law::Layer => {
+            let layer = ThinLayer::from_stiffness(stiffness, 0.5 * stiffness, friction)?;
+            Box::new(layer.with_debonded_ratio(0.0)?.with_slip_sense(SlipSense::Inelastic))
+        }
+        Law::Varying => {
+            let speed = 0.05 * frame.length / frame.time;
+            Box::new(VariableFriction::new(move |start| {
+                friction * (0.8 + 0.2 * (-start.slip_rate / speed).exp())
+            }))
+        }
+    })
+}
+
+/// Motion of the ground along one axis of the scene as the view has it: the axis and its sign.
+fn turned(view: &View, axis: usize) -> (usize, f64) {
+    let mut unit = [0.0; 3];
+    unit[axis] = 1.0;
+    let along = view.vector(unit);
+    let axis = along.iter().position(|part| *part != 0.0).unwrap_or(axis);
+    (axis, along[axis])
+}
+
+/// The record of a peak (m/s²) in the view's units.
+pub(crate) fn record(numbers: &Numbers, peak: f64, view: &View) -> Result<Record> {
+    let scale = peak * view.frame.acceleration();
+    let samples = (0..=STEPS).map(|k| scale * numbers.shape(k as f64 * numbers.time_step));
+    Record::new(numbers.time_step * view.frame.time, samples.collect())
+}
+
+/// A wave over the soil, whose direction and strongest motion the view turns.
+fn wave(kind: Motion, choice: &Choice, numbers: &Numbers, view: &View) -> Result<TravellingWave> {
+    let soil = numbers.soil(view);
+    let in_plan = choice.space == Space::Plan;
+    let azimuth = if in_plan { numbers.azimuth } else { 0.0 };
+    let direction = [azimuth.cos(), azimuth.sin(), 0.0];
+    let reach = -0.5 * numbers.sides[0].hypot(if in_plan { numbers.sides[1] } else { 0.0 });
+    let first = view.place([reach * direction[0], reach * direction[1]]);
+    let [x, y, _] = view.vector(direction);
+    let forward = in_plan || x > 0.0;
+    let origin = if in_plan { x * first[0] + y * first[1] } else { first[0] };
+    let turn = |wave: PlaneWave| if forward { wave } else { wave.reversed() };
+    let sign = if forward { 1.0 } else { -1.0 };
+    let record = |peak: f64| record(numbers, peak, view);
+    let angle = numbers.angle;
+    let wave = match kind {
+        Motion::Pressure => turn(PlaneWave::p(soil, angle)?)
+            .field_from_vertical(&record(numbers.peaks[2])?, origin)?,
+        Motion::Across => {
+            // The mirror image of a motion to the left of the way is one to the right.
+            let peak = view.frame.sign() * numbers.peaks[0];
+            turn(PlaneWave::sh(soil, angle)?).field_from_across(&record(peak)?, origin)?
+        }
+        _ => turn(PlaneWave::sv(soil, angle)?)
+            .field_from_horizontal(&record(sign * numbers.peaks[0])?, origin)?,
+    };
+    if in_plan { wave.with_azimuth(y.atan2(x)) } else { Ok(wave) }
+}
+
+/// Pulse of displacements along x (m) at a time, in SI units.
+fn displacement(numbers: &Numbers, time: f64) -> f64 {
+    let rate = TAU * numbers.waves / numbers.duration();
+    numbers.peaks[0] / (rate * rate) * numbers.shape(time)
+}
+
+/// The free field of a choice.
+pub(crate) fn motion(
+    choice: &Choice,
+    numbers: &Numbers,
+    view: &View,
+) -> Result<Box<dyn FreeField>> {
+    let frame = view.frame;
+    let record = |peak: f64| record(numbers, peak, view);
+    let along = frame.sign() * numbers.peaks[0];
+    Ok(match choice.motion {
+        Motion::Record => Box::new(record(along)?),
+        Motion::Vertical => Box::new(VerticalIncidence {
+            horizontal: Some(record(along)?),
+            vertical: Some(record(numbers.peaks[2])?),
+        }),
+        Motion::Function => {
+            let numbers = *numbers;
+            let at = move |time: f64| frame.length * displacement(&numbers, time / frame.time);
+            Box::new(FreeFieldFn::new(move |_, time| [frame.sign() * at(time), 0.3 * at(time)]))
+        }
+        Motion::Pulse => {
+            let duration = numbers.duration() * frame.time;
+            let rate = 6.0 / numbers.duration();
+            let peak = numbers.peaks[0] / (6.0 * rate * rate) * frame.length;
+            let amplitude = frame.sign() * peak;
+            Box::new(RickerDisplacement::new(amplitude, duration / 6.0, 0.5 * duration)?)
+        }
+        Motion::Inclined | Motion::Pressure | Motion::Across => {
+            Box::new(wave(choice.motion, choice, numbers, view)?)
+        }
+        Motion::Triaxial => {
+            let mut records = [None, None];
+            for axis in 0..2 {
+                let (to, sign) = turned(view, axis);
+                records[to] = Some(record(sign * numbers.peaks[axis])?);
+            }
+            let [x, y] = records;
+            Box::new(Triaxial { x, y, up: Some(record(numbers.peaks[2])?) })
+        }
+        Motion::Loads => Box::new(AtRest),
+        Motion::Below => {
+            let ground = trench_ground(choice, numbers, view)?;
+            // Waves reach the base before the surface.
+            let travel = trench_depth(numbers) / (numbers.modulus / SOIL_DENSITY).sqrt();
+            let horizontal = Some(record(along)?.padded(1.5 * travel * frame.time, 0.0)?);
+            let surface = VerticalIncidence { horizontal, vertical: None };
+            Box::new(TrenchMotion::new(&ground, surface, &mut unobserved)?)
+        }
+        Motion::BelowInclined => {
+            let ground = trench_ground(choice, numbers, view)?;
+            let wave = wave(Motion::Inclined, choice, numbers, view)?;
+            Box::new(TrenchMotion::travelling(&ground, &wave, &mut unobserved)?)
+        }
+    })
+}
+
+fn trench_ground(choice: &Choice, numbers: &Numbers, view: &View) -> Result<TrenchGround> {
+    TrenchGround::new(profile(choice, numbers, view)?, trench(numbers, view)?)
+}

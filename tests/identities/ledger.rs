@@ -1,0 +1,108 @@
+//! What the rows of the suite covered, and all their failures.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::sync::Mutex;
+
+use basemat_problems::heavy;
+
+/// Pairs of parts that any row has compared so far.
+static COVERED: Mutex<BTreeSet<[&'static str; 2]>> = Mutex::new(BTreeSet::new());
+
+/// One row of the suite: an identity with its limits.
+pub(crate) struct Ledger {
+    row: &'static str,
+    scenes: usize,
+    /// Scenes that a builder refuses, both ways, with the reason.
+    refused: Vec<String>,
+    pairs: BTreeSet<[&'static str; 2]>,
+    /// Largest value over its limit, and where.
+    worst: (f64, String),
+    failures: Vec<String>,
+}
+
+/// Number of scenes: `short` in CI, `long` at night.
+pub(crate) fn scenes(short: usize, long: usize) -> usize {
+    if heavy() { long } else { short }
+}
+
+impl Ledger {
+    pub(crate) fn new(row: &'static str) -> Self {
+        Self {
+            row,
+            scenes: 0,
+            refused: Vec::new(),
+            pairs: BTreeSet::new(),
+            worst: (0.0, String::new()),
+            failures: Vec::new(),
+        }
+    }
+
+    /// Counts a scene of these parts.
+    pub(crate) fn scene(&mut self, parts: &[&'static str]) {
+        self.scenes += 1;
+        self.pair(parts);
+    }
+
+    /// Counts the pairs of these parts.
+    pub(crate) fn pair(&mut self, parts: &[&'static str]) {
+        for (k, one) in parts.iter().enumerate() {
+            for other in &parts[k + 1..] {
+                let mut pair = [*one, *other];
+                pair.sort_unstable();
+                self.pairs.insert(pair);
+            }
+        }
+    }
+
+    /// Notes a scene that a builder refuses whichever way it is written.
+    pub(crate) fn refuse(&mut self, text: String) {
+        self.refused.push(text);
+    }
+
+    pub(crate) fn fail(&mut self, text: String) {
+        self.failures.push(text);
+    }
+
+    /// Fails if `value` is beyond `limit`, or NaN.
+    pub(crate) fn within(&mut self, place: &str, value: f64, limit: f64) {
+        let part = value / limit;
+        if part > self.worst.0 {
+            self.worst = (part, format!("{value:.1e} of {limit:.1e}, {place}"));
+        }
+        if value.is_nan() || value > limit {
+            self.fail(format!("{place}: {value:.3e}, allowed {limit:.1e}"));
+        }
+    }
+
+    /// Prints what was covered, and panics with all failures.
+    ///
+    /// `accepted`: smallest part of the scenes that must not be refused.
+    pub(crate) fn close(self, accepted: f64) {
+        let all = {
+            let mut covered = COVERED.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+            covered.extend(self.pairs.iter());
+            covered.len()
+        };
+        println!(
+            "{}: {} scenes, {} refused, {} pairs of parts ({all} in all rows so far), worst {}",
+            self.row,
+            self.scenes,
+            self.refused.len(),
+            self.pairs.len(),
+            self.worst.1,
+        );
+        for text in &self.refused {
+            println!("    refused: {text}");
+        }
+        let mut report = String::new();
+        for text in &self.failures {
+            let _ = write!(report, "\n    {text}");
+        }
+        let failures = self.failures.len();
+        assert!(failures == 0, "{}: {failures} failures{report}", self.row);
+        let taken = (self.scenes - self.refused.len().min(self.scenes)) as f64;
+        assert!(taken >= accepted * self.scenes as f64, "{}: too many refused", self.row);
+        assert!(self.scenes > 0, "{}: no scene", self.row);
+    }
+}

@@ -1,0 +1,29 @@
+//! GOAL: the same physics two ways gives the same results, whichever parts meet.
+//! SCENE: random scenes of all pairs of grounds, structures, laws, motions, schemes and coordinates that a builder
+//! accepts, from `parts.rs`; HEAVY_TESTS: some twenty times as many.
+//! REFERENCE: the same scene written another way, each row with its limit.
+//!
+//! `cargo test --test identities -- --nocapture` prints the scenes and pairs of parts that each row covered.
+
+mod beds;
+mod blueprint;
+mod compare;
+mod grounds;
+mod ledger;
+mod models;
+mod numbers;
+mod one_body;
+mod parts;
+mod records;
+mod rigid_motions;
+mod same_soil;
+mod scene;
+mod slow_loads;
+mod steps;
+mod structures;
+mod table;
+mod trenches;
+mod user;
+mod view;
+mod views;
+mod writings;

@@ -1,0 +1,293 @@
+//! A layer of the soil below it changes nothing: strips, mats and trenches, in frequency and time, under waves from
+//! below at any angle.
+
+use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
+use basemat::bem::layered::{Stages, StripContact};
+use basemat::bem::plan::{Plan, impedances_in_plan};
+use basemat::bem::{ElasticGround, Ground, Strip};
+use basemat::motion::{FreeField, PlaneWave, Record, VerticalIncidence};
+use basemat::site::{InclinedControl, InclinedWave, TrenchMotion};
+use basemat::soil::{GeneralizedMaxwell, SoilProfile};
+use basemat::{Complex, Soil, unobserved};
+use basemat_problems::random::Random;
+
+use super::ledger::{Ledger, scenes};
+
+/// A random soil and the same soil in one or two layers upon itself, with the same damping.
+struct Site {
+    whole: SoilProfile,
+    layered: SoilProfile,
+    /// Shear wave speed, m/s.
+    speed: f64,
+    soil: Soil,
+}
+
+impl Site {
+    /// Layers of 0.2 to 3 times the `length`, with damping by chance.
+    fn draw(random: &mut Random, length: f64) -> Self {
+        let speed = random.log_within(100.0, 400.0);
+        let poisson = random.within(0.1, 0.45);
+        let soil = Soil::from_shear_wave_speed(speed, poisson, random.within(1600.0, 2100.0));
+        let soil = soil.unwrap();
+        let damping = GeneralizedMaxwell::constant_q(0.04, [0.05, 50.0], 1.0).unwrap();
+        let is_damped = random.chance(0.5);
+        let mut whole = SoilProfile::on_half_plane(soil);
+        if is_damped {
+            whole = whole.with_bedrock_damping(damping.clone());
+        }
+        let mut layered = whole.clone();
+        for _ in 0..random.pick(&[1, 2]) {
+            let thickness = length * random.log_within(0.2, 3.0);
+            layered = layered.with_layer(soil, thickness).unwrap();
+            if is_damped {
+                layered = layered.with_damping(damping.clone());
+            }
+        }
+        Self { whole, layered, speed, soil }
+    }
+
+    fn profiles(&self) -> [SoilProfile; 2] {
+        [self.whole.clone(), self.layered.clone()]
+    }
+}
+
+/// Largest difference of two lists, relative to the largest number.
+fn apart(one: &[f64], other: &[f64]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    let scale = one.iter().chain(other).fold(0.0, |scale: f64, value| scale.max(value.abs()));
+    let pairs = one.iter().zip(other);
+    let largest = pairs.fold(0.0, |largest: f64, (a, b)| {
+        let difference = (a - b).abs();
+        if difference.is_nan() { f64::NAN } else { largest.max(difference) }
+    });
+    if largest == 0.0 { 0.0 } else { largest / scale }
+}
+
+/// Differences of numbers of one kind, each relative to the kind's largest.
+fn parts(values: &[Complex]) -> Vec<f64> {
+    values.iter().flat_map(|value| [value.re, value.im]).collect()
+}
+
+#[test]
+fn waves_from_below_at_any_angle() {
+    let mut ledger = Ledger::new("layer of the same soil: waves in frequency");
+    let mut random = Random(711);
+    for number in 0..scenes(40, 400) {
+        let site = Site::draw(&mut random, 10.0);
+        let angle = random.within(-1.2, 1.2);
+        let frequency = random.log_within(0.1, 10.0);
+        let control =
+            random.pick(&[InclinedControl::OutcropHorizontal, InclinedControl::OutcropVertical]);
+        let kind = random.pick(&["SV", "P", "SH"]);
+        ledger.scene(&["layers", kind]);
+        let found = site.profiles().map(|profile| {
+            let wave = match kind {
+                "SV" => InclinedWave::sv(profile, angle),
+                "P" => InclinedWave::p(profile, angle),
+                _ => InclinedWave::sh(profile, angle),
+            };
+            wave.and_then(|wave| wave.transfer(control, frequency))
+        });
+        let place = format!("{number}: {kind} at {angle:.3}, {frequency:.3} Hz");
+        match found {
+            [Ok(one), Ok(other)] => {
+                ledger.within(&place, apart(&parts(&one), &parts(&other)), 1e-9);
+            }
+            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+        }
+    }
+    ledger.close(0.5);
+}
+
+/// Impedances of the same elements, with wavenumber integrals of layers.
+#[test]
+fn impedances_of_strips_mats_and_trenches() {
+    let mut ledger = Ledger::new("layer of the same soil: impedances");
+    let mut random = Random(712);
+    for number in 0..scenes(9, 60) {
+        let half = random.log_within(1.0, 5.0);
+        let site = Site::draw(&mut random, half);
+        let frequency = random.within(0.3, 2.0) * site.speed / (std::f64::consts::TAU * half);
+        let kind = ["half-plane", "mat", "trench"][number % 3];
+        let contact = random.pick(&[StripContact::Bonded, StripContact::Relaxed]);
+        let depth = half * random.within(0.3, 1.5);
+        ledger.scene(&["layers", kind]);
+        let found = site.profiles().map(|profile| -> basemat::Result<Vec<f64>> {
+            match kind {
+                "half-plane" => {
+                    let strip = Strip::graded(-half..half, 5)?;
+                    let ground = ElasticGround::new(profile, strip)?;
+                    let found = ground.impedances(&[frequency], contact, &mut unobserved)?[0];
+                    Ok(parts(&[found.horizontal, found.vertical]))
+                }
+                "mat" => {
+                    let plan = Plan::rectangle(-half..half, -0.7 * half..0.7 * half, 6)?;
+                    let found = impedances_in_plan(
+                        &profile,
+                        &plan,
+                        &[frequency],
+                        contact,
+                        &mut unobserved,
+                    )?;
+                    let matrix = found[0].matrix;
+                    Ok(parts(&[matrix[0][0], matrix[1][1], matrix[2][2]]))
+                }
+                _ => {
+                    let elements = Trench::new(-half..half, depth)?.elements(4, 3)?;
+                    let ground = TrenchGround::new(profile, elements)?;
+                    let found = ground.impedances(&[frequency], &mut unobserved)?[0];
+                    let motion = ground.kinematic_motions(&[frequency], &mut unobserved)?[0];
+                    let scale = 1.0 / found.horizontal.abs();
+                    let forces = [found.horizontal, found.vertical].map(|own| own * scale);
+                    Ok(parts(&[forces[0], forces[1], motion.horizontal, motion.vertical]))
+                }
+            }
+        });
+        let place = format!("{number}: {kind}, half width {half:.2}, {frequency:.2} Hz");
+        match found {
+            // Finite elements of a trench divide the layers in another way.
+            [Ok(one), Ok(other)] => {
+                let limit = if kind == "trench" { 2e-3 } else { 1e-6 };
+                ledger.within(&place, apart(&one, &other), limit);
+            }
+            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+        }
+    }
+    ledger.close(0.5);
+}
+
+/// Step compliance and history after some steps.
+fn answers(ground: &mut dyn Ground, step: f64, seed: u64) -> basemat::Result<Vec<f64>> {
+    ground.prepare(step, Some(12), &mut unobserved)?;
+    let size = ground.elements().len() * (ground.elements()[0].directions().len());
+    let mut found = vec![0.0; size * size];
+    ground.step_compliance(&mut found)?;
+    let mut random = Random(seed);
+    for _ in 0..11 {
+        let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
+        ground.commit(&traction);
+        let mut history = vec![0.0; size];
+        ground.history(&mut history)?;
+        found.extend(history);
+    }
+    Ok(found)
+}
+
+#[test]
+fn steps_of_strips_mats_and_trenches() {
+    let mut ledger = Ledger::new("layer of the same soil: convolution weights");
+    let mut random = Random(713);
+    for number in 0..scenes(9, 60) {
+        let half = random.log_within(1.0, 5.0);
+        let site = Site::draw(&mut random, half);
+        let step = random.log_within(0.1, 0.6) * half / site.speed;
+        let stages = random.pick(&[Stages::Two, Stages::Three]);
+        let kind = ["half-plane", "mat", "trench"][number % 3];
+        let depth = half * random.within(0.3, 1.5);
+        ledger.scene(&["layers", kind]);
+        let found = site.profiles().map(|profile| -> basemat::Result<Vec<f64>> {
+            let mut ground: Box<dyn Ground> = match kind {
+                "half-plane" => {
+                    let strip = Strip::graded(-half..half, 4)?;
+                    // Without stages the half-plane has its closed form.
+                    Box::new(ElasticGround::new(profile, strip)?.with_stages(stages))
+                }
+                "mat" => {
+                    let plan = Plan::rectangle(-half..half, -0.7 * half..0.7 * half, 3)?;
+                    Box::new(ElasticGround::in_plan(profile, plan)?.with_stages(stages))
+                }
+                _ => {
+                    let elements = Trench::new(-half..half, depth)?.elements(4, 2)?;
+                    Box::new(TrenchGround::new(profile, elements)?.with_stages(stages))
+                }
+            };
+            answers(ground.as_mut(), step, number as u64)
+        });
+        let place = format!("{number}: {kind}, half width {half:.2}, step {step:.4}");
+        match found {
+            [Ok(one), Ok(other)] => {
+                let limit = if kind == "trench" { 2e-3 } else { 1e-6 };
+                ledger.within(&place, apart(&one, &other), limit);
+            }
+            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+        }
+    }
+    ledger.close(0.5);
+}
+
+/// A pulse of acceleration that ends at rest.
+fn record(random: &mut Random, time: f64) -> Record {
+    let rate = random.within(0.5, 2.0) / time;
+    let duration = 24.0 / rate;
+    let shape = |t: f64| {
+        let x = rate * t - 12.0;
+        (-x * x).exp() * (-6.0 + 24.0 * x * x - 8.0 * x.powi(4))
+    };
+    Record::from_fn(0.08 / rate, duration, shape).unwrap()
+}
+
+/// Displacements and impulses at all faces, at times over a record.
+fn at_faces(motion: &TrenchMotion, elements: &TrenchElements, end: f64) -> [Vec<f64>; 2] {
+    let faces = elements.elements();
+    let size = 2 * faces.len();
+    let [mut moved, mut impulses] = [Vec::new(), Vec::new()];
+    for k in 0..48 {
+        let [mut displacement, mut impulse] = [vec![0.0; size], vec![0.0; size]];
+        let time = end * f64::from(k) / 47.0;
+        assert!(motion.at_faces(&faces, time, &mut displacement, &mut impulse));
+        moved.extend(displacement);
+        impulses.extend(impulse);
+    }
+    [moved, impulses]
+}
+
+/// Motion and tractions of the soil at the faces of a trench.
+#[test]
+fn waves_at_the_faces_of_trenches() {
+    let mut ledger = Ledger::new("layer of the same soil: waves at the faces of trenches");
+    let mut random = Random(714);
+    for number in 0..scenes(24, 240) {
+        let half = random.log_within(1.0, 6.0);
+        let depth = half * random.within(0.3, 1.5);
+        let site = Site::draw(&mut random, depth);
+        let record = record(&mut random, depth / site.speed);
+        let kind = ["vertical waves", "SV", "P", "Rayleigh"][number % 4];
+        ledger.scene(&["trench", "layers", kind]);
+        let angle = random.within(0.05, 0.5);
+        let elements = Trench::new(-half..half, depth).unwrap().elements(4, 3).unwrap();
+        let found = site.profiles().map(|profile| -> basemat::Result<[Vec<f64>; 2]> {
+            let ground = TrenchGround::new(profile, elements.clone())?;
+            let soil = site.soil;
+            let motion = if kind == "vertical waves" {
+                let vertical = Some(record.scaled(0.6)?);
+                let surface = VerticalIncidence { horizontal: Some(record.clone()), vertical };
+                TrenchMotion::new(&ground, surface, &mut unobserved)?
+            } else {
+                let wave = match kind {
+                    "SV" => PlaneWave::sv(soil, angle)?.field_from_horizontal(&record, -half)?,
+                    "P" => PlaneWave::p(soil, angle)?.field_from_vertical(&record, -half)?,
+                    _ => PlaneWave::rayleigh(soil).field_from_horizontal(&record, -half)?,
+                };
+                TrenchMotion::travelling(&ground, &wave, &mut unobserved)?
+            };
+            Ok(at_faces(&motion, &elements, record.duration()))
+        });
+        let place = format!("{number}: {kind}, half width {half:.2}, depth {depth:.2}");
+        match found {
+            [Ok([moved, impulse]), Ok([other_moved, other_impulse])] => {
+                ledger.within(&format!("motion, {place}"), apart(&moved, &other_moved), 1e-9);
+                let tractions = apart(&impulse, &other_impulse);
+                ledger.within(&format!("impulse, {place}"), tractions, 1e-9);
+            }
+            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [one, other] => {
+                let [one, other] = [one, other].map(|found| found.map(drop));
+                ledger.fail(format!("{place}: {one:?} but {other:?}"));
+            }
+        }
+    }
+    ledger.close(0.5);
+}

@@ -1,0 +1,195 @@
+//! Parts as a user writes them: they hand on what a trait needs, and hide the library's types.
+
+use basemat::bem::{self, ContactElement, GroundDescription};
+use basemat::fem::{self, Direction, ElementFace, MassKind};
+use basemat::interface::{
+    Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+};
+use basemat::structure::{self, Base, NonlinearForce, Triplets};
+use basemat::{Observer, Result};
+
+/// A structure with the matrices of another one.
+pub(crate) struct Structure(pub(crate) Box<dyn structure::Structure>);
+
+impl structure::Structure for Structure {
+    fn dofs(&self) -> usize {
+        self.0.dofs()
+    }
+
+    fn base(&self) -> Base {
+        self.0.base()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.mass(matrix)
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.stiffness(matrix)
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.0.damping(matrix)
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.0.nonlinear()
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.0.nonlinear_mut()
+    }
+}
+
+/// A ground with the compliances of another one.
+pub(crate) struct Ground(pub(crate) Box<dyn bem::Ground>);
+
+impl bem::Ground for Ground {
+    fn elements(&self) -> &[ContactElement] {
+        self.0.elements()
+    }
+
+    fn prepare(
+        &mut self,
+        time_step: f64,
+        steps: Option<usize>,
+        observer: &mut Observer<'_>,
+    ) -> Result<()> {
+        self.0.prepare(time_step, steps, observer)
+    }
+
+    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.step_compliance(matrix)
+    }
+
+    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
+        self.0.history(displacement)
+    }
+
+    fn commit(&mut self, traction: &[f64]) {
+        self.0.commit(traction);
+    }
+
+    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
+        self.0.static_compliance(matrix)
+    }
+
+    fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
+        self.0.finer_compliance()
+    }
+
+    /// Pressure at rest of the soil around walls.
+    fn description(&self) -> GroundDescription {
+        self.0.description()
+    }
+}
+
+/// A law with the conditions of another one.
+pub(crate) struct Law(pub(crate) Box<dyn InterfaceLaw>);
+
+impl InterfaceLaw for Law {
+    fn modes(&self) -> &[Mode] {
+        self.0.modes()
+    }
+
+    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+        self.0.conditions(mode, start)
+    }
+
+    fn next_mode(
+        &self,
+        mode: Mode,
+        start: &PreviousContact,
+        trial: &ContactState,
+        tolerance: Tolerance,
+    ) -> Mode {
+        self.0.next_mode(mode, start, trial, tolerance)
+    }
+
+    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+        self.0.limits(start)
+    }
+
+    fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
+        self.0.compliance(mode, start)
+    }
+
+    fn state_variables(&self) -> usize {
+        self.0.state_variables()
+    }
+
+    fn initial_state_variables(&self, start: &PreviousContact, variables: &mut [f64]) {
+        self.0.initial_state_variables(start, variables);
+    }
+
+    fn commit(&self, start: &PreviousContact, end: &ContactState, mode: Mode, own: &mut [f64]) {
+        self.0.commit(start, end, mode, own);
+    }
+
+    fn bond_overload(&self, start: &PreviousContact, trial: &ContactState) -> Option<f64> {
+        self.0.bond_overload(start, trial)
+    }
+
+    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
+        self.0.frictionless()
+    }
+
+    fn friction_coefficient(&self) -> Option<f64> {
+        self.0.friction_coefficient()
+    }
+
+    fn check(&self, scene: &ContactScene) -> Result<()> {
+        self.0.check(scene)
+    }
+}
+
+/// An element with the matrices of another one.
+pub(crate) struct Element(pub(crate) Box<dyn fem::Element>);
+
+impl fem::Element for Element {
+    fn nodes(&self) -> &[usize] {
+        self.0.nodes()
+    }
+
+    fn directions(&self) -> &[Direction] {
+        self.0.directions()
+    }
+
+    fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        self.0.stiffness(coordinates, matrix);
+    }
+
+    fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        self.0.geometric_stiffness(coordinates, matrix);
+    }
+
+    fn in_static_state(
+        &self,
+        coordinates: &[[f64; 3]],
+        displacement: &[f64],
+        gravity: f64,
+    ) -> Option<Box<dyn fem::Element>> {
+        let own = self.0.in_static_state(coordinates, displacement, gravity)?;
+        Some(Box::new(Self(own)))
+    }
+
+    fn compression(&self) -> Option<f64> {
+        self.0.compression()
+    }
+
+    fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
+        self.0.mass(coordinates, kind, matrix);
+    }
+
+    fn damping(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
+        self.0.damping(coordinates, matrix);
+    }
+
+    fn faces(&self) -> Vec<ElementFace> {
+        self.0.faces()
+    }
+
+    fn is_plane(&self) -> bool {
+        self.0.is_plane()
+    }
+}

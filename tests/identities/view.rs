@@ -1,0 +1,66 @@
+//! A scene seen from another place: translated, turned, mirrored, renumbered, in other units.
+
+use basemat_problems::scenes::{Frame, SI};
+
+/// How a scene in SI units is written down.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct View {
+    /// Units, and whether x is mirrored.
+    pub(crate) frame: Frame,
+    /// Quarter turns about the vertical, counter-clockwise; in plan only.
+    pub(crate) turns: usize,
+    /// Translation along x and y after the turn, m; in the plane along x.
+    pub(crate) shift: [f64; 2],
+    /// Nodes, elements, faces and degrees of freedom in the reverse order.
+    pub(crate) renumbered: bool,
+    /// Finite elements behind the trait that a user implements.
+    pub(crate) by_user: bool,
+}
+
+pub(crate) const PLAIN: View =
+    View { frame: SI, turns: 0, shift: [0.0; 2], renumbered: false, by_user: false };
+
+impl View {
+    /// A vector `[x, y, z]` of the scene, in its own unit, along the axes of the view.
+    pub(crate) fn vector(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let mirrored = [self.frame.sign() * x, y];
+        let [x, y] = (0..self.turns).fold(mirrored, |[x, y], _| [0.0 - y, x]);
+        [x, y, z]
+    }
+
+    /// The vector of the scene that [`View::vector`] writes as `[x, y, z]`.
+    pub(crate) fn vector_back(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+        let [x, y] = (0..self.turns).fold([x, y], |[x, y], _| [y, 0.0 - x]);
+        [self.frame.sign() * x, y, z]
+    }
+
+    /// A moment or a rotation of the view as in the scene: a mirror reverses it.
+    pub(crate) fn axial_back(&self, vector: [f64; 3]) -> [f64; 3] {
+        self.vector_back(vector).map(|part| self.frame.sign() * part)
+    }
+
+    /// A point of the scene (m) in the view's unit.
+    pub(crate) fn point(&self, point: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = self.vector(point);
+        [x + self.shift[0], y + self.shift[1], z].map(|part| part * self.frame.length)
+    }
+
+    /// A point `[x, y]` of the surface (m) in the view's unit.
+    pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [x, y, _] = self.point([x, y, 0.0]);
+        [x, y]
+    }
+
+    /// Lengths along x and y as the view has them along its axes, without a unit.
+    pub(crate) fn along_axes<T>(&self, [x, y]: [T; 2]) -> [T; 2] {
+        if self.turns.is_multiple_of(2) { [x, y] } else { [y, x] }
+    }
+
+    /// Reverses a list if the view renumbers.
+    pub(crate) fn ordered<T>(&self, mut list: Vec<T>) -> Vec<T> {
+        if self.renumbered {
+            list.reverse();
+        }
+        list
+    }
+}

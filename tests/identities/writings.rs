@@ -1,0 +1,43 @@
+//! A scene in modal or reduced coordinates, and with parts that a user writes, is the scene in physical coordinates.
+
+use super::compare::{same, usual};
+use super::ledger::{Ledger, scenes};
+use super::parts::{Choice, Coordinate, Space, covering};
+use super::scene::{REDUCED_LIMIT, Writing};
+use super::view::{PLAIN, View};
+
+/// Static states are known to 1e-10.
+const LIMIT: f64 = 1e-7;
+
+fn check(space: Space, row: &'static str, count: usize) {
+    let mut ledger = Ledger::new(row);
+    for choice in covering(space, 81, count) {
+        let other = choice.coordinate;
+        let physical = Choice { coordinate: Coordinate::Physical, ..choice };
+        let Some(response) = usual(&physical, &mut ledger) else { continue };
+        ledger.pair(&choice.words());
+        let by_user = ("parts of a user", &View { by_user: true, ..PLAIN }, Writing::ByUser);
+        same(&physical, &response, by_user, LIMIT, &mut ledger);
+        if other != Coordinate::Physical {
+            let limit = if other == Coordinate::Reduced { REDUCED_LIMIT } else { LIMIT };
+            let writing = (other.word(), &PLAIN, Writing::In(other));
+            same(&physical, &response, writing, limit, &mut ledger);
+        }
+    }
+    ledger.close(0.75);
+}
+
+#[test]
+fn coordinates_and_users_parts_in_the_plane() {
+    check(Space::Plane, "coordinates and users' parts in the plane", scenes(50, 1000));
+}
+
+#[test]
+fn coordinates_and_users_parts_in_plan() {
+    check(Space::Plan, "coordinates and users' parts in plan", scenes(25, 400));
+}
+
+#[test]
+fn coordinates_and_users_parts_around_a_trench() {
+    check(Space::Trench, "coordinates and users' parts around a trench", scenes(4, 40));
+}
