@@ -1,5 +1,6 @@
 //! Structures that come with the crate.
 
+mod beam_rows;
 mod cut;
 mod dof_names;
 mod feet;
@@ -24,6 +25,7 @@ mod storey_section;
 #[cfg(feature = "embedded")]
 mod with_walls;
 
+pub use beam_rows::{BeamEndRows, BeamRows};
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
 pub use matrix_model::MatrixModel;
