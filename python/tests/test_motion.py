@@ -86,10 +86,53 @@ def test_files_of_agencies(tmp_path: Path) -> None:
         ({"format": "afad", "columns": (1, 2)}, "take no `columns`"),
         ({"format": "smc", "time_step": 0.01}, "take no `time_step`"),
         ({"unit": "g", "channel": 2}, "give `columns`"),
-        ({"format": "miniseed"}, "must be 'columns', 'peer', 'cosmos'"),
+        ({"format": "miniseed"}, "must be 'columns', 'along_lines', 'peer'"),
     ]:
         with pytest.raises(bm.InputError, match=message):
             bm.Record.read(three, **options)  # type: ignore[arg-type]
+
+
+def test_values_along_lines(tmp_path: Path) -> None:
+    values = np.round(np.sin(0.3 * np.arange(43)) + 0.1 * np.cos(np.arange(43)), 6)
+    lines = [values[k : k + 8] for k in range(0, 43, 8)]
+    path = tmp_path / "series.txt"
+    path.write_text("\n".join(" ".join(f"{value:.6f}" for value in line) for line in lines))
+    with pytest.raises(bm.FileError, match="along_lines"):
+        bm.Record.read(path, unit="g", time_step=0.01)
+    with pytest.raises(bm.FileError, match="line 6: number of columns is 3, but must be 8"):
+        bm.Record.read(path, unit="g", time_step=0.01, columns=(1, 1))
+    full = tmp_path / "full.txt"
+    full.write_text("\n".join(path.read_text().splitlines()[:5]))
+    with pytest.raises(bm.FileError, match="8 numbers a line, which may be one series"):
+        bm.Record.read(full, unit="g", time_step=0.01, columns=(1, 1))
+    assert len(bm.Record.read(full, unit="g", time_step=0.01, columns=(1, 1), samples=5)) == 5
+    record = bm.Record.read(path, format="along_lines", unit="m/s²", time_step=0.01)
+    np.testing.assert_array_equal(record.accelerations, values)
+
+    cards = tmp_path / "cards.txt"
+    rows = ["".join(f"{value:9.6f}" for value in line).ljust(72) + f"{k:8d}" for k, line in enumerate(lines, 1)]
+    cards.write_text("\n".join(rows))
+    options = {"format": "along_lines", "unit": "m/s²", "time_step": 0.01}
+    with pytest.raises(bm.FileError):
+        bm.Record.read(cards, **options)  # type: ignore[arg-type]
+    read = bm.Record.read(cards, layout="8F9.6", samples=43, **options)  # type: ignore[arg-type]
+    np.testing.assert_array_equal(read.accelerations, values)
+    slist = tmp_path / "slist.txt"
+    head = "TIMESERIES XX_A_00_HNE_D, 43 samples, 50 sps, 2020-01-01T00:00:00.000000, SLIST, FLOAT, M/S**2\n"
+    slist.write_text(head + path.read_text())
+    read = bm.Record.read(slist, format="slist")
+    np.testing.assert_array_equal(read.accelerations, values)
+    assert read.time_step == 0.02
+    for options, message in [
+        ({"format": "along_lines", "unit": "g"}, "give `time_step`"),
+        ({"format": "along_lines", "time_step": 0.01}, "give `unit`"),
+        ({"format": "along_lines", "unit": "g", "time_step": 0.01, "columns": (1, 1)}, "have no `columns`"),
+        ({"unit": "g", "layout": "8F9.6"}, "takes no `layout`"),
+        ({"format": "peer", "samples": 3}, "take no `samples`"),
+        ({"format": "along_lines", "unit": "g", "time_step": 0.01, "layout": "8X"}, "Fortran format"),
+    ]:
+        with pytest.raises(bm.InputError, match=message):
+            bm.Record.read(path, **options)  # type: ignore[arg-type]
 
 
 def test_treatments() -> None:

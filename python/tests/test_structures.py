@@ -346,3 +346,41 @@ def test_contact_nodes_of_older_programs_are_base_nodes() -> None:
     assert "ContactNode" not in bm.__all__
     with pytest.raises(AttributeError, match="no attribute 'FaceNode'"):
         bm.FaceNode  # type: ignore[attr-defined]  # noqa: B018
+
+
+def test_ends_of_beams_are_rows() -> None:
+    mesh = bm.Mesh([[-2.0, 0.0], [0.0, 0.0], [2.0, 0.0], [0.0, 6.0]])
+    beams = mesh.add_beams([[0, 1], [1, 2], [1, 3]], 30e9, 0.5, 0.01, 2400.0)
+    model = bm.FemModel(mesh, [0, 1, 2])
+    rows = model.beam_rows(beams[2])
+    np.testing.assert_allclose(rows.axes, [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]], atol=1e-15)
+    foot, head = rows.ends
+    assert (foot.node, head.node) == (1, 3)
+    # The head moves by 1 mm and does not turn: 12 E I u/L³ and 6 E I u/L².
+    displacement = np.zeros(12)
+    displacement[model.dof_at(0.0, 6.0, "x")] = 1e-3
+    value = lambda rows: sum(weight * displacement[dof] for dof, weight in rows.displacement)  # noqa: E731
+    assert value(head.shears[0]) == pytest.approx(-12.0 * 3e8 * 1e-3 / 216.0)
+    assert value(foot.moments[1]) == pytest.approx(-6.0 * 3e8 * 1e-3 / 36.0)
+    assert value(head.moments[1]) == pytest.approx(6.0 * 3e8 * 1e-3 / 36.0)
+    assert bm.Probe.section("moment", foot.moments[1]).unit == "N·m/m"
+    with pytest.raises(bm.InputError, match="index 7"):
+        model.beam_rows(7)
+
+
+def test_nodes_are_merged(tmp_path: Path) -> None:
+    mesh = bm.Mesh([[0.0, 0.0], [3.0, 0.0], [3.0, 1e-7], [6.0, 0.0]])
+    mesh.add_beams([[0, 1], [2, 3]], 30e9, 0.5, 0.01, 2400.0)
+    assert mesh.merge_nodes(1e-4) == (1, [0, 1, 1, 2])
+    assert mesh.elements == [[0, 1], [1, 2]]
+    with pytest.raises(bm.InputError, match="element 0 on nodes"):
+        mesh.merge_nodes(4.0)
+    path = tmp_path / "squares.msh"
+    path.write_text(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 1 0 0\n6 2 0 0\n"
+        "7 2 1 0\n8 1 1 0\n$EndNodes\n$Elements\n2\n1 3 2 9 1 1 2 3 4\n2 3 2 9 2 5 6 7 8\n$EndElements\n"
+    )
+    assert len(bm.GmshSpaceMesh(path).nodes) == 8
+    assert len(bm.GmshSpaceMesh(path, merge_within=1e-4).nodes) == 6
+    concrete = bm.Material(30e9, 0.2, 2400.0)
+    assert len(bm.GmshMesh(path, merge_within=1e-4).mesh({"9": concrete}).nodes) == 6

@@ -64,6 +64,14 @@ pub trait Element: Any + Send + Sync {
     /// Nodes of the element, as indices into the mesh.
     fn nodes(&self) -> &[usize];
 
+    /// This element between other nodes, as many as before and in the same order.
+    ///
+    /// Called by [`Mesh::merge_nodes`](super::Mesh::merge_nodes). Default: `None`, the element cannot be renumbered,
+    /// and a mesh with it cannot be merged.
+    fn with_nodes(&self, _nodes: &[usize]) -> Option<Box<dyn Element>> {
+        None
+    }
+
     /// Directions of the element's degrees of freedom, the same at each of its nodes.
     fn directions(&self) -> &[Direction];
 

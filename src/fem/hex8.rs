@@ -135,6 +135,10 @@ impl Element for Hex8 {
         &self.nodes
     }
 
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        Some(Box::new(Self { nodes: nodes.try_into().ok()?, ..self.clone() }))
+    }
+
     fn directions(&self) -> &[Direction] {
         &IN_SPACE[..3]
     }

@@ -84,6 +84,10 @@ impl Element for LumpedMass {
         &self.node
     }
 
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        Some(Box::new(Self { node: nodes.try_into().ok()?, ..self.clone() }))
+    }
+
     fn directions(&self) -> &[Direction] {
         self.directions
     }

@@ -79,6 +79,11 @@ impl Mesh {
         Self { has_depth: true, ..Self::default() }
     }
 
+    /// Mesh of the same space without nodes and elements.
+    pub(super) fn without_content(&self) -> Self {
+        Self { has_depth: self.has_depth, ..Self::default() }
+    }
+
     /// Directions of the mesh's degrees of freedom: X, Y and Rotation, or the six of space.
     pub fn directions(&self) -> &'static [Direction] {
         if self.has_depth { IN_SPACE } else { FRAME }

@@ -17,6 +17,7 @@
 
 mod assembly;
 mod beam;
+mod coincident;
 mod condensation;
 mod element;
 mod element_face;
@@ -27,6 +28,7 @@ mod layer;
 mod line;
 mod lumped_mass;
 mod material;
+mod merge;
 mod mesh;
 mod numbering;
 mod quad4;
@@ -38,7 +40,10 @@ mod vector;
 
 pub use crate::geometry::Direction;
 pub(crate) use assembly::{MatrixKind, assemble, set_static_state};
+pub(crate) use beam::EndFrame;
 pub use beam::{Beam, BeamSection, SpaceBeam};
+#[cfg(feature = "io")]
+pub(crate) use coincident::first_at_place;
 pub use element::{Element, MassKind};
 pub use element_face::ElementFace;
 pub use grid::Grid;
@@ -46,6 +51,7 @@ pub use hex8::Hex8;
 pub use layer::Layer;
 pub use lumped_mass::LumpedMass;
 pub use material::Material;
+pub use merge::MergedNodes;
 pub use mesh::Mesh;
 pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};

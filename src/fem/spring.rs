@@ -63,6 +63,11 @@ impl Element for Spring {
         &self.0.nodes
     }
 
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        let nodes = nodes.try_into().ok()?;
+        Some(Box::new(Self(Pair { nodes, ..self.0.clone() })))
+    }
+
     fn directions(&self) -> &[Direction] {
         self.0.directions()
     }
@@ -182,6 +187,11 @@ impl Dashpot {
 impl Element for Dashpot {
     fn nodes(&self) -> &[usize] {
         &self.0.nodes
+    }
+
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        let nodes = nodes.try_into().ok()?;
+        Some(Box::new(Self(Pair { nodes, ..self.0.clone() })))
     }
 
     fn directions(&self) -> &[Direction] {

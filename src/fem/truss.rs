@@ -66,6 +66,10 @@ impl Element for Truss {
         &self.nodes
     }
 
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        Some(Box::new(Self { nodes: nodes.try_into().ok()?, ..self.clone() }))
+    }
+
     fn directions(&self) -> &[Direction] {
         self.directions
     }

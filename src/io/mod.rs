@@ -4,7 +4,7 @@
 //!
 //! | program or format | here |
 //! |---|---|
-//! | Gmsh, `.msh` 4.1 ASCII | [`GmshMesh`] in the plane, [`GmshSpaceMesh`] in space |
+//! | Gmsh, `.msh` 4.1 and 2.2, text and binary | [`GmshMesh`] in the plane, [`GmshSpaceMesh`] in space |
 //! | Matrix Market, `.mtx` | [`Triplets::read_matrix_market`](crate::structure::Triplets::read_matrix_market), `from_matrix_market`, `write_matrix_market`, `to_matrix_market` |
 //! | ParaView, `.pvd` and `.vtu` | [`paraview`] |
 

@@ -1,7 +1,7 @@
 //! A block of numbers under a title that describes them, in COSMOS and CSMIP files.
 
 use super::fault::{no_acceleration, not_in_header, unclear, unprocessed};
-use super::fixed_columns::FixedColumns;
+use super::fortran_format::FortranFormat;
 use super::lines::{Lines, Reason, count, line_after_block, read_numbers, scaled};
 use super::{AccelerationUnit, agreement};
 use crate::error::FileFault;
@@ -13,7 +13,7 @@ pub(super) struct Block {
     /// Time step, s.
     pub(super) step: f64,
     pub(super) unit: AccelerationUnit,
-    pub(super) columns: Option<FixedColumns>,
+    pub(super) columns: Option<FortranFormat>,
     /// Peak that the header states, in the unit of the block.
     pub(super) peak: Option<f64>,
 }
@@ -44,11 +44,11 @@ pub(super) fn step(value: Option<f64>) -> Result<f64, FileFault> {
 }
 
 /// Columns of the format in a title; an error if the text after the unit contains more than a format.
-pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FixedColumns>, FileFault> {
-    if !FixedColumns::is_all_of(rest) {
+pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FortranFormat>, FileFault> {
+    if !FortranFormat::is_all_of(rest) {
         return Err(unclear("unit or format", rest.trim()));
     }
-    Ok(FixedColumns::find(title))
+    Ok(FortranFormat::find(title))
 }
 
 /// The unit at the beginning of `text`, and the text behind it.
@@ -98,7 +98,7 @@ pub(super) fn unnamed(
 const RAW: &str = "raw counts of a recorder";
 
 /// Whether a unit belongs to numbers without a recorder's sensitivity.
-fn is_raw(name: &str) -> bool {
+pub(super) fn is_raw(name: &str) -> bool {
     matches!(name, "count" | "counts" | "cnt" | "cnts" | "volt" | "volts" | "mvolts" | "mv" | "v")
 }
 
@@ -120,7 +120,7 @@ mod tests {
             ("cms/sec/sec)   (8f10.3)", Gal),
         ] {
             let (found, rest) = unit("title", text).unwrap();
-            assert!(found == known && FixedColumns::is_all_of(rest), "{text}");
+            assert!(found == known && FortranFormat::is_all_of(rest), "{text}");
         }
         for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
             let error = unit("title", text).unwrap_err();

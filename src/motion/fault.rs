@@ -33,6 +33,20 @@ pub(super) fn unequal_columns(found: usize, before: usize) -> FileFault {
     FileFault::count("columns", found, format!("{before}, as before"))
 }
 
+/// Lines of numbers that may be one series, of which a column would be a small part.
+pub(super) fn along_lines(numbers: usize) -> FileFault {
+    let needed = "columns with titles: read values along the lines as such (`AlongLinesFormat`, in Python \
+         `along_lines`), or give the number of lines (`samples`) if they are columns";
+    FileFault::format(format!("{numbers} numbers a line, which may be one series"), needed)
+}
+
+/// Lines whose values along them may be the columns of a table, or have numbers of cards.
+pub(super) fn columns_of_table(column: usize) -> FileFault {
+    let needed = "values of one series: read columns by `ColumnFormat` (in Python `columns`), cards by their Fortran \
+         format (`layout`), or give the number of values (`samples`)";
+    FileFault::format(format!("column {column}, which counts or has times"), needed)
+}
+
 /// A column or channel whose number is not among the `found` ones.
 pub(super) fn out_of_range(item: &str, found: usize, number: usize) -> FileFault {
     if found == 0 {

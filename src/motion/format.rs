@@ -9,8 +9,9 @@ use crate::error::{FileFault, Result};
 
 /// A file format of records; implement it for a format of your own.
 ///
-/// The crate's formats are [`ColumnFormat`](super::ColumnFormat), [`PeerFormat`](super::PeerFormat)
-/// (`.AT2`), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP),
+/// The crate's formats are [`ColumnFormat`](super::ColumnFormat),
+/// [`AlongLinesFormat`](super::AlongLinesFormat) (SHAKE), [`PeerFormat`](super::PeerFormat) (`.AT2`),
+/// [`SlistFormat`](super::SlistFormat) (ObsPy), [`CosmosFormat`](super::CosmosFormat) (`.V2`, COSMOS and CSMIP),
 /// [`KNetFormat`](super::KNetFormat), [`KNetCsvFormat`](super::KNetCsvFormat),
 /// [`EsmFormat`](super::EsmFormat), [`AfadFormat`](super::AfadFormat),
 /// [`SmcFormat`](super::SmcFormat) and [`GeoNetFormat`](super::GeoNetFormat).
@@ -38,6 +39,7 @@ impl Record {
     /// Reads a record from a file.
     ///
     /// Formats: [`ColumnFormat`](super::ColumnFormat) for columns of time and acceleration,
+    /// [`AlongLinesFormat`](super::AlongLinesFormat) for several values on a line,
     /// [`PeerFormat`](super::PeerFormat) for `.AT2`, or any other [`RecordFormat`].
     ///
     /// # Errors

@@ -7,7 +7,7 @@
 use std::io::Read;
 
 use super::fault::{no_acceleration, not_in_header};
-use super::fixed_columns::FixedColumns;
+use super::fortran_format::FortranFormat;
 use super::header_number::HeaderNumber;
 use super::lines::{
     Lines, Reason, Series, component, count, read_numbers, record, records, scaled,
@@ -56,8 +56,8 @@ impl RecordFormat for GeoNetFormat {
 }
 
 const TEXT_LINES: usize = 16;
-const INTEGERS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 0, scale: 0 };
-const REALS: FixedColumns = FixedColumns { repeat: 10, width: 8, decimals: 1, scale: 0 };
+const INTEGERS: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 0, scale: 0 };
+const REALS: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 1, scale: 0 };
 
 /// Quantities in the lines of text.
 #[derive(Default)]

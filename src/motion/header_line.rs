@@ -69,6 +69,11 @@ impl ColumnTitles {
         title.map_or(Ok(()), |title| check_acceleration(title, expected))
     }
 
+    /// Whether a line has a title for each column.
+    pub(super) fn name_all_columns(&self) -> bool {
+        self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
+    }
+
     /// The name of a column: its last title that is more than a unit.
     pub(super) fn name(&self, column: usize) -> Option<&str> {
         let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));

@@ -3,8 +3,8 @@
 use std::io::Read;
 
 use super::clock::Clock;
-use super::fault::{not_a_number, off_columns, out_of_range};
-use super::fixed_columns::FixedColumns;
+use super::fault::{header_line, not_a_number, off_columns, out_of_range};
+use super::fortran_format::FortranFormat;
 use crate::error::{Error, FileFault, Result};
 use crate::text::bounded_line;
 use crate::text::column::distinct;
@@ -70,7 +70,7 @@ struct Points {
 /// Appends the numbers of a line in these columns, or without columns if the line does not match them.
 fn push_columns(
     line: &str,
-    columns: FixedColumns,
+    columns: FortranFormat,
     points: &mut Points,
     values: &mut Vec<f64>,
 ) -> std::result::Result<(), FileFault> {
@@ -105,7 +105,7 @@ fn push_columns(
 pub(super) fn read_numbers(
     lines: &mut Lines,
     needed: usize,
-    columns: Option<FixedColumns>,
+    columns: Option<FortranFormat>,
 ) -> Reason<Vec<f64>> {
     let mut values = Vec::new();
     let mut points = Points::default();
@@ -311,6 +311,17 @@ fn has_gap_between_numbers(line: &str) -> bool {
 pub(super) fn is_header(fields: &Fields) -> bool {
     let has_letters = |field: &&str| field.contains(char::is_alphabetic);
     fields.texts.iter().any(has_letters) && !fields.texts.iter().any(|field| is_like_number(field))
+}
+
+/// The first field of a line; `None` unless it is a word.
+pub(super) fn first_word<'a>(fields: &Fields<'a>) -> Option<&'a str> {
+    let first = fields.texts.first().copied();
+    first.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))
+}
+
+/// Turns a line's fault into a header's fault, for a line before all numbers that starts with a word.
+pub(super) fn in_header(why: FileFault, fields: &Fields, no_number_yet: bool) -> FileFault {
+    first_word(fields).filter(|_| no_number_yet).map_or(why, header_line)
 }
 
 /// Words for a missing number, in lower case.

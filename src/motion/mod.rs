@@ -7,6 +7,7 @@
 
 mod afad;
 mod agreement;
+mod along_lines;
 mod baseline;
 mod block;
 mod clock;
@@ -16,8 +17,8 @@ mod csmip;
 mod esm;
 mod fault;
 mod filter;
-mod fixed_columns;
 mod format;
+mod fortran_format;
 mod free_field;
 mod geonet;
 mod header_line;
@@ -28,11 +29,13 @@ mod intensity;
 mod k_net;
 mod k_net_csv;
 mod lines;
+mod number_table;
 mod out_of_phase;
 mod peer;
 mod plane_wave;
 mod reader;
 mod record;
+mod slist;
 mod smc;
 mod spectrum;
 mod travelling_wave;
@@ -40,10 +43,12 @@ mod unit;
 mod unit_name;
 
 pub use afad::AfadFormat;
+pub use along_lines::AlongLinesFormat;
 pub use baseline::Baseline;
 pub use cosmos::CosmosFormat;
 pub use esm::EsmFormat;
 pub use format::RecordFormat;
+pub use fortran_format::FortranFormat;
 pub use free_field::{
     AtRest, FreeField, FreeFieldFn, RickerDisplacement, Triaxial, VerticalIncidence,
 };
@@ -57,6 +62,7 @@ pub use plane_wave::PlaneWave;
 pub(crate) use plane_wave::check_prescribed;
 pub use reader::{ColumnFormat, el_centro_1940};
 pub use record::Record;
+pub use slist::SlistFormat;
 pub use smc::SmcFormat;
 pub use spectrum::{CoarseSpectrum, SpectralOrdinate};
 pub use travelling_wave::TravellingWave;

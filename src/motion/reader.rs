@@ -5,12 +5,13 @@
 use std::io::Read;
 
 use super::clock::Clock;
-use super::fault::{drifting, header_line, unequal_columns};
+use super::fault::{along_lines, drifting, header_line, unequal_columns};
 use super::header_line::{ColumnTitles, HeaderLines};
 use super::lines::{
-    Fields, Lines, Reason, Series, component, is_failure, is_header, is_like_number, record,
+    Fields, Lines, Reason, Series, component, first_word, in_header, is_failure, is_header, record,
     records,
 };
+use super::number_table::NumberTable;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
 
@@ -22,6 +23,8 @@ const STEP_TOLERANCE: f64 = 0.01;
 const COARSE: f64 = 3.0;
 
 /// Layout of a record in a text file: its columns and its unit.
+///
+/// For values along the lines, several on each, see [`AlongLinesFormat`](super::AlongLinesFormat).
 ///
 /// The reader accepts:
 /// * lines of numbers separated by commas, semicolons, spaces or tabs (a comma with spaces around it is one
@@ -41,8 +44,10 @@ const COARSE: f64 = 3.0;
 /// samples a second to 1 ms, set `time_step`. A title that names another unit, such as `time (ms)` or `a (cm/s2)`
 /// in a file that is read in g, is an error. Every line before the numbers that has as many titles as there are
 /// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
-/// [`equally_spaced`](Self::equally_spaced) reads files without a time column. A file cut within its last number
-/// looks like a complete one: set `samples` where their number is known.
+/// [`equally_spaced`](Self::equally_spaced) reads files without a time column. All their lines must have equally many
+/// columns. Without titles they may be one series along the lines: then one of them must count, have times or be
+/// constant, or the numbers must jump from line to line, or `samples` be known. A file cut within its last number looks like a complete one: set `samples` where
+/// their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -139,7 +144,13 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Serie
         return Err((last_line, FileFault::count("samples", found, needed.to_string())));
     }
     let step = match format.time_step {
-        Some(step) => step,
+        Some(step) => {
+            // A known number of samples confirms the columns.
+            if format.samples.is_none() && table.is_one_series(all) {
+                return Err((table.lines[0], along_lines(table.width)));
+            }
+            step
+        }
         None => table.equal_step()?,
     };
     let columns = table.names.into_iter().zip(table.columns);
@@ -157,9 +168,28 @@ struct Table {
     names: Vec<String>,
     /// Accelerations, m/s².
     columns: Vec<Vec<f64>>,
+    /// Number of fields in a line.
+    width: usize,
+    /// Whether titles or words in the lines show that the columns differ.
+    has_words: bool,
+    /// All numbers of lines without times.
+    numbers: NumberTable,
 }
 
 impl Table {
+    /// Whether lines without times may hold one series, of which a column would be a small part.
+    ///
+    /// Columns are accepted if they have titles, if one of them counts, has times or a constant, or if the numbers jump
+    /// over the line ends, unless they continue there. If `all` columns are read, no number is lost.
+    fn is_one_series(&self, all: bool) -> bool {
+        let numbers = &self.numbers;
+        let columns = all
+            || self.has_words
+            || numbers.even_column().is_some()
+            || numbers.jumps_over_line_ends();
+        self.width > 1 && (!columns || numbers.continues_along_lines())
+    }
+
     /// All lines of numbers.
     fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Self> {
         let mut table = Self::default();
@@ -199,7 +229,8 @@ impl Table {
                     .push(fields.time(format.time_column, &mut table.clock).map_err(refuse)?);
             }
             if !all && format.acceleration_column.is_none() && filled > 1 {
-                let needed = "1 (name the one of the acceleration)";
+                let needed = "1 (name the column of the acceleration, or read the values along the lines: \
+                     `AlongLinesFormat`, in Python `along_lines`)";
                 return Err(refuse(FileFault::count("columns", filled, needed)));
             }
             for (k, &column) in chosen.iter().enumerate() {
@@ -212,12 +243,23 @@ impl Table {
             if columns.is_none() {
                 let titles = header.titles(&(filled..=found));
                 table.names = names(format, &titles, &chosen).map_err(|why| lines.refuse(why))?;
+                table.has_words = titles.name_all_columns();
+                table.width = filled;
             }
             // The cells behind the last comma may be empty in all lines.
             let found = if all { filled } else { found };
             let expected = *columns.get_or_insert(found);
-            if found != expected && (all || fields.may_be_shifted()) {
+            let must_agree = all || format.time_step.is_some() || fields.may_be_shifted();
+            if found != expected && must_agree {
                 return Err(lines.refuse(unequal_columns(found, expected)));
+            }
+            if format.time_step.is_some() {
+                let numbers: std::result::Result<Vec<f64>, FileFault> =
+                    (1..=table.width).map(|column| fields.number(column)).collect();
+                match numbers {
+                    Ok(numbers) => table.numbers.push(&numbers),
+                    Err(_) => table.has_words = true,
+                }
             }
             table.lines.push(lines.number);
         }
@@ -305,20 +347,9 @@ fn names(
     chosen.iter().map(name).collect()
 }
 
-/// Turns a line's fault into a header's fault, for a line before all numbers that starts with a word.
-fn in_header(why: FileFault, fields: &Fields, no_number_yet: bool) -> FileFault {
-    first_word(fields).filter(|_| no_number_yet).map_or(why, header_line)
-}
-
 /// A time step (s) that is not as it must be.
 fn time_step(found: f64, needed: String) -> FileFault {
     FileFault::value("time step", format!("{} s", decimal(found)), needed)
-}
-
-/// The first field of a line; `None` unless it is a word.
-fn first_word<'a>(fields: &Fields<'a>) -> Option<&'a str> {
-    let first = fields.texts.first().copied();
-    first.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))
 }
 
 /// `value` rounded to twelve digits: differences of printed decimals are decimals.

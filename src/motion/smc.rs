@@ -8,7 +8,7 @@ use std::io::Read;
 
 use super::agreement;
 use super::fault::{no_acceleration, not_in_header, unprocessed};
-use super::fixed_columns::FixedColumns;
+use super::fortran_format::FortranFormat;
 use super::lines::{
     Lines, Reason, Series, count, line_after_block, read_numbers, record, records, scaled,
 };
@@ -41,9 +41,9 @@ impl RecordFormat for SmcFormat {
 }
 
 const TEXT_LINES: usize = 11;
-const INTEGERS: FixedColumns = FixedColumns { repeat: 8, width: 10, decimals: 0, scale: 0 };
-const REALS: FixedColumns = FixedColumns { repeat: 5, width: 15, decimals: 7, scale: 0 };
-const SAMPLES: FixedColumns = FixedColumns { repeat: 8, width: 10, decimals: 4, scale: 0 };
+const INTEGERS: FortranFormat = FortranFormat { repeat: 8, width: 10, decimals: 0, scale: 0 };
+const REALS: FortranFormat = FortranFormat { repeat: 5, width: 15, decimals: 7, scale: 0 };
+const SAMPLES: FortranFormat = FortranFormat { repeat: 8, width: 10, decimals: 4, scale: 0 };
 /// Upper limit of a recorder's sampling rate, samples a second.
 const FASTEST: f64 = 1e5;
 

@@ -57,8 +57,9 @@ pub use modal_damping::{ModalDamping, WithModalDamping};
 #[cfg(feature = "embedded")]
 pub use models::WithWalls;
 pub use models::{
-    FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock, RigidBody, Section,
-    ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding, StructureGroup,
+    BeamEndRows, BeamRows, FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock,
+    RigidBody, Section, ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding,
+    StructureGroup,
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 pub(crate) use nonlinear::{

@@ -1,6 +1,8 @@
 //! Lines of limited length from text files, for all readers.
 
 use std::borrow::Cow;
+#[cfg(feature = "io")]
+use std::io::ErrorKind;
 use std::io::{BufRead, BufReader, Read};
 
 use crate::error::FileFault;
@@ -51,6 +53,31 @@ impl<R: Read> Lines<R> {
                 Ok(count > 0)
             }
         }
+    }
+
+    /// Fills `bytes` with what follows the present line; `false` if the source ends before.
+    #[cfg(feature = "io")]
+    pub(crate) fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
+        match self.source.read_exact(bytes) {
+            Ok(()) => Ok(true),
+            Err(error) if error.kind() == ErrorKind::UnexpectedEof => Ok(false),
+            Err(error) => Err(FileFault::Unreadable(error.kind())),
+        }
+    }
+
+    /// Skips all bytes up to `end` and `end` itself, which begins with its only `$`; `false` if it is not there.
+    #[cfg(feature = "io")]
+    pub(crate) fn skip_behind(&mut self, end: &[u8]) -> Result<bool, FileFault> {
+        let mut matched = 0;
+        let mut byte = [0];
+        while matched < end.len() {
+            if !self.fill(&mut byte)? {
+                return Ok(false);
+            }
+            matched =
+                if byte[0] == end[matched] { matched + 1 } else { usize::from(byte[0] == end[0]) };
+        }
+        Ok(true)
     }
 
     /// The next line without white space at its ends; `None` at the end of the source.

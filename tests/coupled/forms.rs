@@ -21,8 +21,9 @@ use basemat::interface::{
     Yielding,
 };
 use basemat::motion::{
-    AccelerationUnit, AfadFormat, Baseline, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
-    KNetCsvFormat, KNetFormat, PeerFormat, Record, SmcFormat, el_centro_1940,
+    AccelerationUnit, AfadFormat, AlongLinesFormat, Baseline, ColumnFormat, CosmosFormat,
+    EsmFormat, GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat, Record, SlistFormat, SmcFormat,
+    el_centro_1940,
 };
 use basemat::results::{Criterion, Peak, Quantity, Recorder, Run, Serviceability, TimeSeries};
 use basemat::site::{ControlPoint, VerticalWave};
@@ -324,6 +325,9 @@ fn probes_storeys_layers_and_formats_of_files() {
         ..ColumnFormat::new(AccelerationUnit::Gal)
     });
     kept(&ColumnFormat::equally_spaced(AccelerationUnit::StandardGravity, 0.02));
+    let along = AlongLinesFormat::new(AccelerationUnit::Gal, 0.02);
+    kept(&AlongLinesFormat { layout: "1P8E10.3".parse().ok(), samples: Some(7), ..along });
+    kept(&SlistFormat { component: 2, unit: None });
     kept(&CosmosFormat { channel: 2, unit: Some(AccelerationUnit::Gal) });
     kept(&(PeerFormat, KNetFormat, EsmFormat, SmcFormat));
     kept(&(AfadFormat { component: 2 }, KNetCsvFormat { component: 3 }, GeoNetFormat::default()));

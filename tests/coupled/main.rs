@@ -16,6 +16,7 @@ mod layered_scenes;
 mod loads;
 mod passive_schemes;
 mod preload_of_soft_structures;
+mod push_over;
 mod reduced;
 mod runs;
 mod soil_column;

@@ -162,8 +162,9 @@ fn refusal(text: &str) -> (usize, FileFault) {
 #[test]
 fn bad_files_are_refused_with_their_line() {
     let with = |from: &str, to: &str| refusal(&MANUAL.replacen(from, to, 1));
-    assert!(matches!(with("4.1 0 8", "2.2 0 8"), (2, FileFault::Format { .. })));
-    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, FileFault::Format { .. })));
+    assert!(matches!(with("4.1 0 8", "4.0 0 8"), (2, FileFault::Format { .. })));
+    assert!(matches!(with("4.1 0 8", "4.1 1 8"), (2, FileFault::Missing { .. })));
+    assert!(matches!(with("4.1 0 8", "4.1 1 4"), (2, FileFault::Format { .. })));
     assert!(matches!(with("2 1 3 2", "2 1 2 2"), (22, FileFault::Format { .. })));
     assert_eq!(with("0. 1. 0.", "0. 1. 0.5"), (16, value("z of a node", "0.5", "0")));
     assert_eq!(with("1. 1. 0.", "1. x 0."), (15, not_a_number("x")));

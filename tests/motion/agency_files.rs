@@ -53,7 +53,7 @@ fn is_signal(record: &Record, component: usize, times: f64, step: f64, digit: f6
 /// A file, its reader, the names of its components, the factor of the first, and half of the last digit, gal.
 type Station = (&'static str, Box<dyn RecordFormat>, &'static [&'static str], f64, f64);
 
-fn path(name: &str) -> std::path::PathBuf {
+pub(super) fn path(name: &str) -> std::path::PathBuf {
     basemat_problems::data_path(&format!("records/{name}"))
 }
 

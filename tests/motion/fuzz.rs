@@ -8,8 +8,9 @@
 use std::io::Read;
 
 use basemat::motion::{
-    AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
-    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
+    AccelerationUnit, AfadFormat, AlongLinesFormat, ColumnFormat, CosmosFormat, EsmFormat,
+    GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SlistFormat,
+    SmcFormat,
 };
 use basemat::{Error, FileError, Result};
 use proptest::prelude::*;
@@ -18,7 +19,14 @@ use proptest::sample::Index;
 /// A valid file of each format, with its reader.
 fn valid() -> Vec<(&'static str, Box<dyn RecordFormat>)> {
     let columns = ColumnFormat::new(AccelerationUnit::Gal);
+    let along = AlongLinesFormat::new(AccelerationUnit::StandardGravity, 0.01);
     vec![
+        (include_str!("../data/records/eight_per_line.txt"), Box::new(along)),
+        (
+            include_str!("../data/records/shake91.acc"),
+            Box::new(AlongLinesFormat { layout: "8F9.6".parse().ok(), header_lines: 1, ..along }),
+        ),
+        (include_str!("../data/records/slist.txt"), Box::new(SlistFormat::default())),
         (include_str!("../data/records/esm.asc"), Box::new(EsmFormat)),
         (include_str!("../data/records/afad.txt"), Box::new(AfadFormat::default())),
         (include_str!("../data/records/knet.csv"), Box::new(KNetCsvFormat::default())),

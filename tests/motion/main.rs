@@ -3,6 +3,7 @@
 //! REFERENCE: published values, closed forms, independent integrations.
 
 mod agency_files;
+mod along_lines;
 mod baselines;
 mod filters;
 mod free_fields;

@@ -28,6 +28,10 @@ fn read(text: &str) -> Result<Record, Error> {
 const MORE_LINES: &str =
     "a finite number: with more than one line of header, give their number (`header_lines`)";
 
+/// Requirement of a file without times, of whose columns none is chosen.
+const ONE_COLUMN: &str = "1 (name the column of the acceleration, or read the values along the lines: \
+    `AlongLinesFormat`, in Python `along_lines`)";
+
 #[test]
 fn reader_takes_every_usual_layout() {
     let wanted = Record::new(0.02, vec![0.0, 1.5, -2.5e-1]).unwrap();
@@ -132,9 +136,9 @@ fn reader_refuses_wrong_columns_and_counts() {
 fn a_single_column_is_single() {
     let alone = ColumnFormat::equally_spaced(METRIC, 0.02);
     let found = refusal(b"1\n2 3\n", &alone);
-    assert_eq!(found, (2, count("columns", 2, "1 (name the one of the acceleration)")));
+    assert_eq!(found, (2, count("columns", 2, ONE_COLUMN)));
     let found = refusal(b"0.00,1\n0.02,2\n", &alone);
-    assert_eq!(found, (1, count("columns", 2, "1 (name the one of the acceleration)")));
+    assert_eq!(found, (1, count("columns", 2, ONE_COLUMN)));
     let found = refusal(b"1\n2\n3\n", &ColumnFormat { samples: Some(2), ..alone });
     assert_eq!(found, (3, count("samples", 3, "2")));
     let found = refusal(b"1\n2\n", &ColumnFormat { acceleration_column: Some(2), ..alone });

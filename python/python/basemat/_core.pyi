@@ -30,7 +30,17 @@ _FrictionLimit: TypeAlias = Literal["total", "lagged", "static", "dynamic"]
 _SlipSense: TypeAlias = Literal["inelastic", "velocity", "last_velocity"]
 _AccelerationUnit: TypeAlias = Literal["m/s²", "mm/s²", "g", "gal", "ft/s²", "in/s²"]
 _RecordFormat: TypeAlias = Literal[
-    "columns", "peer", "cosmos", "k_net", "k_net_csv", "esm", "afad", "smc", "geonet"
+    "columns",
+    "along_lines",
+    "peer",
+    "cosmos",
+    "k_net",
+    "k_net_csv",
+    "esm",
+    "afad",
+    "slist",
+    "smc",
+    "geonet",
 ]
 _Baseline: TypeAlias = Literal[
     "remove_mean",
@@ -748,17 +758,22 @@ class Record(FreeField):
         columns: Sequence[int] | None = None,
         channel: int | None = None,
         header_lines: int | None = None,
+        samples: int | None = None,
+        layout: str | None = None,
     ) -> Record:
         """Reads a file at ``path``.
 
-        ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
-        (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and
-        ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
-        columns, for old files of "cosmos" that name none; other files have their own. Of columns:
-        ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
-        ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
-        ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
-        1, for formats that hold several ("cosmos", "k_net_csv", "afad", "geonet").
+        ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
+        (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net"
+        (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet".
+        ``unit`` of the acceleration as for the class: needed for columns and values along lines, for files of
+        "cosmos" and "slist" that name none; other files have their own. Of columns: ``columns`` are the numbers of
+        time and acceleration from 1, (1, 2) unless given; with ``time_step`` (s) times do not count, and only one
+        column may be there unless ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the
+        Fortran format of their lines, such as "8F9.6", none unless given. Of both ``header_lines`` at the beginning
+        are passed over, and ``samples`` is the number of samples, if known: another number is an error.
+        ``channel`` is the number of the component from 1, for formats that hold several ("cosmos", "k_net_csv",
+        "afad", "geonet", "slist").
         """
     @staticmethod
     def read_all(
@@ -2949,6 +2964,47 @@ class FemModel(Structure):
         ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
         part of the first in the plane of a shell, and the normal n is on the side of the second.
         """
+    def beam_rows(self, element: int) -> BeamRows:
+        """The `BeamRows` of the beam with the number ``element``: forces and moments at its ends, in its own axes."""
+
+@final
+class BeamRows:
+    """Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
+    `FemModel.beam_rows`.
+
+    They are those on a section whose outward normal is x, the axis of the beam, at both ends. A probe records changes
+    from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the
+    geometric stiffness, in the axes of the undeformed beam.
+    """
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors x (along the beam), y and z of the section as rows: array of shape (3, 3), numbers without unit."""
+    @property
+    def ends(self) -> list[BeamEndRows]:
+        """Two `BeamEndRows`, of the first and the second end."""
+
+@final
+class BeamEndRows:
+    """Forces and moments at one end of a beam, as `SectionRows`: N and N·m, in the plane per metre of thickness."""
+
+    @property
+    def node(self) -> int:
+        """Number of the node."""
+    @property
+    def axial(self) -> SectionRows:
+        """`SectionRows` of the axial force, N; tension is positive."""
+    @property
+    def shears(self) -> list[SectionRows]:
+        """Two `SectionRows` of the shear forces along y and z, N; the second is zero in the plane."""
+    @property
+    def torque(self) -> SectionRows:
+        """`SectionRows` of the torque about x, N·m; zero in the plane."""
+    @property
+    def moments(self) -> list[SectionRows]:
+        """Two `SectionRows` of the moments about y and z by the right-hand rule, N·m; the first is zero in the plane. Positive
+        with tension at positive z, and at negative y.
+        """
 
 @final
 class ShellResultants:
@@ -3005,9 +3061,11 @@ class ShellRows:
 
 @final
 class GmshMesh:
-    """A mesh of quadrilaterals from the file of Gmsh (format 4.1, ASCII) at ``path``."""
+    """A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes at the same
+    place within ``merge_within`` (m) become one, none unless given.
+    """
 
-    def __new__(cls, path: str | os.PathLike[str]) -> Self: ...
+    def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
     @property
     def surfaces(self) -> list[str]:
         """List of the names of the groups of quadrilaterals."""
@@ -3033,11 +3091,12 @@ class GmshMesh:
 
 @final
 class GmshSpaceMesh:
-    """A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (format 4.1, ASCII) at
-    ``path``.
+    """A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats
+    4.1 and 2.2, text or binary) at ``path``; nodes at the same place within ``merge_within`` (m) become one, none unless
+    given.
     """
 
-    def __new__(cls, path: str | os.PathLike[str]) -> Self: ...
+    def __new__(cls, path: str | os.PathLike[str], *, merge_within: float | None = None) -> Self: ...
     @property
     def nodes(self) -> NDArray[np.float64]:
         """Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers."""
@@ -3410,6 +3469,12 @@ class Mesh:
 
         ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
         Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
+        """
+    def merge_nodes(self, tolerance: float) -> tuple[int, list[int]]:
+        """Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
+        number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
+
+        An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
         """
     @property
     def nodes(self) -> NDArray[np.float64]:

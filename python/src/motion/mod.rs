@@ -2,6 +2,7 @@
 
 mod function;
 mod record;
+mod record_file;
 mod spectrum;
 mod trench;
 mod waves;

@@ -3,14 +3,12 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use basemat::motion::{
-    AccelerationUnit, AfadFormat, Baseline, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
-    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
-};
+use basemat::motion::{Baseline, Record};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::PyFreeField;
+use super::record_file::{FileOptions, unit_of};
 use super::spectrum::{PySpectrum, coarse};
 use crate::array::{Array, Numbers, whole};
 use crate::error::{OrRaise, refuse};
@@ -132,17 +130,21 @@ impl PyRecord {
 
     /// Reads a file at ``path``.
     ///
-    /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "peer"
-    /// (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net" (K-NET and KiK-net), "k_net_csv", "esm" (ESM and
-    /// ITACA), "afad", "smc" or "geonet". ``unit`` of the acceleration as for the class: needed for
-    /// columns, for old files of "cosmos" that name none; other files have their own. Of columns:
-    /// ``columns`` are the numbers of time and acceleration from 1, (1, 2) unless given; with
-    /// ``time_step`` (s) times do not count, and only one column may be there unless ``columns`` is given;
-    /// ``header_lines`` at the beginning are passed over. ``channel`` is the number of the component from
-    /// 1, for formats that hold several ("cosmos", "k_net_csv", "afad", "geonet").
+    /// ``format``: "columns" (the default: text, time in s or as a time of day, and acceleration), "along_lines"
+    /// (several values on a line: SHAKE, OpenSees), "peer" (.AT2), "cosmos" (.V2, COSMOS and CSMIP), "k_net"
+    /// (K-NET and KiK-net), "k_net_csv", "esm" (ESM and ITACA), "afad", "slist" (ObsPy), "smc" or "geonet".
+    /// ``unit`` of the acceleration as for the class: needed for columns and values along lines, for files of
+    /// "cosmos" and "slist" that name none; other files have their own. Of columns: ``columns`` are the numbers of
+    /// time and acceleration from 1, (1, 2) unless given; with ``time_step`` (s) times do not count, and only one
+    /// column may be there unless ``columns`` is given. Values along lines need ``time_step``; ``layout`` is the
+    /// Fortran format of their lines, such as "8F9.6", none unless given. Of both ``header_lines`` at the beginning
+    /// are passed over, and ``samples`` is the number of samples, if known: another number is an error.
+    /// ``channel`` is the number of the component from 1, for formats that hold several ("cosmos", "k_net_csv",
+    /// "afad", "geonet", "slist").
     #[staticmethod]
     #[pyo3(signature = (
-        path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None
+        path, *, format="columns", unit=None, time_step=None, columns=None, channel=None, header_lines=None,
+        samples=None, layout=None
     ))]
     fn read(
         path: PathBuf,
@@ -152,8 +154,11 @@ impl PyRecord {
         #[pyo3(from_py_with = whole)] columns: Option<[usize; 2]>,
         #[pyo3(from_py_with = whole)] channel: Option<usize>,
         #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
+        #[pyo3(from_py_with = whole)] samples: Option<usize>,
+        layout: Option<&str>,
     ) -> PyResult<Self> {
-        let options = FileOptions { unit, time_step, columns, channel, header_lines };
+        let options =
+            FileOptions { unit, time_step, columns, channel, header_lines, samples, layout };
         Self::from_core(Record::read(path, options.reader(format)?.as_ref()))
     }
 
@@ -275,108 +280,6 @@ impl PyRecord {
     fn __getnewargs__(&self) -> (f64, Array) {
         (self.time_step(), self.accelerations())
     }
-}
-
-/// What is said of a file that is to be read.
-#[derive(Default)]
-struct FileOptions<'a> {
-    unit: Option<&'a str>,
-    time_step: Option<f64>,
-    columns: Option<[usize; 2]>,
-    channel: Option<usize>,
-    header_lines: Option<usize>,
-}
-
-impl FileOptions<'_> {
-    /// The reader of a format by its name, which must take the options.
-    fn reader(&self, format: &str) -> PyResult<Box<dyn RecordFormat>> {
-        use AccelerationUnit::{Gal, MillimetrePerSecondSquared, StandardGravity};
-        let component = self.channel.unwrap_or(1);
-        Ok(match format {
-            "columns" => Box::new(self.column_format()?),
-            "cosmos" => {
-                self.check(format, None, true)?;
-                let unit = self.unit.map(unit_of).transpose()?;
-                Box::new(CosmosFormat { channel: component, unit })
-            }
-            "peer" => self.checked(format, StandardGravity, false, PeerFormat)?,
-            "k_net" => self.checked(format, Gal, false, KNetFormat)?,
-            "k_net_csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
-            "esm" => self.checked(format, Gal, false, EsmFormat)?,
-            "afad" => self.checked(format, Gal, true, AfadFormat { component })?,
-            "smc" => self.checked(format, Gal, false, SmcFormat)?,
-            "geonet" => {
-                let reader = GeoNetFormat { component };
-                self.checked(format, MillimetrePerSecondSquared, true, reader)?
-            }
-            _ => {
-                return Err(refuse(format!(
-                    "format is '{format}', but must be 'columns', 'peer', 'cosmos', 'k_net', \
-                     'k_net_csv', 'esm', 'afad', 'smc' or 'geonet'"
-                )));
-            }
-        })
-    }
-
-    fn column_format(&self) -> PyResult<ColumnFormat> {
-        if self.channel.is_some() {
-            return Err(refuse("a file of columns has no `channel`: give `columns`"));
-        }
-        let unit = self.unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?;
-        let format = ColumnFormat {
-            header_lines: self.header_lines.unwrap_or(0),
-            ..ColumnFormat::new(unit_of(unit)?)
-        };
-        Ok(match (self.time_step, self.columns) {
-            (Some(step), columns) => ColumnFormat {
-                time_step: Some(step),
-                acceleration_column: columns.map(|[_, acceleration]| acceleration),
-                ..format
-            },
-            (None, Some([time, acceleration])) => ColumnFormat {
-                time_column: time,
-                acceleration_column: Some(acceleration),
-                ..format
-            },
-            (None, None) => format,
-        })
-    }
-
-    /// The reader of files in a `unit` of their own.
-    fn checked(
-        &self,
-        format: &str,
-        unit: AccelerationUnit,
-        several: bool,
-        reader: impl RecordFormat + 'static,
-    ) -> PyResult<Box<dyn RecordFormat>> {
-        self.check(format, Some(unit), several)?;
-        Ok(Box::new(reader))
-    }
-
-    /// Error for options that files of a format do not take; `own` is their unit.
-    fn check(&self, format: &str, own: Option<AccelerationUnit>, several: bool) -> PyResult<()> {
-        let given = [
-            ("columns", self.columns.is_some()),
-            ("time_step", self.time_step.is_some()),
-            ("header_lines", self.header_lines.is_some()),
-            ("channel", self.channel.is_some_and(|channel| !several && channel != 1)),
-        ];
-        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(refuse(format!("files of the format '{format}' take no `{name}`")));
-        }
-        match (self.unit, own) {
-            (Some(name), Some(own)) if unit_of(name)? != own => Err(refuse(format!(
-                "unit is '{name}', but files of the format '{format}' are in {own}: leave it out"
-            ))),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A unit of acceleration by its symbol.
-fn unit_of(symbol: &str) -> PyResult<AccelerationUnit> {
-    symbol.parse().or_raise()
 }
 
 /// A treatment of the baseline by its name, which may hold a degree of its own.

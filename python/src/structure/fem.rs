@@ -173,15 +173,21 @@ impl PyFemModel {
     }
 }
 
-/// A mesh of quadrilaterals from the file of Gmsh (format 4.1, ASCII) at ``path``.
+/// A mesh of quadrilaterals from the file of Gmsh (formats 4.1 and 2.2, text or binary) at ``path``; nodes at the same
+/// place within ``merge_within`` (m) become one, none unless given.
 #[pyclass(name = "GmshMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshMesh(GmshMesh);
 
 #[pymethods]
 impl PyGmshMesh {
+    #[pyo3(signature = (path, *, merge_within=None))]
     #[new]
-    fn new(path: PathBuf) -> PyResult<Self> {
-        Ok(Self(GmshMesh::read(path).or_raise()?))
+    fn new(path: PathBuf, merge_within: Option<f64>) -> PyResult<Self> {
+        let mut mesh = GmshMesh::read(path).or_raise()?;
+        if let Some(tolerance) = merge_within {
+            mesh.merge_nodes(tolerance).or_raise()?;
+        }
+        Ok(Self(mesh))
     }
 
     /// List of the names of the groups of quadrilaterals.

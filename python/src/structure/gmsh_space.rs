@@ -14,8 +14,9 @@ use crate::array::{Count, Rows, real};
 use crate::error::OrRaise;
 use crate::several::no_such;
 
-/// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (format 4.1, ASCII) at
-/// ``path``.
+/// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats
+/// 4.1 and 2.2, text or binary) at ``path``; nodes at the same place within ``merge_within`` (m) become one, none unless
+/// given.
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 
@@ -54,9 +55,14 @@ fn own<'a, 'py, T: PyClass>(entry: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<
 
 #[pymethods]
 impl PyGmshSpaceMesh {
+    #[pyo3(signature = (path, *, merge_within=None))]
     #[new]
-    fn new(path: PathBuf) -> PyResult<Self> {
-        Ok(Self(GmshSpaceMesh::read(path).or_raise()?))
+    fn new(path: PathBuf, merge_within: Option<f64>) -> PyResult<Self> {
+        let mut mesh = GmshSpaceMesh::read(path).or_raise()?;
+        if let Some(tolerance) = merge_within {
+            mesh.merge_nodes(tolerance).or_raise()?;
+        }
+        Ok(Self(mesh))
     }
 
     /// Places of the nodes: array of shape (nodes, 3), m. A `mesh` has the same nodes with the same numbers.

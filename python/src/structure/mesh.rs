@@ -137,6 +137,15 @@ impl PyMesh {
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
     }
 
+    /// Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
+    /// number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
+    ///
+    /// An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
+    fn merge_nodes(&mut self, tolerance: f64) -> PyResult<(usize, Vec<usize>)> {
+        let merged = self.0.merge_nodes(tolerance).or_raise()?;
+        Ok((merged.count, merged.indices))
+    }
+
     /// Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m.
     #[getter]
     fn nodes(&self) -> Rows {

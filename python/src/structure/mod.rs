@@ -1,5 +1,6 @@
 //! Structures.
 
+mod beam_ends;
 mod beam_section;
 mod block;
 mod building;
@@ -17,6 +18,7 @@ mod mesh;
 mod shells;
 mod superclass;
 
+pub(crate) use beam_ends::{PyBeamEndRows, PyBeamRows};
 pub(crate) use beam_section::PyBeamSection;
 pub(crate) use block::{PyRigidBlock, PyRigidBody};
 pub(crate) use building::{PyPlanStorey, PyShearBuilding, PyStorey, PyStoreyBuilding};

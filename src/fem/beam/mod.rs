@@ -4,11 +4,13 @@ mod axes;
 mod axial_force;
 mod bar;
 mod bending;
+mod end_frame;
 mod plane;
 mod releases;
 mod section;
 mod space;
 
+pub(crate) use end_frame::EndFrame;
 pub use plane::Beam;
 pub use section::BeamSection;
 pub use space::SpaceBeam;

@@ -3,9 +3,11 @@
 use super::axial_force::AxialForce;
 use super::bar::{self, BarMatrix};
 use super::bending::{Bending, EndMatrix, put};
+use super::end_frame::EndFrame;
 use crate::error::{Result, finite, not_negative, positive};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::line::Line;
+use crate::fem::vector::{add, cross, direction};
 use crate::geometry::{Direction, FRAME};
 
 /// Straight prismatic beam of the plane between two nodes that rotate with it.
@@ -103,11 +105,25 @@ impl Beam {
         let compression = finite("axial force of the beam", compression)?;
         Ok(Self { force: AxialForce::given(compression), ..self })
     }
+
+    /// Axes of the beam; its ends lie at its nodes.
+    #[expect(clippy::unused_self, reason = "as for beams in space")]
+    pub(crate) fn end_frame(&self, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
+        let &[first, second] = coordinates else { return None };
+        let (_, along) = direction(add(second, -1.0, first));
+        let to_reader = [0.0, 0.0, 1.0];
+        let axes = [along, cross(to_reader, along), to_reader];
+        Some(EndFrame { axes, offsets: [[0.0; 3]; 2] })
+    }
 }
 
 impl Element for Beam {
     fn nodes(&self) -> &[usize] {
         &self.nodes
+    }
+
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        Some(Box::new(Self { nodes: nodes.try_into().ok()?, ..self.clone() }))
     }
 
     fn directions(&self) -> &[Direction] {

@@ -4,6 +4,7 @@ use super::axes::{Axes, EndsMatrix};
 use super::axial_force::AxialForce;
 use super::bar::{self, BarMatrix};
 use super::bending::{Bending, EndMatrix, put};
+use super::end_frame::EndFrame;
 use super::releases::Releases;
 use super::section::BeamSection;
 use crate::error::{Error, Result, all_finite, finite, positive, same_length};
@@ -171,6 +172,11 @@ impl SpaceBeam {
         Axes::new(self.ends(coordinates)?, self.orientation).ok()
     }
 
+    /// Axes and offsets of the ends.
+    pub(crate) fn end_frame(&self, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
+        Some(EndFrame { axes: self.axes(coordinates)?.axes, offsets: self.offsets })
+    }
+
     /// Stiffness without releases.
     fn local_stiffness(&self, length: f64) -> EndsMatrix {
         let bending = self.bending.map(|plane| plane.stiffness(length));
@@ -216,6 +222,10 @@ impl SpaceBeam {
 impl Element for SpaceBeam {
     fn nodes(&self) -> &[usize] {
         &self.nodes
+    }
+
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        Some(Box::new(Self { nodes: nodes.try_into().ok()?, ..self.clone() }))
     }
 
     fn directions(&self) -> &[Direction] {

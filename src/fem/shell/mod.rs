@@ -277,6 +277,11 @@ impl Element for Shell {
         self.nodes.as_slice()
     }
 
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        (nodes.len() == self.nodes.as_slice().len()).then_some(())?;
+        Some(Box::new(Self { nodes: Corners::of(nodes)?, ..self.clone() }))
+    }
+
     fn directions(&self) -> &[Direction] {
         IN_SPACE
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::kind::Kind;
-use super::parse::{Point, Raw, RawCell, twice};
+use super::raw::{Point, Raw, RawCell, twice};
 use crate::error::{Error, FileFault};
 
 /// An element: its kind, the names of its groups, the indices of its nodes, its tag and its line in the file.

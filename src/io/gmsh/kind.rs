@@ -127,7 +127,7 @@ const NAMES: [&str; 19] = [
 
 impl Accepted {
     /// Kind with this `number` in the format; the fault names the `count` of elements that are not accepted.
-    pub(super) fn kind(&self, number: u32, count: usize) -> Result<Kind, FileFault> {
+    pub(super) fn kind(&self, number: u32, count: u64) -> Result<Kind, FileFault> {
         if let Some((_, kind)) = self.kinds.iter().find(|(own, _)| *own == number) {
             return Ok(*kind);
         }

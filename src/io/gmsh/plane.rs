@@ -6,11 +6,13 @@ use std::path::Path;
 
 use super::cell::{self, Cell, group_names};
 use super::kind::{IN_PLANE, Kind};
-use super::parse::{self, twice};
+use super::merge::MergedNumbers;
+use super::parse;
+use super::raw::{Point, twice};
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
 
-/// A mesh of quadrilaterals as Gmsh writes it: file format 4.1, ASCII (`gmsh -2 -format msh41`).
+/// A mesh of quadrilaterals as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -2 -format msh41`).
 ///
 /// [`GmshSpaceMesh`](super::GmshSpaceMesh) reads meshes in space.
 ///
@@ -76,7 +78,7 @@ impl GmshMesh {
             let [x, y, _] = point.values;
             most.max(x.abs()).max(y.abs())
         });
-        let off = |point: &&parse::Point| point.values[2].abs() > FLAT * size;
+        let off = |point: &&Point| point.values[2].abs() > FLAT * size;
         if let Some(point) = numbered.points.iter().copied().find(off) {
             let fault = FileFault::value("z of a node", point.values[2].to_string(), "0");
             return Err(refuse((point.line, fault)));
@@ -98,6 +100,27 @@ impl GmshMesh {
     /// Coordinates of the nodes of quadrilaterals, m.
     pub fn nodes(&self) -> &[[f64; 2]] {
         &self.nodes
+    }
+
+    /// Merges nodes that lie at the same place within `tolerance` (m); returns the number of nodes that are gone.
+    ///
+    /// Files have such nodes where surfaces of the geometry touch without a common curve
+    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a place stays. Nodes are
+    /// renumbered in their order, in all elements and groups.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative; [`Error::Part`](crate::Error::Part) for nodes in a row that
+    /// lie within the tolerance of each other, while its ends do not; [`Error::File`] with the line of an element that
+    /// merging makes degenerate or equal to another one. The mesh is then as it was.
+    pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
+        let points = self.nodes.iter().map(|&[x, y]| [x, y, 0.0]).collect::<Vec<_>>();
+        let numbers = MergedNumbers::new(&points, tolerance)?;
+        numbers.check(&self.file, self.quads.iter().chain(&self.lines))?;
+        for cell in self.quads.iter_mut().chain(&mut self.lines) {
+            numbers.apply(&mut cell.nodes);
+        }
+        self.nodes = numbers.kept(&self.nodes);
+        Ok(points.len() - self.nodes.len())
     }
 
     /// Names of the groups of quadrilaterals, sorted.

@@ -6,12 +6,14 @@ use std::path::Path;
 
 use super::cell::{self, Cell, group_names, sorted};
 use super::kind::{IN_SPACE, Kind};
-use super::parse::{self, twice};
+use super::merge::MergedNumbers;
+use super::parse;
 use super::part::GmshPart;
+use super::raw::twice;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{Hex8, Mesh, Shell, SpaceBeam};
 
-/// A mesh in space as Gmsh writes it: file format 4.1, ASCII (`gmsh -3 -format msh41`).
+/// A mesh in space as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -3 -format msh41`).
 ///
 /// The names of physical groups say which elements become beams, shells or bricks ([`GmshPart`]). An element belongs
 /// to all of its groups; an element in no group has the name "". Points, lines, triangles, quadrilaterals and
@@ -88,6 +90,27 @@ impl GmshSpaceMesh {
     /// Coordinates [x, y, z] of the nodes, m.
     pub fn nodes(&self) -> &[[f64; 3]] {
         &self.nodes
+    }
+
+    /// Merges nodes that lie at the same place within `tolerance` (m); returns the number of nodes that are gone.
+    ///
+    /// Files have such nodes where surfaces of the geometry touch without a common curve
+    /// (`geo.removeAllDuplicates` or `occ.fragment` in Gmsh avoid them). The first node of a place stays. Nodes are
+    /// renumbered in their order, in all elements and groups.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless the tolerance is finite and not negative; [`Error::Part`](crate::Error::Part) for nodes in a row that
+    /// lie within the tolerance of each other, while its ends do not; [`Error::File`] with the line of an element that
+    /// merging makes degenerate or equal to another one. The mesh is then as it was.
+    pub fn merge_nodes(&mut self, tolerance: f64) -> Result<usize> {
+        let points = self.nodes.clone();
+        let numbers = MergedNumbers::new(&points, tolerance)?;
+        numbers.check(&self.file, self.cells.iter())?;
+        for cell in &mut self.cells {
+            numbers.apply(&mut cell.nodes);
+        }
+        self.nodes = numbers.kept(&self.nodes);
+        Ok(points.len() - self.nodes.len())
     }
 
     /// Names of the groups of this dimension, sorted: 0 of points, 1 of lines, 2 of surfaces, 3 of volumes.

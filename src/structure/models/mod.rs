@@ -1,6 +1,7 @@
 //! Structures that come with the crate.
 
 mod base_reactions;
+mod beam_rows;
 mod cut;
 mod dof_names;
 mod feet;
@@ -26,6 +27,7 @@ mod storey_section;
 #[cfg(feature = "embedded")]
 mod with_walls;
 
+pub use beam_rows::{BeamEndRows, BeamRows};
 pub use fem_model::FemModel;
 pub use group::StructureGroup;
 pub use matrix_model::MatrixModel;

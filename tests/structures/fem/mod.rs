@@ -2,6 +2,7 @@
 //! SCENE: single elements, patches, beams, frames, blocks and shear buildings.
 //! REFERENCE: closed forms, statics, and elements from outside the crate.
 
+mod beam_ends;
 mod beams;
 mod bending;
 mod by_hand;
@@ -11,6 +12,7 @@ mod errors;
 mod frames;
 mod in_space;
 mod line_loads;
+mod merging;
 mod meshes;
 mod modal_damping;
 mod own_element;

@@ -1,11 +1,28 @@
 //! Columns of fixed width, as Fortran prints numbers.
 
+use std::fmt;
+use std::str::FromStr;
+
+use crate::error::{Error, Result};
+use crate::text::decimal::in_field;
+use crate::text::words::unknown;
+
 /// Largest number of fields in a line, and largest width of a field, in a format.
 const MOST: usize = 1000;
 
-/// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`.
+/// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`: columns of equal width.
+///
+/// ```
+/// use basemat::motion::FortranFormat;
+/// let format: FortranFormat = "8F9.6".parse()?;
+/// assert_eq!((format.numbers_per_line(), format.to_string()), (8, "(8F9.6)".to_owned()));
+/// assert!("8F9.6,2X".parse::<FortranFormat>().is_err());
+/// # Ok::<(), basemat::Error>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct FixedColumns {
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "String", into = "String"))]
+pub struct FortranFormat {
     /// Numbers in a full line.
     pub(super) repeat: usize,
     /// Characters of each number.
@@ -16,7 +33,53 @@ pub(super) struct FixedColumns {
     pub(super) scale: u16,
 }
 
-impl FixedColumns {
+/// Numbers of a line, and the whole number behind them, as cards have it in columns 73 to 80.
+pub(super) struct Card {
+    pub(super) numbers: Vec<f64>,
+    pub(super) card: Option<u64>,
+}
+
+impl FortranFormat {
+    /// Numbers in a full line.
+    pub fn numbers_per_line(&self) -> usize {
+        self.repeat
+    }
+
+    /// The numbers of a line in these columns; `None` if the line does not match them.
+    ///
+    /// Behind the columns may stand the number of a card and nothing else.
+    pub(super) fn card(self, line: &str) -> Option<Card> {
+        let end = line.len().min(self.repeat * self.width);
+        if !line.is_ascii() {
+            return None;
+        }
+        let (columns, rest) = line.split_at(end);
+        let fields = self.fields(columns.trim_end())?;
+        let goes_on = rest.starts_with(|sign: char| sign.is_ascii_digit() || sign == '.');
+        if goes_on && !fields.last().is_some_and(|field| self.ends_in_column(field)) {
+            return None;
+        }
+        let card = match rest.trim() {
+            "" => None,
+            number => Some(number.parse().ok().filter(|_| !number.starts_with('+'))?),
+        };
+        let value = |field: &&str| in_field(field, self.decimals, self.scale);
+        let numbers: Option<Vec<f64>> = fields.iter().map(value).collect();
+        Some(Card { numbers: numbers?, card })
+    }
+
+    /// Whether numbers without a point have decimals.
+    pub(super) fn has_implied_points(self) -> bool {
+        self.decimals > 0
+    }
+
+    /// Whether a number with a point has as many decimals as the format, so that it ends where its column does.
+    fn ends_in_column(self, field: &str) -> bool {
+        let mantissa = field.split(['E', 'e', 'D', 'd']).next().unwrap_or(field);
+        let decimals = mantissa.split_once('.').map(|(_, decimals)| decimals.len());
+        decimals.is_none_or(|decimals| decimals == usize::from(self.decimals))
+    }
+
     /// The last format in brackets in `text`, or the one after `format=` without brackets.
     ///
     /// `None` if it is not one repeated item.
@@ -89,12 +152,50 @@ impl FixedColumns {
         let ends_there = |(k, field): (usize, &&str)| {
             let next = line.as_bytes().get((k + 1) * self.width);
             let goes_on = next.is_some_and(|sign| sign.is_ascii_digit() || *sign == b'.');
-            let mantissa = field.split(['E', 'e', 'D', 'd']).next().unwrap_or(field);
-            let decimals = mantissa.split_once('.').map(|(_, decimals)| decimals.len());
-            !goes_on || decimals.is_none_or(|decimals| decimals == usize::from(self.decimals))
+            !goes_on || self.ends_in_column(field)
         };
         let kept = fields.iter().all(whole) && fields.iter().enumerate().all(ends_there);
         kept.then_some(fields)
+    }
+}
+
+/// Accepts brackets around the format.
+impl FromStr for FortranFormat {
+    type Err = Error;
+
+    /// # Errors
+    /// [`Error::Name`] unless the text is one repeated item.
+    fn from_str(text: &str) -> Result<Self> {
+        let item = text.trim();
+        let bare = item.strip_prefix('(').and_then(|item| item.strip_suffix(')')).unwrap_or(item);
+        let known = &["8F10.5", "1E15.6", "1P8E10.3", "10I8"];
+        Self::parse(bare).ok_or_else(|| unknown("Fortran format of one item", text, known))
+    }
+}
+
+impl fmt::Display for FortranFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { repeat, width, decimals, scale } = self;
+        match scale {
+            0 => write!(f, "({repeat}F{width}.{decimals})"),
+            _ => write!(f, "({scale}P{repeat}F{width}.{decimals})"),
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<String> for FortranFormat {
+    type Error = Error;
+
+    fn try_from(text: String) -> Result<Self> {
+        text.parse()
+    }
+}
+
+#[cfg(feature = "serde")]
+impl From<FortranFormat> for String {
+    fn from(format: FortranFormat) -> Self {
+        format.to_string()
     }
 }
 
@@ -105,7 +206,7 @@ mod tests {
     #[test]
     fn formats_are_found() {
         let scaled =
-            |scale, repeat, width, decimals| Some(FixedColumns { repeat, width, decimals, scale });
+            |scale, repeat, width, decimals| Some(FortranFormat { repeat, width, decimals, scale });
         let columns = |repeat, width, decimals| scaled(0, repeat, width, decimals);
         for (text, known) in [
             ("4 points, in cm/sec2. (8f10.6)", columns(8, 10, 6)),
@@ -128,18 +229,37 @@ mod tests {
             ("8F10.5", None),
             ("", None),
         ] {
-            assert_eq!(FixedColumns::find(text), known, "{text}");
+            assert_eq!(FortranFormat::find(text), known, "{text}");
         }
     }
 
     #[test]
     fn lines_are_cut() {
-        let columns = FixedColumns { repeat: 3, width: 4, decimals: 1, scale: 0 };
+        let columns = FortranFormat { repeat: 3, width: 4, decimals: 1, scale: 0 };
         assert_eq!(columns.fields("12345678"), Some(vec!["1234", "5678"]));
         assert_eq!(columns.fields("   1-2.312"), Some(vec!["1", "-2.3", "12"]));
         assert_eq!(columns.fields(""), Some(vec![]));
         for other in ["1 2 3", "1234        1", "123456781234 ", "é", "2.125", "1.25512"] {
             assert_eq!(columns.fields(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn cards_have_a_number_behind_their_columns() {
+        let format: FortranFormat = "(2F9.6)".parse().unwrap();
+        let read = |line: &str| format.card(line).map(|card| (card.numbers, card.card));
+        assert_eq!(read("-0.276388-0.272017"), Some((vec![-0.276_388, -0.272_017], None)));
+        assert_eq!(
+            read("-0.276388-0.272017       2"),
+            Some((vec![-0.276_388, -0.272_017], Some(2)))
+        );
+        assert_eq!(
+            read("-0.276388-0.27201700000002"),
+            Some((vec![-0.276_388, -0.272_017], Some(2)))
+        );
+        assert_eq!(read(" 0.276388               12"), Some((vec![0.276_388], Some(12))));
+        for other in ["-0.276388-0.2720170.1", "-0.276388-0.272017 1 2", "-10.000000-10.055655"] {
+            assert_eq!(read(other), None, "{other}");
         }
     }
 
@@ -155,10 +275,10 @@ mod tests {
             " (*)",
             ",",
         ] {
-            assert!(FixedColumns::is_all_of(text), "{text}");
+            assert!(FortranFormat::is_all_of(text), "{text}");
         }
         for text in ["x 1000 (8f10.3)", "(8f10.3) x 10", "(x 10)", "()", "(", "(8f10.3,2x)", "8"] {
-            assert!(!FixedColumns::is_all_of(text), "{text}");
+            assert!(!FortranFormat::is_all_of(text), "{text}");
         }
     }
 }

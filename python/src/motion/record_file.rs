@@ -1,0 +1,141 @@
+//! Options of a file of a record, and its reader.
+
+use basemat::motion::{
+    AccelerationUnit, AfadFormat, AlongLinesFormat, ColumnFormat, CosmosFormat, EsmFormat,
+    GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat, RecordFormat, SlistFormat, SmcFormat,
+};
+use pyo3::prelude::*;
+
+use crate::error::{OrRaise, refuse};
+
+/// What is said of a file that is to be read.
+#[derive(Default)]
+pub(super) struct FileOptions<'a> {
+    pub(super) unit: Option<&'a str>,
+    pub(super) time_step: Option<f64>,
+    pub(super) columns: Option<[usize; 2]>,
+    pub(super) channel: Option<usize>,
+    pub(super) header_lines: Option<usize>,
+    pub(super) samples: Option<usize>,
+    pub(super) layout: Option<&'a str>,
+}
+
+impl FileOptions<'_> {
+    /// The reader of a format by its name, which must take the options.
+    pub(super) fn reader(&self, format: &str) -> PyResult<Box<dyn RecordFormat>> {
+        use AccelerationUnit::{Gal, MillimetrePerSecondSquared, StandardGravity};
+        let component = self.channel.unwrap_or(1);
+        Ok(match format {
+            "columns" => Box::new(self.column_format()?),
+            "along_lines" => Box::new(self.along_lines()?),
+            "slist" => {
+                self.check(format, None, true)?;
+                let unit = self.unit.map(unit_of).transpose()?;
+                Box::new(SlistFormat { component, unit })
+            }
+            "cosmos" => {
+                self.check(format, None, true)?;
+                let unit = self.unit.map(unit_of).transpose()?;
+                Box::new(CosmosFormat { channel: component, unit })
+            }
+            "peer" => self.checked(format, StandardGravity, false, PeerFormat)?,
+            "k_net" => self.checked(format, Gal, false, KNetFormat)?,
+            "k_net_csv" => self.checked(format, Gal, true, KNetCsvFormat { component })?,
+            "esm" => self.checked(format, Gal, false, EsmFormat)?,
+            "afad" => self.checked(format, Gal, true, AfadFormat { component })?,
+            "smc" => self.checked(format, Gal, false, SmcFormat)?,
+            "geonet" => {
+                let reader = GeoNetFormat { component };
+                self.checked(format, MillimetrePerSecondSquared, true, reader)?
+            }
+            _ => {
+                return Err(refuse(format!(
+                    "format is '{format}', but must be 'columns', 'along_lines', 'peer', 'cosmos', \
+                     'k_net', 'k_net_csv', 'esm', 'afad', 'slist', 'smc' or 'geonet'"
+                )));
+            }
+        })
+    }
+
+    fn column_format(&self) -> PyResult<ColumnFormat> {
+        if self.channel.is_some() {
+            return Err(refuse("a file of columns has no `channel`: give `columns`"));
+        }
+        if self.layout.is_some() {
+            return Err(refuse("a file of columns takes no `layout`: read format=\"along_lines\""));
+        }
+        let unit = self.unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?;
+        let format = ColumnFormat {
+            header_lines: self.header_lines.unwrap_or(0),
+            samples: self.samples,
+            ..ColumnFormat::new(unit_of(unit)?)
+        };
+        Ok(match (self.time_step, self.columns) {
+            (Some(step), columns) => ColumnFormat {
+                time_step: Some(step),
+                acceleration_column: columns.map(|[_, acceleration]| acceleration),
+                ..format
+            },
+            (None, Some([time, acceleration])) => ColumnFormat {
+                time_column: time,
+                acceleration_column: Some(acceleration),
+                ..format
+            },
+            (None, None) => format,
+        })
+    }
+
+    fn along_lines(&self) -> PyResult<AlongLinesFormat> {
+        let given = [("columns", self.columns.is_some()), ("channel", self.channel.is_some())];
+        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(refuse(format!("values along lines have no `{name}`")));
+        }
+        let missing = |name| refuse(format!("a file of values along lines has no {name}"));
+        let unit = self.unit.ok_or_else(|| missing("unit: give `unit`"))?;
+        let step = self.time_step.ok_or_else(|| missing("times: give `time_step`"))?;
+        Ok(AlongLinesFormat {
+            layout: self.layout.map(str::parse).transpose().or_raise()?,
+            samples: self.samples,
+            header_lines: self.header_lines.unwrap_or(0),
+            ..AlongLinesFormat::new(unit_of(unit)?, step)
+        })
+    }
+
+    /// The reader of files in a `unit` of their own.
+    fn checked(
+        &self,
+        format: &str,
+        unit: AccelerationUnit,
+        several: bool,
+        reader: impl RecordFormat + 'static,
+    ) -> PyResult<Box<dyn RecordFormat>> {
+        self.check(format, Some(unit), several)?;
+        Ok(Box::new(reader))
+    }
+
+    /// Error for options that files of a format do not take; `own` is their unit.
+    fn check(&self, format: &str, own: Option<AccelerationUnit>, several: bool) -> PyResult<()> {
+        let given = [
+            ("columns", self.columns.is_some()),
+            ("time_step", self.time_step.is_some()),
+            ("header_lines", self.header_lines.is_some()),
+            ("samples", self.samples.is_some()),
+            ("layout", self.layout.is_some()),
+            ("channel", self.channel.is_some_and(|channel| !several && channel != 1)),
+        ];
+        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
+            return Err(refuse(format!("files of the format '{format}' take no `{name}`")));
+        }
+        match (self.unit, own) {
+            (Some(name), Some(own)) if unit_of(name)? != own => Err(refuse(format!(
+                "unit is '{name}', but files of the format '{format}' are in {own}: leave it out"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A unit of acceleration by its symbol.
+pub(super) fn unit_of(symbol: &str) -> PyResult<AccelerationUnit> {
+    symbol.parse().or_raise()
+}

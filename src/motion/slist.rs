@@ -1,0 +1,128 @@
+//! Records as sample lists in text, of the FDSN web services and ObsPy.
+//!
+//! Layout: EarthScope Data Services, *Simple ASCII time series formats* (service.iris.edu/irisws/timeseries/docs): for
+//! each series a line `TIMESERIES network_station_location_channel_quality, 200 samples, 100 sps, start, SLIST, FLOAT,
+//! units`, then the samples along the lines, six on each.
+
+use std::io::Read;
+
+use super::block::is_raw;
+use super::fault::{no_acceleration, not_in_header, unprocessed};
+use super::lines::{
+    Lines, Reason, Series, component, count, push_numbers, record, records, scaled,
+};
+use super::{AccelerationUnit, Record, RecordFormat};
+use crate::error::{FileFault, Result};
+use crate::text::decimal::{finite, quoted};
+
+/// The `SLIST` files of the FDSN web services and of ObsPy.
+///
+/// Each series has a header with number of samples, samples a second and unit; the samples follow along the lines.
+/// [`Record::read_all`] returns all series. Counts of a recorder, pairs of time and sample (`TSPAIR`) and series in
+/// several pieces are errors.
+///
+/// ```
+/// use basemat::motion::{Record, SlistFormat};
+/// let text = "TIMESERIES XX_STA1_00_HNE_D, 4 samples, 100 sps, 2020-01-01T00:00:00.000000, SLIST, FLOAT, M/S**2\n\
+///     0.0\t0.5\t-0.2\n0.1\n";
+/// let record = Record::from_reader("sta1.txt", text.as_bytes(), &SlistFormat::default())?;
+/// assert_eq!((record.time_step(), record.accelerations()), (0.01, &[0.0, 0.5, -0.2, 0.1][..]));
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct SlistFormat {
+    /// Number of the series, counted from 1 in the order of the file.
+    pub component: usize,
+    /// Unit of files whose header has none.
+    pub unit: Option<AccelerationUnit>,
+}
+
+impl Default for SlistFormat {
+    /// The first series, in the unit of its header.
+    fn default() -> Self {
+        Self { component: 1, unit: None }
+    }
+}
+
+impl RecordFormat for SlistFormat {
+    fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
+        record(name, component(self.component, read(&mut Lines::new(source), self.unit)))
+    }
+
+    fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
+        records(name, read(&mut Lines::new(source), self.unit))
+    }
+}
+
+/// Header of a series.
+struct Header {
+    name: String,
+    samples: usize,
+    /// Time step, s.
+    step: f64,
+    unit: AccelerationUnit,
+}
+
+impl Header {
+    fn read(line: &str, known: Option<AccelerationUnit>) -> std::result::Result<Self, FileFault> {
+        let fields: Vec<&str> = line.split(',').map(str::trim).collect();
+        let name = fields[0].strip_prefix("TIMESERIES").map(str::trim);
+        let name = name.ok_or_else(|| FileFault::format(quoted(line), "a line `TIMESERIES …`"))?;
+        let number = |index: usize, word: &str| {
+            let field: &str = fields.get(index)?;
+            finite(field.strip_suffix(word)?.trim_end())
+        };
+        let samples = number(1, "samples").and_then(count);
+        let samples = samples.ok_or_else(|| not_in_header("number of samples"))?;
+        let rate = number(2, "sps").filter(|&rate| rate > 0.0);
+        let rate = rate.ok_or_else(|| not_in_header("number of samples a second (sps)"))?;
+        let layout = fields.get(4).copied().unwrap_or("");
+        if layout != "SLIST" {
+            return Err(FileFault::format(quoted(layout), "SLIST, samples along the lines"));
+        }
+        let unit = match fields.get(6).copied().unwrap_or("") {
+            "" => known.ok_or_else(|| not_in_header("unit"))?,
+            name if is_raw(&name.to_lowercase()) => {
+                return Err(unprocessed(line, "counts of a recorder"));
+            }
+            name => {
+                let unit = AccelerationUnit::named(name);
+                let unit = unit.filter(|unit| known.is_none_or(|known| known == *unit));
+                unit.ok_or_else(|| no_acceleration(name))?
+            }
+        };
+        Ok(Self { name: name.to_owned(), samples, step: 1.0 / rate, unit })
+    }
+}
+
+fn read(lines: &mut Lines, known: Option<AccelerationUnit>) -> Reason<Vec<Series>> {
+    let mut all: Vec<Series> = Vec::new();
+    let mut next = lines.next()?;
+    while let Some(line) = next {
+        if line.is_empty() {
+            next = lines.next()?;
+            continue;
+        }
+        let header = Header::read(&line, known).map_err(|why| lines.refuse(why))?;
+        if all.iter().any(|series| series.name == header.name) {
+            let found = format!("second piece of {}", quoted(&header.name));
+            let needed = "series without gaps: one piece of each";
+            return Err(lines.refuse(FileFault::format(found, needed)));
+        }
+        let mut values = Vec::new();
+        next = lines.next()?;
+        while let Some(line) = next.take_if(|line| !line.starts_with("TIMESERIES")) {
+            push_numbers(&line, &mut values).map_err(|why| lines.refuse(why))?;
+            next = lines.next()?;
+        }
+        if values.len() != header.samples {
+            let needed = header.samples.to_string();
+            return Err(lines.refuse(FileFault::count("samples", values.len(), needed)));
+        }
+        let samples = scaled(values, header.unit.in_metres_per_second_squared());
+        all.push(Series { name: header.name, step: header.step, samples });
+    }
+    Ok(all)
+}
