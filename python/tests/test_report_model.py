@@ -137,7 +137,7 @@ def test_every_parameter_stands_in_the_table_with_its_unit(tmp_path: Path) -> No
 
 def test_what_a_program_cannot_say_is_said(tmp_path: Path) -> None:
     block = bm.RigidBlock(6.0, 9.0, 1000.0)
-    motion = bm.free_field(lambda x, t: 0.01 * np.sin(6.0 * t), lambda t: -0.36 * np.sin(6.0 * t))
+    motion = bm.free_field(acceleration=lambda t: 0.4 * np.sin(6.0 * t), time_step=0.01, duration=2.0)
     simulation = bm.Simulation(0.01, block, bm.ElasticGround.under(SOIL, block, 4), bm.Coulomb(0.5), motion=motion)
     run = simulation.run(20, warn=False)
     run.report(tmp_path / "run.html", simulation)

@@ -17,7 +17,7 @@ BLOCK = bm.RigidBlock(6.0, 9.0, 1000.0)
 def test_a_dict_of_probes_is_answered_by_the_list_of_its_values() -> None:
     probes = {"roof": bm.Probe.acceleration("roof", BLOCK.horizontal_at(9.0))}
     ground = bm.ElasticGround.under(SOIL, BLOCK, 4)
-    with pytest.raises(TypeError, match=r"probes.*: of the type dict, but must be a list of Probe without keys: list\(….values\(\)\)"):
+    with pytest.raises(TypeError, match=r"of the type dict, but must be a list of Probe without keys: list\(….values\(\)\)"):
         bm.Simulation(0.01, BLOCK, ground, bm.Coulomb(0.5), probes=probes)  # type: ignore[arg-type]
     assert bm.Simulation(0.01, BLOCK, ground, bm.Coulomb(0.5), probes=list(probes.values())).probe_names == ["roof"]
 
@@ -46,7 +46,7 @@ def raft(modulus: float) -> bm.FemModel:
 
 def test_a_modulus_in_gpa_is_a_question_of_units() -> None:
     model = raft(30.0)
-    with pytest.raises(bm.InputError, match=r"its flexible base needs about \d+.*check the units \(moduli in Pa, lengths in m"):
+    with pytest.raises(bm.InputError, match=r"its flexible base needs (about )?\d+.*check the units \(moduli in Pa, lengths in m"):
         simulation = bm.Simulation(0.01, model, bm.ElasticGround.under(SOIL, model, 8), bm.Coulomb(0.5))
         raise bm.InputError("; ".join(simulation.run(1, warn=False).warnings))
     model = raft(30e9)

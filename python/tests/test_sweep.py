@@ -167,6 +167,13 @@ def test_warnings_are_a_column() -> None:
     with pytest.raises(ValueError, match="'warnings'"):
         bm.sweep(shaken, {"warnings": [1.0]})
 
+    # Also of runs that make runs itself, in any thread.
+    for jobs in (1, 2):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            table = bm.sweep(lambda peak: {"steps": shaken(peak).run(1000).steps}, {"peak": [0.5, 60.0]}, jobs=jobs)
+        assert table["warnings"].tolist() == [None, loud]
+
 
 def test_a_frame_has_a_case_in_each_row() -> None:
     cases = [{"a": 2, "b": "x"}, {"a": 3, "b": "y"}]

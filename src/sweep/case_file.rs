@@ -188,7 +188,7 @@ impl CaseFile {
     ///
     /// # Errors
     /// [`SweepError::Unwritten`] with all rows so far if the row cannot be written; later rows are then refused in the same
-    /// way, so that only the last line of the file can be incomplete. [`Error::Part`] for a case that has a row or does
+    /// way, so that only the last line of the file can be incomplete. [`Error::Scene`] for a case that has a row or does
     /// not belong to the sweep, [`Error::Size`] if the numbers of names and results differ, and [`Error::DuplicateName`]
     /// for a result with the name of another column.
     pub fn append<S: AsRef<str>>(

@@ -14,6 +14,7 @@ impl Columns {
     }
 
     /// The `results` of columns with other `names`, in the order of these columns; NaN where there is none.
+    #[cfg(feature = "io")]
     pub(super) fn arranged(&self, names: &[String], results: Vec<f64>) -> Vec<f64> {
         if self.names == names {
             return results;

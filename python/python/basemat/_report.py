@@ -30,6 +30,7 @@ table { border-collapse: collapse } td, th { padding: .15rem .8rem; text-align: 
 td:first-child, th:first-child { text-align: left } .words td { text-align: left; vertical-align: top }
 img { max-width: 100% } pre { line-height: 1.2; overflow-x: auto } .warning { color: #a33 }
 .wide { overflow-x: auto } .words td, p { overflow-wrap: anywhere }
+.words th { text-align: left } .words td:nth-child(3) { white-space: nowrap }
 @media (max-width: 40rem) { body { margin: 1rem auto; padding: 0 .7rem } td, th { padding: .15rem .4rem } }
 """
 _PLAYER = """

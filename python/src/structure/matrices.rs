@@ -50,9 +50,9 @@ impl PyMatrixModel {
             MatrixModel::with_damping
         };
         let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dofs)?)
+            .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .with(damping, |model, matrix| damped(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
-            .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
             .or_raise()?;
         let own = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
         Ok(PyClassInitializer::from(own).add_subclass(Self))
