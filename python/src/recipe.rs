@@ -43,6 +43,7 @@ impl<T: Structure + Sync> Structure for Shared<T> {
         has_active_stiffness() -> bool;
         tallest_storey() -> Option<f64>;
         triangle_sides() -> Option<[f64; 2]>;
+        faces_off_ground() -> Option<(usize, [f64; 2])>;
         load(time: f64, load: &mut [f64]) -> Result<()>;
     }
 

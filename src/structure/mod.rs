@@ -12,6 +12,7 @@ macro_rules! forward_structure {
             fn has_active_stiffness(&$own) -> bool;
             fn tallest_storey(&$own) -> Option<f64>;
             fn triangle_sides(&$own) -> Option<[f64; 2]>;
+            fn faces_off_ground(&$own) -> Option<(usize, [f64; 2])>;
             fn describe(&$own, dofs: &[usize]) -> Option<String>;
             fn load(&$own, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
         }
@@ -215,6 +216,13 @@ pub trait Structure: Any + Send {
     /// The longest is √(R t) for the radius R and the thickness t ([`Shell`](crate::fem::Shell)). A run warns of longer
     /// sides. Default: `None`.
     fn triangle_sides(&self) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// Faces of elements at the height of the base that do not touch the ground, because the base does not name them.
+    ///
+    /// Their number, and the middle of the first, m. A run warns of them. Default: `None`.
+    fn faces_off_ground(&self) -> Option<(usize, [f64; 2])> {
         None
     }
 

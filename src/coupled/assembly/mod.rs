@@ -29,6 +29,7 @@ use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::assembly::held_responses::OfHeldBase;
 use crate::coupled::assembly::stepped::Stepped;
+use crate::coupled::base::tears;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
@@ -359,6 +360,8 @@ impl SimulationBuilder {
         let of_units = Warning::of_units(is_to_scale, &scene, given.gravity, pressure, storey);
         warnings.extend(of_units);
         warnings.extend(Warning::of_triangles(structure.triangle_sides()));
+        warnings.extend(Warning::of_faces_off_ground(structure.faces_off_ground()));
+        warnings.extend(Warning::of_tears(tears(&structure.base())?));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.

@@ -277,6 +277,16 @@ impl Structure for StructureGroup {
         sides.max_by(|one, other| (one[0] / one[1]).total_cmp(&(other[0] / other[1])))
     }
 
+    /// Faces of all members; the first of the first of them.
+    fn faces_off_ground(&self) -> Option<(usize, [f64; 2])> {
+        let found = self.members.iter().filter_map(|member| {
+            let (count, [x, y]) = member.structure.faces_off_ground()?;
+            let moved = member.base.nodes().next()?.x - member.structure.base().nodes().next()?.x;
+            Some((count, [x + moved, y]))
+        });
+        found.reduce(|(sum, first), (count, _)| (sum + count, first))
+    }
+
     fn load(&self, time: f64, load: &mut [f64]) -> Result<()> {
         for member in &self.members {
             if let Some(load) = load.get_mut(member.range()) {

@@ -74,6 +74,7 @@ impl Structure for WithWalls {
         fn has_active_stiffness(&self) -> bool;
         fn tallest_storey(&self) -> Option<f64>;
         fn triangle_sides(&self) -> Option<[f64; 2]>;
+        fn faces_off_ground(&self) -> Option<(usize, [f64; 2])>;
         fn describe(&self, dofs: &[usize]) -> Option<String>;
         fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
         fn nonlinear(&self) -> Option<&dyn NonlinearForce>;

@@ -345,6 +345,11 @@ impl Structure for ReducedModel {
         full.structure.triangle_sides()
     }
 
+    fn faces_off_ground(&self) -> Option<(usize, [f64; 2])> {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        full.structure.faces_off_ground()
+    }
+
     /// Kept degrees of freedom as the full model describes them, and modes by number.
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
