@@ -142,7 +142,8 @@ impl ElasticGround {
     /// Cells under a flexible base in plan extend beyond its outline by a part of the overhang under a rigid base: all
     /// of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The part
     /// follows from the structure's stiffness matrix. It is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h for
-    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h. Edges oblique to the cells
+    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h; nothing below x = 0.28, half
+    /// at x = 1. Edges oblique to the cells
     /// extend by twice as much, at most by 0.12 of a cell, and by 0.03 + 0.15/√n + 0.06/(1 + d/0.15) with n cells along the
     /// shorter side and d = D/(G R³) on a base of the area π R².
     ///

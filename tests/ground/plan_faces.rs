@@ -166,7 +166,7 @@ fn rigid_mats_of_triangles_are_as_stiff_as_one_face() {
         let about = |point: [f64; 2]| -> Vec<Face> {
             (0..4).map(|k| vec![corners[k], corners[(k + 1) % 4], point]).collect()
         };
-        let (wanted, _) = stiffness(&[corners.clone()]);
+        let (wanted, _) = stiffness(std::slice::from_ref(&corners));
         let halves = vec![corners[..3].to_vec(), vec![corners[0], corners[2], corners[3]]];
         for (name, faces) in [("two", halves), ("four", about([0.5, 0.3]))] {
             let (found, error) = stiffness(&faces);

@@ -27,6 +27,7 @@ mod slabs;
 mod sliding;
 mod springs;
 mod storeys;
+mod torn;
 mod uplift;
 mod warnings;
 mod winkler;

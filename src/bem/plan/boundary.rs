@@ -1,7 +1,7 @@
 //! Boundary of a mat: the closed lines around the union of its faces.
 //!
 //! Edges that two faces share cancel, also where corners of one face divide the edge of another, and corners on straight
-//! lines go. The lines therefore depend on the outline alone, whatever the faces that fill it.
+//! lines are left out. The lines therefore depend on the outline alone, whatever the faces that fill it.
 
 use std::collections::HashMap;
 
@@ -85,7 +85,8 @@ impl Boundary {
 
     /// Closed lines whose edges lie farther out by a distance (m) that depends on their unit normal.
     ///
-    /// Points about which the lines turn counter-clockwise at least once lie inside. Sharp corners are cut off at three times the distance.
+    /// Points about which the lines turn counter-clockwise at least once lie inside. Sharp corners are cut off at three
+    /// times the distance.
     pub(super) fn moved_outwards(&self, distance: impl Fn(Point) -> f64) -> Vec<Vec<Point>> {
         let moved = |corners: &Vec<Point>| {
             let next = corners.iter().cycle().skip(1);

@@ -98,30 +98,40 @@ impl Face {
     /// # Errors
     /// [`PlanError::Overlap`].
     pub(crate) fn check_overlap(faces: &[Self]) -> Result<()> {
-        let bounds: Vec<[[f64; 2]; 2]> = faces
-            .iter()
-            .map(|face| [0, 1].map(|axis| span(face.corners.iter().map(|p| p[axis]))))
-            .collect();
-        let mut order: Vec<usize> = (0..faces.len()).collect();
-        order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
-        for (place, &one) in order.iter().enumerate() {
-            for &other in &order[place + 1..] {
-                if bounds[other][0][0] >= bounds[one][0][1] {
-                    break;
-                }
-                let [[low, high], [from, to]] = [bounds[one][1], bounds[other][1]];
-                if low >= to || from >= high {
-                    continue;
-                }
-                let area = faces[one].common_area(&faces[other]);
-                let smaller = faces[one].area().min(faces[other].area());
-                if area > OVERLAP_TOLERANCE * smaller {
-                    let faces = [one.min(other), one.max(other)];
-                    return Err(PlanError::Overlap { faces, area }.into());
-                }
+        for [one, other] in Self::neighbours(faces) {
+            let area = faces[one].common_area(&faces[other]);
+            if area > OVERLAP_TOLERANCE * faces[one].area().min(faces[other].area()) {
+                return Err(PlanError::Overlap { faces: [one, other], area }.into());
             }
         }
         Ok(())
+    }
+
+    /// Pairs of faces whose bounding rectangles touch, each in ascending order.
+    fn neighbours(faces: &[Self]) -> Vec<[usize; 2]> {
+        let bounds: Vec<[[f64; 2]; 2]> = faces
+            .iter()
+            .map(|face| {
+                [0, 1].map(|axis| {
+                    let [low, high] = span(face.corners.iter().map(|p| p[axis]));
+                    [low - face.near, high + face.near]
+                })
+            })
+            .collect();
+        let mut order: Vec<usize> = (0..faces.len()).collect();
+        order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
+        let mut pairs = vec![];
+        for (place, &one) in order.iter().enumerate() {
+            let [[_, right], [front, back]] = bounds[one];
+            let beside =
+                order[place + 1..].iter().take_while(|other| bounds[**other][0][0] <= right);
+            let touching = beside.filter(|other| {
+                let [low, high] = bounds[**other][1];
+                low <= back && high >= front
+            });
+            pairs.extend(touching.map(|&other| [one.min(other), one.max(other)]));
+        }
+        pairs
     }
 
     /// Area inside both faces, m².
@@ -158,9 +168,9 @@ impl Face {
     /// Number of the mat of each face: faces that touch form one mat.
     pub(crate) fn mats(faces: &[Self]) -> Vec<usize> {
         let mut joined = Partition::new(faces.len());
-        for (place, face) in faces.iter().enumerate() {
-            for other in (0..place).filter(|other| face.touches(&faces[*other])) {
-                joined.join(place, other);
+        for [one, other] in Self::neighbours(faces) {
+            if faces[one].touches(&faces[other]) {
+                joined.join(one, other);
             }
         }
         let mut mats = vec![0; faces.len()];

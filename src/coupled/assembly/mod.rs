@@ -29,6 +29,7 @@ use crate::bem::Ground;
 use crate::contact::ContactSearch;
 use crate::coupled::assembly::held_responses::OfHeldBase;
 use crate::coupled::assembly::stepped::Stepped;
+use crate::coupled::base::tears;
 use crate::coupled::conditioning::conditioning;
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
@@ -363,6 +364,8 @@ impl SimulationBuilder {
             warnings.extend(Warning::of_weight(&weight, ground.as_ref()));
         }
         warnings.extend(Warning::of_triangles(description.triangle_sides));
+        warnings.extend(Warning::of_faces_off_ground(description.faces_off_ground));
+        warnings.extend(Warning::of_tears(tears(&structure.base())?));
         warnings.extend(coarse);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.

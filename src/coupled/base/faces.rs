@@ -128,7 +128,9 @@ impl<'a> Faces<'a> {
             for triangle in triangles {
                 let [a, b, c] = triangle.map(|k| corners[k]);
                 let area = side([a, b], c).abs() / triangles.len().min(2) as f64;
-                triangle.iter().for_each(|k| weights[piece[*k] - nodes.start] += area);
+                for &k in triangle {
+                    weights[piece[k] - nodes.start] += area;
+                }
             }
         }
         let sum: f64 = weights.iter().sum();

@@ -5,9 +5,12 @@ pub(crate) mod held;
 pub(crate) mod influence;
 mod line;
 mod shares;
+mod tears;
 pub(crate) mod transformation;
 
 use std::ops::Range;
+
+pub(crate) use tears::tears;
 
 use crate::coupled::base::transformation::{Rows, Terms, Transformation, Weights, accumulate};
 use crate::error::{Error, Result, at_least};
@@ -266,7 +269,7 @@ impl PlacedBase {
         self.foundations[foundation].rotations.iter().map(|rotation| rotation.of(u))
     }
 
-    /// Settlement of a foundation: mean displacement of its nodes, downwards.
+    /// Settlement of a foundation, downwards: mean displacement of its nodes, in plan over its area.
     pub(crate) fn settlement(&self, foundation: usize, u: &[f64]) -> f64 {
         self.foundations[foundation].settlement.of(u)
     }

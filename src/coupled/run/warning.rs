@@ -2,7 +2,7 @@
 
 use crate::coupled::run::Quantity;
 use crate::coupled::run::warning_text::{
-    across, height, likely_slip, unit_of_motion, with_twice_as_many,
+    across, height, likely_slip, places, unit_of_motion, with_twice_as_many,
 };
 use crate::error::{along, of_units};
 
@@ -199,6 +199,36 @@ pub enum Warning {
         error: f64,
         /// Multiple of the cells along a side with an error of 1 %.
         factor: f64,
+    },
+    /// Faces of a base in plan meet and move apart: nodes at one point that nothing ties together, or a node on the edge
+    /// of another face.
+    ///
+    /// There the base is cut, as where two meshes were put side by side.
+    #[error(
+        "base torn at {}, first at x = {x:.2} m, y = {y:.2} m: faces meet there and move apart (merge coincident nodes, \
+         tie nodes on an edge to its ends)",
+        places(*points)
+    )]
+    TornBase {
+        /// Number of points where faces move apart.
+        points: usize,
+        /// The first of these points, m.
+        x: f64,
+        /// The first of these points along y, m.
+        y: f64,
+    },
+    /// Shells or sides of solids at the height of the base do not touch the ground: the base does not name them.
+    #[error(
+        "faces at the height of the base that do not touch the ground: {faces}, first at x = {x:.2} m, y = {y:.2} m; name \
+         them, too, if they stand on it"
+    )]
+    FacesOffGround {
+        /// Number of these faces.
+        faces: usize,
+        /// Middle of the first of them, m.
+        x: f64,
+        /// Middle of the first of them along y, m.
+        y: f64,
     },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
     ///

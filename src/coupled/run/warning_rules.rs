@@ -133,6 +133,16 @@ impl Warning {
         Some(Self::LongTriangles { side, longest })
     }
 
+    /// Warning of points where faces of a base move apart: their number, and the first one (m).
+    pub(crate) fn of_tears(tears: Option<(usize, [f64; 2])>) -> Option<Self> {
+        tears.map(|(points, [x, y])| Self::TornBase { points, x, y })
+    }
+
+    /// Warning of faces at the height of the base that do not touch the ground: their number, and the first one (m).
+    pub(crate) fn of_faces_off_ground(found: Option<(usize, [f64; 2])>) -> Option<Self> {
+        found.map(|(faces, [x, y])| Self::FacesOffGround { faces, x, y })
+    }
+
     /// Warning of friction for which steps in plan may have several solutions.
     fn of_friction(scene: &Scene) -> Option<Self> {
         let slides = |mode: &Mode| *mode != Mode::Stick;

@@ -12,6 +12,11 @@ pub(crate) fn height(z: Option<f64>) -> String {
     z.map_or(String::new(), |z| format!(", z = {z:.2} m"))
 }
 
+/// A number of points.
+pub(crate) fn places(count: usize) -> String {
+    if count == 1 { "1 point".into() } else { format!("{count} points") }
+}
+
 /// Change of the static shape with twice the elements, where it is known.
 pub(crate) fn with_twice_as_many(difference: Option<f64>) -> String {
     let text = |own: f64| format!(" (twice as many: {:.1} % of its static shape)", 100.0 * own);

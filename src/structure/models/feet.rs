@@ -1,6 +1,6 @@
 //! Points and faces by which a finite-element model touches the ground.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Element, ElementFace, Mesh};
@@ -29,6 +29,9 @@ pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>
     )?;
     let contact = lines.concat();
     at_least("contact nodes", contact.len(), 2)?;
+    for line in lines {
+        at_least("contact nodes of a foundation", line.len(), 2)?;
+    }
     let (mut height, mut left) = (None, None);
     for index in contact {
         let [x, y, _] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
@@ -91,6 +94,40 @@ pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
         face.corners().iter().map(|&node| Foot { node, depth, height: 0.0 }).collect()
     };
     Ok(faces.iter().map(feet).collect())
+}
+
+/// Faces of elements at the height of the base that none of its faces covers: their number, and the middle of the first.
+pub(super) fn uncovered(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64; 2])> {
+    let height = mesh.nodes()[feet.first()?.first()?.node][mesh.up()];
+    let is_level = |face: &ElementFace| {
+        let mut heights = face.corners().iter().map(|&node| mesh.nodes()[node][mesh.up()]);
+        mesh.has_depth() && heights.all(|own| (own - height).abs() <= mesh.tolerance())
+    };
+    let nodes = |face: &Vec<Foot>| face.iter().map(|foot| foot.node).collect::<Vec<_>>();
+    let base: Vec<Vec<usize>> = feet.iter().map(nodes).collect();
+    let named: HashSet<Vec<usize>> = base.iter().map(|face| sorted(face)).collect();
+    let others = faces_by_corners(mesh, is_level).into_iter();
+    let others = others.filter(|(corners, _)| !named.contains(corners));
+    let mut middles: Vec<[f64; 2]> = others
+        .map(|(corners, _)| {
+            let mean =
+                |axis: usize| corners.iter().map(|&node| mesh.nodes()[node][axis]).sum::<f64>();
+            [0, 1].map(|axis| mean(axis) / corners.len() as f64)
+        })
+        .filter(|place| !base.iter().any(|face| covers(mesh, face, *place)))
+        .collect();
+    middles.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));
+    Some((middles.len(), *middles.first()?))
+}
+
+/// Whether a place in plan lies in the convex face with these corners, in either order.
+fn covers(mesh: &Mesh, corners: &[usize], [x, y]: [f64; 2]) -> bool {
+    let side = |k: usize| {
+        let [a, b] = [k, k + 1].map(|k| mesh.nodes()[corners[k % corners.len()]]);
+        (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+    };
+    let sides = || (0..corners.len()).map(side);
+    sides().all(|own| own >= 0.0) || sides().all(|own| own <= 0.0)
 }
 
 /// Faces of elements that `keep` selects, by their sorted corners; of several the thickest.

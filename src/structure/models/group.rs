@@ -273,7 +273,11 @@ impl Structure for StructureGroup {
     }
 
     fn description(&self) -> StructureDescription {
-        let descriptions = self.members.iter().map(|member| member.structure.description());
+        let descriptions = self.members.iter().map(|member| {
+            let first = |base: &Base| base.nodes().next().map_or(0.0, |node| node.x);
+            let moved = first(&member.base) - first(&member.structure.base());
+            member.structure.description().moved(moved)
+        });
         descriptions.reduce(StructureDescription::joined).unwrap_or_default()
     }
 

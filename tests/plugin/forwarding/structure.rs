@@ -81,6 +81,7 @@ impl Structure for Double {
             tallest_storey: Some(CORRECT),
             triangle_sides: Some([CORRECT, 1.0]),
             densities: Some([CORRECT, 2.0]),
+            faces_off_ground: Some((3, [CORRECT, 2.0])),
         }
     }
 
@@ -160,6 +161,7 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert_eq!(description.tallest_storey, Some(CORRECT));
     assert_eq!(description.triangle_sides, Some([CORRECT, 1.0]));
     assert_eq!(description.densities, Some([CORRECT, 2.0]));
+    assert_eq!(description.faces_off_ground, Some((3, [CORRECT, 2.0])));
     assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));
     let mut load = [0.0; 4];
     part.load(0.25, &mut load).unwrap();
