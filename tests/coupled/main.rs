@@ -6,6 +6,7 @@ mod conveniences;
 mod coordinates;
 mod embedded;
 mod embedded_frames;
+mod embedded_layers;
 mod embedded_rest;
 mod embedded_scenes;
 mod energy_balance;
