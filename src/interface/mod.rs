@@ -299,10 +299,11 @@ pub trait InterfaceLaw: Send {
     /// An error with the cause, as [`Error::Input`] or [`Error::part`](crate::Error::part). By default errors of the
     /// [`limits`](InterfaceLaw::limits) from which the conditions follow.
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
-        if self.modes() != Mode::WITH_LIMITS {
-            return Ok(());
+        match self.limits(start) {
+            Ok(limits) => limits.checked().map(drop),
+            Err(_) if self.modes() != Mode::WITH_LIMITS => Ok(()),
+            Err(error) => Err(error),
         }
-        self.limits(start)?.checked().map(drop)
     }
 
     /// Limits of the tractions of an element in the step after `start`.

@@ -160,7 +160,8 @@ fn check_placed(
         }
         let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
                       `GravityStage::Frictional`, in which the law itself acts";
-        let reason = Box::new(Error::Scene { quantity: "static state without friction", needed });
+        let unheld = Error::Scene { quantity: "static state without friction", needed };
+        let reason = Box::new(law.check_start(&previous).err().unwrap_or(unheld));
         return Err(Error::Law(LawError { element, mode: at_rest.word(), reason }));
     }
     Ok(())
