@@ -7,6 +7,7 @@
 mod cohesive;
 mod condition;
 mod coulomb;
+mod earth_pressure;
 mod law_form;
 mod limits;
 mod mode;
@@ -19,6 +20,7 @@ pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
+pub use earth_pressure::EarthPressure;
 pub(crate) use law_form::LawForm;
 pub use limits::Limits;
 pub use mode::Mode;

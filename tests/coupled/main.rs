@@ -4,6 +4,7 @@ mod checkpoint;
 mod conditioning;
 mod conveniences;
 mod coordinates;
+mod earth_pressure;
 mod embedded;
 mod embedded_frames;
 mod embedded_layers;

@@ -36,6 +36,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
 use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
+use crate::coupled::run::wall_pressure;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::TimeScheme;
@@ -360,6 +361,8 @@ impl SimulationBuilder {
         warnings.extend(of_units);
         warnings.extend(Warning::of_triangles(structure.triangle_sides()));
         warnings.extend(coarse);
+        let pressures_above =
+            wall_pressure::pressures_above(&scene, ground.as_ref(), given.gravity);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.
         held.is_firm?;
@@ -375,6 +378,7 @@ impl SimulationBuilder {
             state,
             conditioning,
             warnings,
+            pressures_above,
             drag: assembled.drag(),
             rotation_limit: given.rotation_limit,
             expected_steps: given.steps,
