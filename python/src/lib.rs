@@ -80,8 +80,8 @@ mod _core {
             PySpringGround, PyStrip, PyTrench, PyTrenchElements, PyTrenchGround,
         },
         interface::{
-            PyBonded, PyCohesive, PyCoulomb, PyInterfaceLaw, PyThinLayer, PyVariableFriction,
-            PyYielding,
+            PyBonded, PyCohesive, PyCoulomb, PyEarthPressure, PyInterfaceLaw, PyThinLayer,
+            PyVariableFriction, PyYielding,
         },
         motion::{
             PyColumn, PyFreeField, PyInclinedWave, PyPlaneWave, PyRecord, PySpectrum,
@@ -102,7 +102,7 @@ mod _core {
             PyServiceLimits, PySimulation, PySolverOptions, PyState, PySteps, PyTimeScheme,
         },
         site::{PyEquivalentLinear, PyStrainCurves},
-        soil::PySoil,
+        soil::{PySoil, PySoilStrength},
         structure::{
             PyBeamEndRows, PyBeamRows, PyBeamSection, PyBilinear, PyBoucWen, PyFemModel,
             PyFrictionPendulum, PyGmshMesh, PyGmshSpaceMesh, PyGrid, PyHysteresis, PyLayer,

@@ -1,6 +1,7 @@
 //! The soil.
 
 use basemat::Soil;
+use basemat::soil::SoilStrength;
 use pyo3::prelude::*;
 
 use crate::error::OrRaise;
@@ -74,5 +75,38 @@ impl PySoil {
 
     fn __hash__(&self, py: Python<'_>) -> PyResult<isize> {
         (self.shear_modulus(), self.poisson(), self.density()).into_pyobject(py)?.hash()
+    }
+}
+
+/// Strength of the soil beside a wall, for `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion`` (Pa; 0
+/// by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+///
+/// Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
+/// passive pressure.
+#[pyclass(name = "SoilStrength", module = "basemat", frozen, dict, eq)]
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct PySoilStrength(pub(crate) SoilStrength);
+
+#[pymethods]
+impl PySoilStrength {
+    #[pyo3(signature = (friction_angle, *, cohesion=0.0, wall_friction_angle=0.0))]
+    #[new]
+    fn new(friction_angle: f64, cohesion: f64, wall_friction_angle: f64) -> PyResult<Self> {
+        let strength = SoilStrength::new(friction_angle)
+            .and_then(|own| own.with_cohesion(cohesion))
+            .and_then(|own| own.with_wall_friction(wall_friction_angle));
+        strength.or_raise().map(Self)
+    }
+
+    /// Active and passive horizontal pressure over the vertical pressure, without cohesion: Coulomb's, without wall friction
+    /// Rankine's.
+    #[getter]
+    fn pressure_ratios(&self) -> [f64; 2] {
+        self.0.pressure_ratios()
+    }
+
+    /// Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa.
+    fn pressures(&self, vertical: f64) -> [f64; 2] {
+        self.0.pressures(vertical)
     }
 }

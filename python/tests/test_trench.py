@@ -108,7 +108,9 @@ def test_places_of_elements_and_nodes() -> None:
 def test_rest_by_hand() -> None:
     wall = scene().state.face("left_wall")
     assert wall.thrust == pytest.approx(0.5 * 0.5 * 1900.0 * bm.STANDARD_GRAVITY * 25.0, rel=1e-12)
-    assert (wall.shear, wall.open_fraction) == (0.0, 0.0) and 1.5 < wall.place < 2.5
+    assert (wall.shear, wall.open_fraction) == (0.0, 0.0)
+    # The pressure grows with depth: a third of the height, whatever the elements.
+    assert wall.place == pytest.approx(5.0 / 3.0, rel=1e-12)
     base = scene().state.face("base")
     assert base.thrust == pytest.approx(12.0 * 20.0 * 900.0 * bm.STANDARD_GRAVITY, rel=1e-9)
     again = pickle.loads(pickle.dumps(wall))
@@ -135,6 +137,39 @@ def test_histories_of_the_faces_are_those_of_the_states(run: tuple[bm.Run, list[
     assert np.array_equal(found.heights, bm.TrenchGround(SOIL, ELEMENTS).heights)
     again = pickle.loads(pickle.dumps(found))
     assert same_bits(again.faces["right_wall"]["thrust"], found.faces["right_wall"]["thrust"])
+
+
+def test_limits_of_wall_pressure() -> None:
+    """Rankine's limits by hand; a wall without them is named, a wall with them keeps them."""
+    sand = bm.SoilStrength(np.radians(30.0))
+    assert sand.pressure_ratios == pytest.approx([1.0 / 3.0, 3.0], rel=1e-12)
+    assert sand.pressures(3.0e4) == pytest.approx([1.0e4, 9.0e4], rel=1e-12)
+    clay = bm.SoilStrength(np.radians(20.0), cohesion=5.0e3, wall_friction_angle=0.1)
+    assert clay.pressures(0.0)[0] < 0.0 and pickle.loads(pickle.dumps(clay)) == clay
+    ground = bm.TrenchGround(SOIL, ELEMENTS, pressure_at_rest=0.5)
+    laws = ground.interfaces(bm.Coulomb(0.5), sand)
+    # Walls of two elements from 0 to 2.5 and 5 m, a base of two.
+    unit_weight = 1900.0 * bm.STANDARD_GRAVITY
+    for law, depth in zip((laws[0], laws[1], laws[4], laws[5]), (1.25, 3.75, 3.75, 1.25)):
+        assert isinstance(law, bm.EarthPressure)
+        assert law.pressures == pytest.approx([unit_weight * depth / 3.0, 3.0 * unit_weight * depth], rel=1e-12)
+        assert pickle.loads(pickle.dumps(law)).pressures == law.pressures
+    assert isinstance(laws[2], bm.Coulomb) and laws[0].modes == ["slip_right", "active_right", "yield_right"]
+    strong = bm.TrenchMotion(ground, RECORD.scaled(3.0))
+    kept, warned = scene(ground=ground, interface=laws, motion=strong), scene(ground=ground, motion=strong)
+    run, other = (own.run(200, contact_every=1) for own in (kept, warned))
+    assert run.energy_error < 1e-9
+    passive = np.array([law.pressures[1] for law in (laws[0], laws[1], laws[4], laws[5])])
+    pressures = run.contact["pressure"][:, [0, 1, 4, 5]]
+    assert np.all(pressures <= passive * (1.0 + 1e-9)) and np.any(pressures > passive * (1.0 - 1e-9))
+    assert {"active_right", "yield_right"} <= {bm.MODES[mode] for mode in np.unique(run.contact["mode"])}
+    assert not any("soil of 45°" in str(own) for own in run.warnings)
+    assert any("soil of 45°" in str(own) for own in other.warnings)
+    low = bm.TrenchGround(SOIL, ELEMENTS, pressure_at_rest=0.2)
+    with pytest.raises(bm.InputError, match="pressure at rest"):
+        low.interfaces(bm.Coulomb(0.5), sand)
+    with pytest.raises(bm.InputError, match="list of soil strengths"):
+        ground.interfaces(bm.Coulomb(0.5), [sand, sand])
 
 
 def test_a_base_without_walls_has_one_face(rocking) -> None:

@@ -226,6 +226,16 @@ pub struct GroundDescription {
     /// [`GravityStage::WishedInPlace`](crate::coupled::GravityStage::WishedInPlace) only. Walls of a ground that leaves
     /// the list empty carry no pressure at rest.
     pub pressure_at_rest: Vec<f64>,
+    /// Distance of the resultant of that pressure below the middle of each element, m; empty where it is the middle.
+    ///
+    /// Pressures on an element are distributed as at rest, for the place of a wall's thrust
+    /// ([`FaceForces::place`](crate::coupled::FaceForces::place)).
+    pub depth_of_pressure_at_rest: Vec<f64>,
+    /// Mean mass of the soil above each element, kg/m²; empty for a ground without walls, or of unknown weight.
+    ///
+    /// A run warns of walls that press on the soil with more than it bears:
+    /// [`Warning::WallPressure`](crate::coupled::Warning::WallPressure).
+    pub mass_above: Vec<f64>,
     /// Numbers of the soils around walls, equal only for equal soils; `None` if they are not known.
     ///
     /// `build` compares them with [`FreeField::soils`].

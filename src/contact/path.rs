@@ -127,7 +127,7 @@ impl Path {
         }
     }
 
-    /// Begins with all elements open and without tractions; d only widens the gaps.
+    /// Begins with all elements open and without tractions, or in active soil; d only widens the gaps.
     fn begin_open(
         &mut self,
         input: &ContactInput<'_>,
@@ -138,7 +138,9 @@ impl Path {
         let mut largest = 0.0_f64;
         for (e, mode) in modes.iter_mut().enumerate() {
             let known = input.modes(e);
-            *mode = if known.contains(&Mode::Open) { Mode::Open } else { known[0] };
+            let is_apart =
+                |mode: &&Mode| matches!(mode, Mode::Open | Mode::Active | Mode::ActiveRight);
+            *mode = *known.iter().find(is_apart).unwrap_or(&known[0]);
             let row = &input.delassus[e * size..(e + 1) * size];
             let gap = input.free_jump[e] - dot(row, input.static_traction);
             largest = largest.max(gap.abs()).max(input.start.state(e).gap.abs());

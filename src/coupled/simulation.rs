@@ -39,6 +39,8 @@ pub struct Simulation {
     pub(crate) conditioning: Conditioning,
     /// Warnings of the scene before its first step, and of the steps since.
     pub(crate) warnings: Vec<Warning>,
+    /// Pressure of the soil above each element of walls without a largest pressure, Pa; empty without walls.
+    pub(crate) pressures_above: Vec<f64>,
     /// Damping of a rigid translation along the ground, divided by the mass that it moves, 1/s.
     pub(crate) drag: f64,
     /// Rotation of a base at which a run ends, rad.
@@ -330,7 +332,8 @@ impl Simulation {
         let held = holds(self.ground.as_ref());
         let opens = |element| held || self.scene.law(element).modes().contains(&Mode::Open);
         let (ground, motion) = (self.ground.as_ref(), self.motion.as_ref());
-        run.finish(ground, motion, opens, &self.warnings, [self.drag, self.rotation_limit]);
+        let limits = [self.drag, self.rotation_limit];
+        run.finish(ground, motion, opens, &self.warnings, &self.pressures_above, limits);
         run
     }
 

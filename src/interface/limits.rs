@@ -99,13 +99,16 @@ impl Limits {
     /// Conditions of a mode in the plane; `compliance`: of the law's elastic layer, as in
     /// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
     ///
-    /// NaN for a friction coefficient below zero.
+    /// NaN for limits that are not possible: [`Limits::checked`] names them.
     pub(super) fn conditions(
         &self,
         mode: Mode,
         start: &PreviousContact,
         compliance: [f64; 2],
     ) -> [Condition; 2] {
+        if self.checked().is_err() {
+            return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
+        }
         let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
         let [normal, tangential] = compliance;
         let ContactState { slip, shear, .. } = start.state;
@@ -114,9 +117,6 @@ impl Limits {
             Condition { shear: 0.0 - tangential, ..Condition::slip_is(slip - tangential * shear) };
         if self.bonded {
             return [closed, sticks];
-        }
-        if self.friction.is_nan() || self.friction < 0.0 {
-            return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
         }
         if mode == Mode::Open || self.gap_offset == f64::NEG_INFINITY {
             return open;

@@ -7,6 +7,7 @@
 mod cohesive;
 mod condition;
 mod coulomb;
+mod earth_pressure;
 mod law_form;
 mod limits;
 mod mode;
@@ -19,6 +20,7 @@ pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;
 pub use coulomb::{Coulomb, UnilateralCondition};
+pub use earth_pressure::EarthPressure;
 pub(crate) use law_form::LawForm;
 pub use limits::Limits;
 pub use mode::Mode;
@@ -304,10 +306,11 @@ pub trait InterfaceLaw: Send {
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
     /// default errors of the [`limits`](InterfaceLaw::limits) from which the conditions follow.
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
-        if self.modes() != Mode::WITH_LIMITS {
-            return Ok(());
+        match self.limits(start) {
+            Ok(limits) => limits.checked().map(drop),
+            Err(_) if self.modes() != Mode::WITH_LIMITS => Ok(()),
+            Err(error) => Err(error),
         }
-        self.limits(start)?.checked().map(drop)
     }
 
     /// The same law without friction and cohesion, for the gravity stage on a ground in the plane.

@@ -25,6 +25,13 @@ pub enum Mode {
     Slip,
     /// Slip in plan on soil that yields under the pressure.
     YieldSlip,
+    /// Closed, no slip; soil follows a wall that moves away, at its active pressure
+    /// ([`EarthPressure`](super::EarthPressure)).
+    Active,
+    /// Soil follows the wall at its active pressure, and the structure slides to the left.
+    ActiveLeft,
+    /// Soil follows the wall at its active pressure, and the structure slides to the right.
+    ActiveRight,
 }
 
 words! { pub Mode, "contact mode", {
@@ -37,6 +44,9 @@ words! { pub Mode, "contact mode", {
     YieldRight = "yield_right",
     Slip = "slip",
     YieldSlip = "yield_slip",
+    Active = "active",
+    ActiveLeft = "active_left",
+    ActiveRight = "active_right",
 } }
 
 impl Mode {
@@ -55,13 +65,18 @@ impl Mode {
         matches!(self, Mode::Yield | Mode::YieldLeft | Mode::YieldRight | Mode::YieldSlip)
     }
 
+    /// Whether the soil follows the wall at its active pressure.
+    pub(crate) fn is_active(self) -> bool {
+        matches!(self, Mode::Active | Mode::ActiveLeft | Mode::ActiveRight)
+    }
+
     /// The corresponding mode on soil that does not yield.
     #[must_use]
     pub(crate) fn elastic(self) -> Self {
         match self {
-            Mode::Yield => Mode::Stick,
-            Mode::YieldLeft => Mode::SlipLeft,
-            Mode::YieldRight => Mode::SlipRight,
+            Mode::Yield | Mode::Active => Mode::Stick,
+            Mode::YieldLeft | Mode::ActiveLeft => Mode::SlipLeft,
+            Mode::YieldRight | Mode::ActiveRight => Mode::SlipRight,
             Mode::YieldSlip => Mode::Slip,
             mode => mode,
         }
@@ -79,10 +94,20 @@ impl Mode {
         }
     }
 
+    /// The corresponding mode on soil that follows the wall, of a mode on soil that does not yield.
+    pub(super) fn following(self) -> Self {
+        match self {
+            Mode::SlipLeft => Mode::ActiveLeft,
+            Mode::SlipRight => Mode::ActiveRight,
+            _ => Mode::Active,
+        }
+    }
+
     /// This mode without slip.
     pub(crate) fn sticking(self) -> Self {
         match self {
             Mode::Open => Mode::Open,
+            mode if mode.is_active() => Mode::Active,
             mode if mode.is_yield() => Mode::Yield,
             _ => Mode::Stick,
         }
@@ -107,6 +132,39 @@ impl Mode {
         Self::YieldLeft,
         Self::YieldRight,
     ];
+
+    /// The modes of contact with uplift and Coulomb friction, on soil that yields.
+    pub(super) fn with_yield(friction: f64) -> &'static [Self] {
+        if friction == 0.0 {
+            &[Self::SlipRight, Self::Open, Self::YieldRight]
+        } else if friction == f64::INFINITY {
+            // The slip modes of infinite friction have no pressure.
+            &[Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Open, Self::Yield]
+        } else {
+            Self::WITH_LIMITS
+        }
+    }
+
+    /// The modes of contact with Coulomb friction, on soil that yields and follows a wall: nothing opens.
+    pub(super) fn with_following(friction: f64) -> &'static [Self] {
+        if friction == 0.0 {
+            &[Self::SlipRight, Self::ActiveRight, Self::YieldRight]
+        } else if friction == f64::INFINITY {
+            &[Self::Stick, Self::Active, Self::Yield]
+        } else {
+            &[
+                Self::Stick,
+                Self::SlipLeft,
+                Self::SlipRight,
+                Self::Active,
+                Self::ActiveLeft,
+                Self::ActiveRight,
+                Self::Yield,
+                Self::YieldLeft,
+                Self::YieldRight,
+            ]
+        }
+    }
 
     /// The modes of contact with uplift and Coulomb friction.
     pub(super) fn with_friction(friction: f64) -> &'static [Self] {

@@ -88,15 +88,7 @@ fn indentation(start: &PreviousContact) -> f64 {
 
 impl InterfaceLaw for Yielding {
     fn modes(&self) -> &[Mode] {
-        let friction = self.friction();
-        if friction == 0.0 {
-            &[Mode::SlipRight, Mode::Open, Mode::YieldRight]
-        } else if friction == f64::INFINITY {
-            // The slip modes of infinite friction have no pressure.
-            &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open, Mode::Yield]
-        } else {
-            Mode::WITH_LIMITS
-        }
+        Mode::with_yield(self.friction())
     }
 
     fn state_variables(&self) -> usize {

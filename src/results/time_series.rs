@@ -25,6 +25,9 @@ use crate::structure::probe::probe_index;
 pub struct TimeSeries {
     pub(super) recorder: Recorder,
     pub(super) elements: Vec<ContactElement>,
+    /// Distances of the resultant pressure below the middle of each element, m; empty where it is the middle.
+    #[cfg_attr(not(feature = "embedded"), allow(dead_code, reason = "for faces of walls"))]
+    pressure_depths: Vec<f64>,
     pub(super) probes: Vec<Probe>,
     pub(super) time_step: f64,
     #[cfg_attr(feature = "serde", serde(rename = "end", serialize_with = "Sequence::write_end"))]
@@ -45,6 +48,8 @@ validated! {
     TimeSeries as TimeSeriesForm {
         recorder: Recorder,
         elements: Vec<ContactElement>,
+        #[serde(default)]
+        pressure_depths: Vec<f64>,
         probes: Vec<Probe>,
         time_step: f64,
         end: f64,
@@ -72,8 +77,8 @@ validated! {
         crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
         let sequence = Sequence::ended(end);
         Ok(Self {
-            recorder, elements, probes, time_step, sequence, steps, dofs, times, scalars,
-            probe_values, energy_balances, contact, motion,
+            recorder, elements, pressure_depths, probes, time_step, sequence, steps, dofs, times,
+            scalars, probe_values, energy_balances, contact, motion,
         })
     }
 }
@@ -99,6 +104,7 @@ impl Recorder {
         let elements = simulation.elements();
         let mut series = TimeSeries {
             elements: elements.to_vec(),
+            pressure_depths: state.context.pressure_depths.clone(),
             probes: simulation.probes().to_vec(),
             time_step: simulation.time_step(),
             sequence: Sequence::new(state),
@@ -291,7 +297,7 @@ impl TimeSeries {
     #[cfg(feature = "embedded")]
     pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
         let on = move |own: ContactFrame<'_>| {
-            FaceForces::on(face, &self.elements, own.states, own.modes)
+            FaceForces::on(face, &self.elements, &self.pressure_depths, own.states, own.modes)
         };
         self.contact_frames().map(on)
     }

@@ -69,20 +69,19 @@ impl<'a> Waves<'a> {
             let (top, bottom) = (middle - 0.5 * length, middle + 0.5 * length);
             let mut start = top;
             for (soil, (_, end)) in profile.soils_to().enumerate() {
-                let height = end.min(bottom) - start;
-                if height <= 0.0 {
+                let piece = end.min(bottom) - start;
+                if piece <= 0.0 {
                     continue;
                 }
                 let mut passed = 0.0;
                 for (place, weight) in gauss::rule(4).points_on_unit_interval() {
-                    let weight = weight * height / length;
-                    let height = (place - passed) * height;
+                    let weight = weight * piece / length;
+                    let height = (place - passed) * piece;
                     points.push(Point { level, weight, soil, height });
                     passed = place;
                 }
-                let height = (1.0 - passed) * height;
-                points.push(Point { level, weight: 0.0, soil, height });
-                start += height;
+                points.push(Point { level, weight: 0.0, soil, height: (1.0 - passed) * piece });
+                start += piece;
             }
         }
         points.push(Point { level: walls, weight: 1.0, soil: 0, height: 0.0 });

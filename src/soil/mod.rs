@@ -6,6 +6,7 @@ mod maxwell;
 mod profile;
 mod relaxation;
 mod strain_curves;
+mod strength;
 
 pub use crate::error::SoilError;
 pub use maxwell::GeneralizedMaxwell;
@@ -14,6 +15,7 @@ pub use profile::{Bedrock, SoilLayer, SoilProfile};
 pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
 pub(crate) use strain_curves::Resolved;
 pub use strain_curves::StrainCurves;
+pub use strength::SoilStrength;
 
 use crate::error::{Result, finite, positive, require};
 

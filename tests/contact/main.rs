@@ -3,6 +3,7 @@
 mod adhesion;
 mod chatter;
 mod contact_problems;
+mod earth_pressure;
 mod events;
 mod extreme_layers;
 mod host;

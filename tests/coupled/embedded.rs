@@ -16,6 +16,7 @@ pub(super) struct Bed {
     stiffness: f64,
     dashpots: f64,
     pressures: Vec<f64>,
+    masses: Vec<f64>,
     decay: f64,
     moved: Vec<f64>,
 }
@@ -30,7 +31,12 @@ impl Bed {
         let pressure = |own: &ContactElement| -0.5 * DENSITY * own.center()[2];
         let pressures = elements.iter().map(pressure).collect();
         let moved = vec![0.0; 2 * elements.len()];
-        Self { elements, stiffness, dashpots, pressures, decay: 0.0, moved }
+        Self { elements, stiffness, dashpots, pressures, masses: vec![], decay: 0.0, moved }
+    }
+
+    /// Below soil of the weight of this ground's.
+    pub(super) fn with_masses(self, ground: &TrenchGround) -> Self {
+        Self { masses: ground.description().mass_above, ..self }
     }
 
     fn diagonal(&self, value: f64, matrix: &mut [f64]) {
@@ -73,7 +79,11 @@ impl Ground for Bed {
     }
 
     fn description(&self) -> GroundDescription {
-        GroundDescription { pressure_at_rest: self.pressures.clone(), ..Default::default() }
+        GroundDescription {
+            pressure_at_rest: self.pressures.clone(),
+            mass_above: self.masses.clone(),
+            ..Default::default()
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use basemat::bem::{ContactElement, Ground};
 use basemat::coupled::{Face, GravityStage, Load};
 use basemat::interface::{Bonded, Coulomb, InterfaceLaw, Yielding};
 use basemat::motion::STANDARD_GRAVITY;
+use basemat::results::Recorder;
 use basemat::soil::SoilProfile;
 use basemat::structure::{DofCombination, RigidBlock, WithWalls};
 use basemat::{Simulation, Soil};
@@ -77,6 +78,54 @@ fn a_block_of_soil_changes_nothing() {
                         (found.pressure - own.pressure).abs() < 1e-9 * STANDARD_GRAVITY * heavy
                     );
                 }
+            }
+        }
+    }
+}
+
+/// Pressures at rest act at their own height, whatever the elements: ∫K₀σ_v z dz by hand.
+#[test]
+fn thrusts_at_rest_act_at_their_own_height() {
+    const BOUNDARY: f64 = 2.3;
+    const BOTTOM: f64 = 6.0;
+    let upper = Soil::from_shear_wave_speed(150.0, 0.35, 1600.0).unwrap();
+    let lower = Soil::from_shear_wave_speed(220.0, 0.3, 2000.0).unwrap();
+    let profile = SoilProfile::on_half_plane(lower).with_layer(upper, BOUNDARY).unwrap();
+    for (ratio, ratios, height) in
+        [(Some(0.5), [0.5, 0.5], 1.9334), (None, [0.35 / 0.65, 0.3 / 0.7], 2.0177)]
+    {
+        let below = BOTTOM - BOUNDARY;
+        let masses = [
+            [0.5 * 1600.0 * BOUNDARY * BOUNDARY, below + BOUNDARY / 3.0],
+            [1600.0 * BOUNDARY * below, 0.5 * below],
+            [0.5 * 2000.0 * below * below, below / 3.0],
+        ];
+        let parts: Vec<[f64; 2]> =
+            (0..3).map(|k| [ratios[k.min(1)] * masses[k][0], masses[k][1]]).collect();
+        let thrust: f64 = parts.iter().map(|own| own[0]).sum();
+        let wanted = parts.iter().map(|own| own[0] * own[1]).sum::<f64>() / thrust;
+        assert!((wanted - height).abs() < 1e-4, "{wanted}");
+        for walls in [2, 6] {
+            let elements = Trench::new(-5.0..5.0, BOTTOM).unwrap().elements(2, walls).unwrap();
+            let ground = TrenchGround::new(profile.clone(), elements).unwrap();
+            let ground = match ratio {
+                Some(ratio) => ground.with_pressure_at_rest(ratio).unwrap(),
+                None => ground,
+            };
+            let block = WithWalls::new(RigidBlock::new(10.0, 12.0, 900.0).unwrap(), BOTTOM);
+            let simulation = Simulation::builder(0.02)
+                .structure(block.unwrap())
+                .ground(ground)
+                .interface(Coulomb::new(0.4).unwrap())
+                .expected_steps(1)
+                .build()
+                .unwrap();
+            let series = Recorder::new().contact(1).start(&simulation).unwrap();
+            for wall in [Face::LeftWall, Face::RightWall] {
+                let face = simulation.state().face(wall);
+                assert!((face.thrust / (STANDARD_GRAVITY * thrust) - 1.0).abs() < 1e-12);
+                assert!((face.place - wanted).abs() < 1e-12 * BOTTOM, "{} {wanted}", face.place);
+                assert_eq!(series.face(wall).next(), Some(face));
             }
         }
     }

@@ -256,7 +256,10 @@ fn schemes_dampings_strips_and_limits() {
 
 #[test]
 fn choices_are_their_words() {
-    use Mode::{Open, Slip, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
+    use Mode::{
+        Active, ActiveLeft, ActiveRight, Open, Slip, SlipLeft, SlipRight, Stick, Yield, YieldLeft,
+        YieldRight, YieldSlip,
+    };
 
     fn words<T: Serialize + DeserializeOwned + PartialEq + Debug + ToString>(all: &[T]) {
         for choice in all {
@@ -264,6 +267,7 @@ fn choices_are_their_words() {
         }
     }
     words(&[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight, Slip, YieldSlip]);
+    words(&[Active, ActiveLeft, ActiveRight]);
     words(&[
         HistoryMethod::Direct,
         HistoryMethod::RelaxedFft,

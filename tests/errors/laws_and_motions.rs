@@ -4,8 +4,9 @@
 
 use basemat::Error;
 use basemat::coupled::Theta;
-use basemat::interface::{Coulomb, UnilateralCondition};
+use basemat::interface::{Coulomb, EarthPressure, UnilateralCondition};
 use basemat::motion::{Baseline, Record, RickerDisplacement};
+use basemat::soil::SoilStrength;
 
 use super::{BAD, NEGATIVE, NOT_FINITE, error_with, refused};
 
@@ -16,6 +17,22 @@ fn laws_and_schemes() {
     refused("tensile strength", &NEGATIVE, |x| law.with_tensile_strength(x));
     refused("gap below", &NEGATIVE, |closed_below| {
         law.with_unilateral_condition(UnilateralCondition::Velocity { closed_below })
+    });
+    refused("active pressure", &NEGATIVE, |x| EarthPressure::new(x, 1e4, 0.3));
+    refused("passive pressure", &[1e3, 0.0, f64::NAN, f64::INFINITY], |x| {
+        EarthPressure::new(1e3, x, 0.3)
+    });
+    refused("friction coefficient", &[-0.1, f64::NAN], |x| EarthPressure::new(1e3, 1e4, x));
+    refused(
+        "friction angle of the soil",
+        &[-0.1, 30.0, f64::NAN, f64::INFINITY],
+        SoilStrength::new,
+    );
+    let sand = SoilStrength::new(0.8).unwrap();
+    refused("cohesion of the soil", &NEGATIVE, |x| sand.with_cohesion(x));
+    // With 0.8 rad no plane wedge slides at the passive limit.
+    refused("friction angle of the wall", &[-0.1, 0.81, 0.8, f64::NAN], |x| {
+        sand.with_wall_friction(x)
     });
     refused("theta", &[0.0, 0.49, 1.01, f64::NAN], Theta::new);
 }

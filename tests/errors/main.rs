@@ -7,6 +7,7 @@
 mod blame;
 mod builder;
 mod chains;
+mod law_limits;
 mod law_numbers;
 mod laws_and_motions;
 mod layered;

@@ -72,13 +72,27 @@ fn choices_are_read_as_they_are_shown() {
     use Direction::{Rotation as InPlane, RotationX, RotationY, RotationZ, X, Y, Z};
     use FrictionLimit::{Dynamic, Lagged, Static, Total};
     use GravityStage::{Frictional, Frictionless, Unloaded};
+    use Mode::{Active, ActiveLeft, ActiveRight};
     use Mode::{Open, SlipLeft, SlipRight, Stick, Yield, YieldLeft, YieldRight, YieldSlip};
     use SearchMethod::{ActiveSet, GaussSeidel, Newton, Path, Proximal};
     use SlipSense::{Inelastic, LastVelocity, Velocity};
 
     check(
         "contact mode",
-        &[Stick, SlipLeft, SlipRight, Open, Yield, YieldLeft, YieldRight, Mode::Slip, YieldSlip],
+        &[
+            Stick,
+            SlipLeft,
+            SlipRight,
+            Open,
+            Yield,
+            YieldLeft,
+            YieldRight,
+            Mode::Slip,
+            YieldSlip,
+            Active,
+            ActiveLeft,
+            ActiveRight,
+        ],
     );
     let histories = [
         HistoryMethod::Direct,

@@ -23,3 +23,4 @@ mod plan_impedances;
 mod plan_outlines;
 mod site_response;
 mod site_round_trip;
+mod trench_motion_in_layers;

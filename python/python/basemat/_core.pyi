@@ -476,6 +476,19 @@ class TrenchGround(Ground):
 
         It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
         """
+    def interfaces(
+        self,
+        base: _Interface,
+        strengths: SoilStrength | Sequence[SoilStrength],
+        *,
+        gravity: float = 9.80665,
+    ) -> list[_Interface]:
+        """Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
+        with the methods of `UserLaw`), and an `EarthPressure` for each element of the walls.
+
+        ``strengths``: a `SoilStrength` of all soils, or a list of one for each from the surface down, the half-plane last;
+        with backfill, of the backfill alone. ``gravity``: as of `InitialConditions`, m/s².
+        """
     def kinematic_motions(self, frequencies: ArrayLike) -> KinematicMotions:
         """Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
 
@@ -634,6 +647,20 @@ class Yielding(InterfaceLaw):
     """Coulomb friction of a coefficient ``friction`` on soil that yields under its ``bearing_pressure`` (Pa)."""
 
     def __new__(cls, bearing_pressure: float, friction: float) -> Self: ...
+
+@final
+class EarthPressure(InterfaceLaw):
+    """Coulomb friction of a wall, of a coefficient ``friction``, on soil that follows a wall that moves away, at its
+    ``active`` pressure (Pa), and yields to a wall that is pushed in, at its ``passive`` pressure (Pa).
+
+    With an ``active`` pressure of 0 the soil stands by its cohesion, and the wall opens. `TrenchGround.interfaces` makes
+    these laws from the strength of the soil.
+    """
+
+    def __new__(cls, active: float, passive: float, friction: float) -> Self: ...
+    @property
+    def pressures(self) -> list[float]:
+        """Active and passive pressure, Pa."""
 
 @final
 class ThinLayer(InterfaceLaw):
@@ -2438,6 +2465,31 @@ class Soil:
         """Speed of pressure waves, m/s."""
     def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
+
+@final
+class SoilStrength:
+    """Strength of the soil beside a wall, for `TrenchGround.interfaces`: its ``friction_angle`` (rad), its ``cohesion`` (Pa; 0
+    by default), and the ``wall_friction_angle`` between soil and wall (rad; 0 by default), at most the one of the soil.
+
+    Stresses are effective ones. From a wall friction angle of a third of the soil's on, plane wedges overestimate the
+    passive pressure.
+    """
+
+    def __new__(
+        cls,
+        friction_angle: float,
+        *,
+        cohesion: float = 0.0,
+        wall_friction_angle: float = 0.0,
+    ) -> Self: ...
+    @property
+    def pressure_ratios(self) -> list[float]:
+        """Active and passive horizontal pressure over the vertical pressure, without cohesion: Coulomb's, without wall friction
+        Rankine's.
+        """
+    def pressures(self, vertical: float) -> list[float]:
+        """Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa."""
+    def __eq__(self, value: object, /) -> bool: ...
 
 @disjoint_base
 class Structure:

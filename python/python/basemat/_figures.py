@@ -14,7 +14,20 @@ from ._errors import InputError
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLORS = ("#d9d9d9", "#fdae6b", "#e6550d", "#3182bd", "#74c476", "#31a354", "#006d2c", "#e6550d", "#006d2c")
+COLORS = (
+    "#d9d9d9",
+    "#fdae6b",
+    "#e6550d",
+    "#3182bd",
+    "#74c476",
+    "#31a354",
+    "#006d2c",
+    "#e6550d",
+    "#006d2c",
+    "#bcbddc",
+    "#9e9ac8",
+    "#756bb1",
+)
 """Of the modes, in their order."""
 OPEN = "#164878"
 """Of open elements in plan."""

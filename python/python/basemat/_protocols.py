@@ -25,7 +25,18 @@ if TYPE_CHECKING:
     )
 
 Mode = Literal[
-    "stick", "slip_left", "slip_right", "open", "yield", "yield_left", "yield_right", "slip", "yield_slip"
+    "stick",
+    "slip_left",
+    "slip_right",
+    "open",
+    "yield",
+    "yield_left",
+    "yield_right",
+    "slip",
+    "yield_slip",
+    "active",
+    "active_left",
+    "active_right",
 ]
 """A contact mode, one of `MODES`: the type of modes in laws of your own."""
 

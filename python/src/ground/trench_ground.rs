@@ -14,8 +14,10 @@ use super::superclass::history_options;
 use super::{PyGround, PyImpedances, PySharedKernels, PyTrenchElements};
 use crate::array::{Array, Numbers, complex, whole};
 use crate::error::{OrRaise, WithGiven};
+use crate::interface::PyEarthPressure;
 use crate::profile::{Profile, PyDampingLaw, law};
-use crate::soil::PySoil;
+use crate::several::Several;
+use crate::soil::{PySoil, PySoilStrength};
 use crate::ticker::watched;
 
 /// A damping law that several grounds read.
@@ -116,6 +118,36 @@ impl PyTrenchGround {
         let ground = (self.make)().or_raise()?;
         let call = move || watched(None, |observer| ground.impedances(&frequencies.0, observer));
         py.detach(call).map(PyImpedances)
+    }
+
+    /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
+    /// with the methods of `UserLaw`), and an `EarthPressure` for each element of the walls.
+    ///
+    /// ``strengths``: a `SoilStrength` of all soils, or a list of one for each from the surface down, the half-plane last;
+    /// with backfill, of the backfill alone. ``gravity``: as of `InitialConditions`, m/s².
+    #[pyo3(signature = (base, strengths, *, gravity=9.80665))]
+    fn interfaces(
+        &self,
+        py: Python<'_>,
+        base: Py<PyAny>,
+        strengths: Several<'_, PySoilStrength>,
+        gravity: f64,
+    ) -> PyResult<Vec<Py<PyAny>>> {
+        let ground = (self.make)().or_raise()?;
+        let strengths: Vec<_> = strengths.iter().map(|own| own.get().0).collect();
+        let laws = ground.wall_laws(&strengths, gravity).or_raise()?;
+        let class = py.get_type::<PyEarthPressure>();
+        let wall = laws.iter().map(|law| {
+            let [active, passive] = law.pressures();
+            Ok(class.call1((active, passive, law.friction()))?.unbind())
+        });
+        let wall: Vec<Py<PyAny>> = wall.collect::<PyResult<_>>()?;
+        let count = ground.trench_elements().elements().len();
+        let law = |e: usize| match e.min(count - 1 - e) {
+            below if below < wall.len() => wall[below].clone_ref(py),
+            _ => base.clone_ref(py),
+        };
+        Ok((0..count).map(law).collect())
     }
 
     /// Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).

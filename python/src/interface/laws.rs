@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, PreviousContact, ThinLayer, UnilateralCondition, VariableFriction,
-    Yielding,
+    Bonded, Cohesive, Coulomb, EarthPressure, PreviousContact, ThinLayer, UnilateralCondition,
+    VariableFriction, Yielding,
 };
 use pyo3::prelude::*;
 
@@ -85,6 +85,29 @@ impl PyYielding {
     fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
         Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
+    }
+}
+
+/// Coulomb friction of a wall, of a coefficient ``friction``, on soil that follows a wall that moves away, at its
+/// ``active`` pressure (Pa), and yields to a wall that is pushed in, at its ``passive`` pressure (Pa).
+///
+/// With an ``active`` pressure of 0 the soil stands by its cohesion, and the wall opens. `TrenchGround.interfaces` makes
+/// these laws from the strength of the soil.
+#[pyclass(name = "EarthPressure", module = "basemat", extends = PyInterfaceLaw, frozen)]
+pub(crate) struct PyEarthPressure(EarthPressure);
+
+#[pymethods]
+impl PyEarthPressure {
+    #[new]
+    fn new(active: f64, passive: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
+        let law = EarthPressure::new(active, passive, friction).or_raise()?;
+        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
+    }
+
+    /// Active and passive pressure, Pa.
+    #[getter]
+    fn pressures(&self) -> [f64; 2] {
+        self.0.pressures()
     }
 }
 

@@ -1,41 +1,161 @@
-//! Pressure of the soil at rest on the faces of a trench.
+//! Pressure of the soil on the faces of a trench: at rest, and the limits of its strength.
 
 use super::soil::TrenchSoil;
-use crate::soil::Soil;
+use crate::error::{Error, Result, require};
+use crate::interface::EarthPressure;
+use crate::soil::{Soil, SoilStrength};
+
+/// Share of a pressure that counts as rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// One soil beside an element of a wall, over a height.
+struct SoilPiece {
+    /// Place of the soil in the profile; of backfill, 0.
+    place: usize,
+    soil: Soil,
+    height: f64,
+    /// Depth of its middle, m, and mass of the soil above it, kg/m².
+    middle: f64,
+    mass_above: f64,
+}
+
+impl SoilPiece {
+    /// Pressure at rest over the pressure of the soil above.
+    fn ratio_at_rest(&self, ratio: Option<f64>) -> f64 {
+        ratio.unwrap_or(self.soil.poisson() / (1.0 - self.soil.poisson()))
+    }
+
+    /// Mass of the soil above the upper and the lower end, kg/m².
+    fn masses_at_ends(&self) -> [f64; 2] {
+        let half = 0.5 * self.height * self.soil.density();
+        [self.mass_above - half, self.mass_above + half]
+    }
+}
+
+/// The soils beside each element of a wall, from the surface down.
+fn beside_wall(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
+    let layers: Vec<(Soil, f64)> = match soil.fill() {
+        Some(fill) => vec![(fill, f64::INFINITY)],
+        None => soil.profile().soils_to().collect(),
+    };
+    let beside = |ends: &[f64]| {
+        let (mut above, mut top, mut pieces) = (0.0, 0.0, vec![]);
+        for (place, (soil, bottom)) in layers.iter().enumerate() {
+            let bottom = bottom.min(ends[1]);
+            let from = ends[0].clamp(top, bottom.max(top));
+            let height = (bottom - from).max(0.0);
+            let middle = from + 0.5 * height;
+            let mass_above = above + soil.density() * (from - top + 0.5 * height);
+            if height > 0.0 {
+                pieces.push(SoilPiece { place, soil: *soil, height, middle, mass_above });
+            }
+            above += soil.density() * (bottom - top).max(0.0);
+            top = bottom.max(top);
+        }
+        pieces
+    };
+    soil.elements().wall().windows(2).map(beside).collect()
+}
+
+/// Values of all elements along the outline, from the values of a wall's elements and the base.
+fn along_outline(soil: &TrenchSoil, wall: &[f64], base: f64) -> Vec<f64> {
+    let base = std::iter::repeat_n(base, 2 * (soil.elements().base().len() - 1));
+    wall.iter().copied().chain(base).chain(wall.iter().rev().copied()).collect()
+}
+
+/// Mean over the height of each element of a wall, from the integral over each piece.
+fn means(soil: &TrenchSoil, integral: impl Fn(&SoilPiece) -> f64) -> Vec<f64> {
+    let mean = |(pieces, ends): (Vec<SoilPiece>, &[f64])| {
+        pieces.iter().map(&integral).sum::<f64>() / (ends[1] - ends[0])
+    };
+    beside_wall(soil).into_iter().zip(soil.elements().wall().windows(2)).map(mean).collect()
+}
 
 /// Pressure at rest on each element over gravity, kg/m², in the order of the outline.
 ///
 /// The base has all of the soil above it. `ratio`: K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
 pub(super) fn at_rest(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
-    let layers: Vec<(Soil, f64)> = match soil.fill() {
-        Some(fill) => vec![(fill, f64::INFINITY)],
-        None => soil.profile().soils_to().collect(),
+    let wall = means(soil, |piece| piece.ratio_at_rest(ratio) * piece.height * piece.mass_above);
+    along_outline(soil, &wall, mass_above_base(soil))
+}
+
+/// Mass of the soil above the base, kg/m².
+fn mass_above_base(soil: &TrenchSoil) -> f64 {
+    let above = soil.profile().above(soil.elements().trench().depth());
+    above.layers().iter().map(|own| own.soil.density() * own.thickness).sum()
+}
+
+/// Mean mass of the soil above each element, kg/m², in the order of the outline.
+pub(super) fn mass_above(soil: &TrenchSoil) -> Vec<f64> {
+    let wall = means(soil, |piece| piece.height * piece.mass_above);
+    along_outline(soil, &wall, mass_above_base(soil))
+}
+
+/// Distance (m) of the resultant at rest below the middle of each element, in the order of the outline.
+pub(super) fn depth_below_middle(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f64> {
+    let below = |(pieces, ends): (Vec<SoilPiece>, &[f64])| {
+        let middle = 0.5 * (ends[0] + ends[1]);
+        let [mut moment, mut thrust] = [0.0; 2];
+        for piece in &pieces {
+            let ratio = piece.ratio_at_rest(ratio);
+            let sum = ratio * piece.height * piece.mass_above;
+            // Mass grows linearly over the piece.
+            let slope = ratio * piece.soil.density() * piece.height.powi(3) / 12.0;
+            moment += sum * (piece.middle - middle) + slope;
+            thrust += sum;
+        }
+        if thrust > 0.0 { moment / thrust } else { 0.0 }
     };
-    let wall: Vec<f64> = soil
-        .elements()
-        .wall()
-        .windows(2)
-        .map(|ends| {
-            let (mut above, mut top, mut sum) = (0.0, 0.0, 0.0);
-            for (own, bottom) in &layers {
-                let bottom = bottom.min(ends[1]);
-                let ratio = ratio.unwrap_or(own.poisson() / (1.0 - own.poisson()));
-                // The part of the layer beside the element: mass above its middle.
-                let from = ends[0].clamp(top, bottom.max(top));
-                let height = (bottom - from).max(0.0);
-                let middle = above + own.density() * (from - top + 0.5 * height);
-                sum += ratio * height * middle;
-                above += own.density() * (bottom - top).max(0.0);
-                top = bottom.max(top);
-            }
-            sum / (ends[1] - ends[0])
-        })
-        .collect();
-    let depth = soil.elements().trench().depth();
-    let above = soil.profile().above(depth);
-    let weight: f64 = above.layers().iter().map(|own| own.soil.density() * own.thickness).sum();
-    let base = std::iter::repeat_n(weight, 2 * (soil.elements().base().len() - 1));
-    wall.iter().copied().chain(base).chain(wall.iter().rev().copied()).collect()
+    let walls = beside_wall(soil).into_iter().zip(soil.elements().wall().windows(2));
+    let wall: Vec<f64> = walls.map(below).collect();
+    along_outline(soil, &wall, 0.0)
+}
+
+/// Mean of a quantity above zero that is linear between two ends.
+fn mean_above_zero([one, other]: [f64; 2]) -> f64 {
+    let (low, high) = (one.min(other), one.max(other));
+    if low >= 0.0 {
+        0.5 * (low + high)
+    } else if high <= 0.0 {
+        0.0
+    } else {
+        0.5 * high * high / (high - low)
+    }
+}
+
+/// Law of each element of a wall, from the surface down: means of the limits of the soils beside it.
+///
+/// `strengths`: one for all soils, or one each. `ratio`: as for [`at_rest`].
+pub(super) fn laws(
+    soil: &TrenchSoil,
+    strengths: &[SoilStrength],
+    gravity: f64,
+    ratio: Option<f64>,
+) -> Result<Vec<EarthPressure>> {
+    let strength = |piece: &SoilPiece| {
+        if strengths.len() == 1 { strengths[0] } else { strengths[piece.place] }
+    };
+    // Where the active pressure would be below zero, the soil stands without the wall.
+    let limit = |piece: &SoilPiece, number: usize| {
+        let pressure = |mass: f64| strength(piece).pressures(gravity * mass)[number];
+        piece.height * mean_above_zero(piece.masses_at_ends().map(pressure))
+    };
+    let active = means(soil, |piece| limit(piece, 0));
+    let passive = means(soil, |piece| limit(piece, 1));
+    let friction = means(soil, |piece| piece.height * strength(piece).wall_friction());
+    let at_rest =
+        means(soil, |piece| gravity * piece.ratio_at_rest(ratio) * piece.height * piece.mass_above);
+    let mut laws = Vec::with_capacity(active.len());
+    for element in 0..active.len() {
+        let bounds = active[element] * (1.0 - ROUNDING)..=passive[element] * (1.0 + ROUNDING);
+        let fits = bounds.contains(&at_rest[element]);
+        let needed = "between active and passive pressure: see `with_pressure_at_rest`";
+        let of_element = |error: Error| error.within(format!("wall element {element}"));
+        require("pressure at rest", at_rest[element], fits, needed).map_err(of_element)?;
+        let law = EarthPressure::new(active[element], passive[element], friction[element]);
+        laws.push(law.map_err(of_element)?);
+    }
+    Ok(laws)
 }
 
 #[cfg(test)]

@@ -8,11 +8,12 @@ use super::source::TrenchSource;
 use super::trench::TrenchElements;
 use crate::bem::layered::Stages;
 use crate::bem::{Ground, GroundDescription, SharedKernels, WeightsGround, WeightsSource};
-use crate::error::{Observer, Result, not_negative};
+use crate::error::{Observer, Result, not_negative, positive, same_length};
 use crate::geometry::{ContactElement, ContactLayout};
 use crate::history::{HistoryChoice, HistoryOptions};
+use crate::interface::{EarthPressure, InterfaceLaw};
 use crate::motion::FreeField;
-use crate::soil::{Relaxation, Soil, SoilProfile};
+use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 
 /// Soil around a trench: profile, contact elements and backfill.
 ///
@@ -131,6 +132,68 @@ impl TrenchGround {
         Self { ground: self.ground.with_shared_kernels(kernels), ..self }
     }
 
+    /// Interface laws of all elements: `base` below, and limits of the pressure on the walls by the soils' strengths.
+    ///
+    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. Each element of a wall bears at
+    /// least the active and at most the passive pressure of the soil beside it ([`EarthPressure`]), as means over the
+    /// element: the limits of the thrust are exact. `strengths`: one for all soils, or one for each from the surface
+    /// down, the half-plane last; with backfill, of the backfill alone. `gravity`: of the builder, m/s².
+    ///
+    /// ```
+    /// use basemat::bem::embedded::{Trench, TrenchGround};
+    /// use basemat::interface::{Coulomb, EarthPressure};
+    /// use basemat::motion::STANDARD_GRAVITY;
+    /// use basemat::soil::SoilStrength;
+    /// use basemat::Soil;
+    /// let soil = Soil::from_shear_wave_speed(200.0, 0.33, 1900.0)?;
+    /// let elements = Trench::new(-6.0..6.0, 5.0)?.elements(4, 3)?;
+    /// let ground = TrenchGround::new(soil, elements)?.with_pressure_at_rest(0.5)?;
+    /// let sand = SoilStrength::new(30.0_f64.to_radians())?;
+    /// let laws = ground.interfaces(Coulomb::new(0.5)?, &[sand], STANDARD_GRAVITY)?;
+    /// assert_eq!(laws.len(), 10);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Item`](crate::Error::Item) for an element whose pressure at rest is below the active pressure or above the
+    /// passive one; [`Error::Size`](crate::Error::Size) for another number of strengths;
+    /// [`Error::Input`](crate::Error::Input) for a gravity that is not finite and above zero.
+    pub fn interfaces(
+        &self,
+        base: impl InterfaceLaw + Clone + 'static,
+        strengths: &[SoilStrength],
+        gravity: f64,
+    ) -> Result<Vec<Box<dyn InterfaceLaw>>> {
+        let walls = self.wall_laws(strengths, gravity)?;
+        let elements = self.trench_elements().elements();
+        let last = elements.len() - 1;
+        let law = |(e, element): (usize, &ContactElement)| -> Box<dyn InterfaceLaw> {
+            if element.faces_down() {
+                Box::new(base.clone())
+            } else {
+                Box::new(walls[e.min(last - e)])
+            }
+        };
+        Ok(elements.iter().enumerate().map(law).collect())
+    }
+
+    /// Laws of the elements of a wall, from the surface down, as in [`interfaces`](Self::interfaces).
+    ///
+    /// # Errors
+    /// As for [`interfaces`](Self::interfaces).
+    pub fn wall_laws(
+        &self,
+        strengths: &[SoilStrength],
+        gravity: f64,
+    ) -> Result<Vec<EarthPressure>> {
+        positive("gravity", gravity)?;
+        if strengths.len() != 1 {
+            let soils = if self.has_backfill() { 1 } else { self.profile().soils().count() };
+            same_length("list of soil strengths", strengths.len(), soils)?;
+        }
+        earth_pressure::laws(self.soil(), strengths, gravity, self.at_rest)
+    }
+
     /// Soil beside and below the trench.
     pub fn profile(&self) -> &SoilProfile {
         self.soil().profile()
@@ -191,6 +254,11 @@ impl Ground for TrenchGround {
             soils: self.soil().soils().collect(),
             identity: self.soil().identity(),
             pressure_at_rest: earth_pressure::at_rest(self.soil(), self.at_rest),
+            depth_of_pressure_at_rest: earth_pressure::depth_below_middle(
+                self.soil(),
+                self.at_rest,
+            ),
+            mass_above: earth_pressure::mass_above(self.soil()),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

@@ -10,11 +10,12 @@
 use std::cell::RefCell;
 
 use super::static_stages::{TIME_STEP, loaded, placed};
+use crate::bem::GroundDescription;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
-use crate::error::{Result, not_negative, same_length};
+use crate::error::{Result, all_finite, not_negative, same_length};
 use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContact, PreviousContacts, law_of};
 use crate::linalg::dense_multiply_add;
@@ -80,12 +81,19 @@ pub(super) fn state(
 pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec<f64>> {
     let layout = elements.layout();
     let mut traction = vec![0.0; layout.len()];
-    let pressures = parts.ground.description().pressure_at_rest;
+    let GroundDescription {
+        pressure_at_rest: pressures, depth_of_pressure_at_rest: depths, ..
+    } = parts.ground.description();
     if !pressures.is_empty() {
         same_length("pressures at rest of the ground", pressures.len(), parts.elements.len())?;
         for pressure in &pressures {
             not_negative("pressure at rest of the ground", *pressure)?;
         }
+    }
+    if !depths.is_empty() {
+        let quantity = "depths of the pressure at rest of the ground";
+        same_length(quantity, depths.len(), parts.elements.len())?;
+        all_finite(quantity, &depths)?;
     }
     let (floor, each) = (elements.floor(), elements.len() / parts.elements.len());
     let pressures = pressures.iter().flat_map(|own| std::iter::repeat_n(own, each));

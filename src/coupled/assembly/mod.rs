@@ -37,8 +37,8 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
 use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
-use crate::coupled::run::Weight;
 use crate::coupled::run::warning::Warning;
+use crate::coupled::run::{Weight, wall_pressure};
 use crate::coupled::scene::Scene;
 use crate::coupled::scheme::TimeScheme;
 use crate::coupled::serviceability::Serviceability;
@@ -367,6 +367,8 @@ impl SimulationBuilder {
         warnings.extend(Warning::of_faces_off_ground(description.faces_off_ground));
         warnings.extend(Warning::of_tears(tears(&structure.base())?));
         warnings.extend(coarse);
+        let pressures_above =
+            wall_pressure::pressures_above(&scene, ground.as_ref(), given.gravity);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.
         held.is_firm?;
@@ -382,6 +384,7 @@ impl SimulationBuilder {
             state,
             conditioning,
             warnings,
+            pressures_above,
             drag: assembled.drag(),
             rotation_limit: given.rotation_limit,
             expected_steps: given.steps,

@@ -116,7 +116,7 @@ fn under_growing_load(
     let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
     let takes_a_path = |state: &StaticState| {
         let mut modes = state.modes.iter().enumerate();
-        modes.any(|(e, mode)| mode.is_slip() && sticks(e) || mode.is_yield())
+        modes.any(|(e, mode)| mode.is_slip() && sticks(e) || mode.is_yield() || mode.is_active())
     };
     match path(1) {
         Ok(state) if !takes_a_path(&state) => Ok(state),
@@ -154,13 +154,15 @@ fn check_placed(
             miss.abs() > PLACED * (gap.abs() * length + factor.abs() * pressure + value.abs())
         };
         let next = law.next_mode(at_rest, &previous, &contact, tolerance);
-        let yields = next.is_yield() && !mode.is_yield();
-        if !yields && (mode.is_yield() || !law.conditions(at_rest, &previous).iter().any(misses)) {
+        let is_at_limit = mode.is_yield() || mode.is_active();
+        let yields = (next.is_yield() || next.is_active()) && !is_at_limit;
+        if !yields && (is_at_limit || !law.conditions(at_rest, &previous).iter().any(misses)) {
             continue;
         }
         let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \
                       `GravityStage::Frictional`, in which the law itself acts";
-        let reason = Box::new(Error::Scene { quantity: "static state without friction", needed });
+        let unheld = Error::Scene { quantity: "static state without friction", needed };
+        let reason = Box::new(law.check_start(&previous).err().unwrap_or(unheld));
         return Err(Error::Law(LawError { element, mode: at_rest.word(), reason }));
     }
     Ok(())

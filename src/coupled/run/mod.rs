@@ -16,6 +16,7 @@ mod unusual_numbers;
 mod uplift;
 mod variation;
 mod vectors;
+pub(crate) mod wall_pressure;
 pub(crate) mod warning;
 mod warning_rules;
 mod warning_text;
@@ -249,7 +250,8 @@ impl Run {
 
     /// Closes the run; the ground is sampled between steps where these may have missed an extreme.
     ///
-    /// `opens`: whether an element can open. `of_scene`: warnings of the scene itself. `drag`: damping of a rigid
+    /// `opens`: whether an element can open. `of_scene`: warnings of the scene itself. `pressures_above`: of the soil, Pa,
+    /// on elements of walls without a largest pressure; empty without walls. `drag`: damping of a rigid
     /// translation over its mass, 1/s. `rotation_limit`: rotation that ends a run, rad.
     pub(crate) fn finish(
         &mut self,
@@ -257,6 +259,7 @@ impl Run {
         motion: &dyn FreeField,
         opens: impl Fn(usize) -> bool,
         of_scene: &[Warning],
+        pressures_above: &[f64],
         [drag, rotation_limit]: [f64; 2],
     ) {
         // A run that was read from a file is closed.
@@ -285,6 +288,7 @@ impl Run {
             self.warnings.extend(Warning::of_settlement(k, *settlement, width));
         }
         self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
+        self.warnings.extend(wall_pressure::warning(&self.envelope, pressures_above));
         self.warnings.extend_from_slice(of_scene);
         let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
         let acceleration = self.resolution.largest_acceleration();

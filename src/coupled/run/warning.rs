@@ -435,4 +435,24 @@ pub enum Warning {
         /// Length that resolves the wave, m.
         needed: f64,
     },
+    /// A wall presses on the soil with more than even strong soil bears, in more than a tenth of its thrust.
+    ///
+    /// The soil would yield there. It is held against a friction angle of 45° without cohesion, with the largest pressure
+    /// of each element under a law without a largest pressure. Element pressures near the surface grow with the mesh.
+    #[error(
+        "wall presses with {pressure:.2e} Pa on soil under {above:.2e} Pa, x = {x:.2} m, z = {z:.2} m, at {time:.2} s: \
+         soil of 45° yields; give the walls passive pressures (`TrenchGround::interfaces`)"
+    )]
+    WallPressure {
+        /// Largest pressure of the element that exceeds the limit by the largest force, Pa.
+        pressure: f64,
+        /// Pressure of the soil above the middle of that element, Pa.
+        above: f64,
+        /// Middle of that element, m.
+        x: f64,
+        /// Height of the middle of that element, m.
+        z: f64,
+        /// Time of that pressure, s.
+        time: f64,
+    },
 }

@@ -97,8 +97,9 @@ energies! {
     Soil soil, Lost, "soil (radiated, stored)";
     /// Loss by friction and impact, and by the springs of a compliant interface that opens and closes.
     ///
-    /// Total tractions times minus the change of the jump, without its elastic part. It never falls, with any law
-    /// of the crate.
+    /// Total tractions times minus the change of the jump, without its elastic part. It falls by the work of the
+    /// weight of soil that follows a wall ([`EarthPressure`](crate::interface::EarthPressure)), and with no other
+    /// law of the crate.
     Contact contact, Lost, "friction and impact";
     /// Elastic energy stored in compliant interfaces, as a change against the static state.
     ///

@@ -1,6 +1,6 @@
 //! Forces between soil and each face of a structure in the ground.
 
-use crate::coupled::state::State;
+use crate::coupled::state::{Context, State};
 use crate::geometry::{ContactElement, middle};
 use crate::interface::{ContactState, Mode};
 
@@ -31,7 +31,7 @@ pub struct FaceForces {
     pub shear: f64,
     /// Point where the thrust acts, m: height above the base; for the base, distance to the right of its middle.
     ///
-    /// NaN without thrust.
+    /// Pressure on each element of a wall is distributed as at rest; NaN without thrust.
     pub place: f64,
     /// Length of open elements over the length of the face.
     pub open_fraction: f64,
@@ -56,21 +56,25 @@ impl State {
     /// let wall = simulation.state().face(Face::LeftWall);
     /// // K₀ ρ g d²/2, a third of the depth above the base.
     /// assert!((wall.thrust / (0.5 * 1900.0 * STANDARD_GRAVITY * 12.5) - 1.0).abs() < 1e-12);
-    /// assert!((wall.place - 5.0 / 3.0).abs() < 0.1);
+    /// assert!((wall.place - 5.0 / 3.0).abs() < 1e-12);
     /// let series = basemat::results::Recorder::new().contact(1).start(&simulation)?;
     /// assert_eq!(series.face(Face::LeftWall).next(), Some(wall));
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn face(&self, face: Face) -> FaceForces {
-        FaceForces::on(face, &self.context.elements, &self.contact, &self.modes)
+        let Context { elements, pressure_depths, .. } = &*self.context;
+        FaceForces::on(face, elements, pressure_depths, &self.contact, &self.modes)
     }
 }
 
 impl FaceForces {
     /// Forces on a face, from state and mode of each of the `elements` of a ground.
+    ///
+    /// `pressure_depths`: distances of the resultant pressure below the middle of each element; empty for none.
     pub(crate) fn on(
         face: Face,
         elements: &[ContactElement],
+        pressure_depths: &[f64],
         contact: &[ContactState],
         modes: &[Mode],
     ) -> Self {
@@ -85,7 +89,8 @@ impl FaceForces {
             let (element, state) = (&elements[e], &contact[e]);
             let area = element.area();
             let [x, _, z] = element.center();
-            let arm = if face == Face::Base { x - middle } else { z - bottom };
+            let below_middle = pressure_depths.get(e).copied().unwrap_or(0.0);
+            let arm = if face == Face::Base { x - middle } else { z - below_middle - bottom };
             thrust += area * state.pressure;
             shear += area * state.shear;
             moment += area * state.pressure * arm;

@@ -56,6 +56,8 @@ impl Transition {
 pub(crate) struct Context {
     pub(crate) probes: Vec<Probe>,
     pub(crate) elements: Patch,
+    /// Distance of the resultant pressure below the middle of each element, m; empty where it is the middle.
+    pub(crate) pressure_depths: Vec<f64>,
     /// Coefficients for the factor of safety against sliding: one for all elements, one each, or none.
     pub(crate) friction: Vec<f64>,
     /// Shape of each foundation.

@@ -1,0 +1,68 @@
+//! Pressure of walls on soil without a passive limit.
+
+use crate::bem::Ground;
+use crate::coupled::Warning;
+use crate::coupled::run::envelope::ElementEnvelope;
+use crate::coupled::scene::Scene;
+use crate::coupled::statics::strength::Strength;
+use crate::geometry::ContactElement;
+use crate::interface::LawForm;
+
+/// Passive over vertical pressure of soil with a friction angle of 45°: tan²(67.5°).
+const STRONG_SOIL_RATIO: f64 = 5.828_427_124_746_19;
+/// Share of a wall's thrust beyond the passive limit above which a run warns.
+const EXCESS_LIMIT: f64 = 0.1;
+
+/// Pressure of the soil above the middle of each element, Pa; empty without walls or weight.
+///
+/// Infinite for the base, and for elements whose law has a largest pressure.
+pub(crate) fn pressures_above(scene: &Scene, ground: &dyn Ground, gravity: f64) -> Vec<f64> {
+    let masses = ground.description().mass_above;
+    let elements = ground.elements();
+    if masses.len() != elements.len() || gravity == 0.0 || !ContactElement::any_wall(elements) {
+        return Vec::new();
+    }
+    let pressure = |(element, mass): (usize, &f64)| {
+        let law = scene.law(element);
+        let has_limit = || {
+            let strength = Strength::at_pressure(law, gravity * mass, LawForm::Modes, false);
+            strength.bearing_pressure.is_finite()
+        };
+        let is_base = elements[element].faces_down();
+        if is_base || has_limit() { f64::INFINITY } else { gravity * mass }
+    };
+    masses.iter().enumerate().map(pressure).collect()
+}
+
+/// Warning of the wall whose largest pressures exceed the passive ones of strong soil by the largest part of its thrust.
+pub(crate) fn warning(envelope: &[ElementEnvelope], pressures_above: &[f64]) -> Option<Warning> {
+    if pressures_above.is_empty() {
+        return None;
+    }
+    let elements: Vec<ContactElement> = envelope.iter().map(|own| own.element).collect();
+    let [left, _, right] = ContactElement::faces(&elements);
+    let mut found = None;
+    let mut largest = EXCESS_LIMIT;
+    for wall in [left, right] {
+        let [mut excess, mut thrust, mut worst] = [0.0; 3];
+        let mut element = wall.start;
+        for e in wall {
+            let (pressure, area) = (envelope[e].pressure.highest.value, elements[e].area());
+            let force = area * (pressure - STRONG_SOIL_RATIO * pressures_above[e]).max(0.0);
+            excess += force;
+            thrust += area * pressure;
+            if force > worst {
+                (worst, element) = (force, e);
+            }
+        }
+        if excess > largest * thrust {
+            largest = excess / thrust;
+            let [x, _, z] = elements[element].center();
+            let peak = envelope[element].pressure.highest;
+            let above = pressures_above[element];
+            let (pressure, time) = (peak.value, peak.time);
+            found = Some(Warning::WallPressure { pressure, above, x, z, time });
+        }
+    }
+    found
+}

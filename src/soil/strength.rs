@@ -1,0 +1,114 @@
+//! Strength of soil, and the earth pressures on a wall that follow from it.
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::error::{Result, not_negative, require};
+
+/// Strength of the soil beside a wall: friction angle φ, cohesion c, and friction angle δ between soil and wall.
+///
+/// Pressures follow from Coulomb's wedges with plane surfaces, beside a vertical wall under level ground; without wall
+/// friction they are Rankine's. Strengths and stresses are effective ones of drained soil.
+///
+/// ```
+/// use basemat::soil::SoilStrength;
+/// let sand = SoilStrength::new(30.0_f64.to_radians())?;
+/// let [active, passive] = sand.pressure_ratios();
+/// assert!((active - 1.0 / 3.0).abs() < 1e-12 && (passive - 3.0).abs() < 1e-12);
+/// // Under 40 kPa of soil.
+/// let [active, passive] = sand.with_cohesion(2.0e3)?.pressures(40.0e3);
+/// assert!((active - 11.024e3).abs() < 1.0 && (passive - 126.928e3).abs() < 1.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "SoilStrengthForm"))]
+pub struct SoilStrength {
+    friction_angle: f64,
+    cohesion: f64,
+    wall_friction_angle: f64,
+}
+
+validated! {
+    SoilStrength as SoilStrengthForm {
+        friction_angle: f64,
+        cohesion: f64,
+        wall_friction_angle: f64,
+    }
+    => SoilStrength::new(friction_angle)?.with_cohesion(cohesion)?.with_wall_friction(wall_friction_angle)
+}
+
+impl SoilStrength {
+    /// Soil with a friction angle (rad), without cohesion, beside a smooth wall.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for an angle below zero, or of π/2 and more.
+    pub fn new(friction_angle: f64) -> Result<Self> {
+        let is_angle = (0.0..FRAC_PI_2).contains(&friction_angle);
+        require(
+            "friction angle of the soil (rad)",
+            friction_angle,
+            is_angle,
+            "from 0 to below π/2",
+        )?;
+        Ok(Self { friction_angle, cohesion: 0.0, wall_friction_angle: 0.0 })
+    }
+
+    /// Sets the cohesion, Pa; it does not act between soil and wall.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for a cohesion below zero or not finite.
+    pub fn with_cohesion(self, cohesion: f64) -> Result<Self> {
+        Ok(Self { cohesion: not_negative("cohesion of the soil", cohesion)?, ..self })
+    }
+
+    /// Sets the friction angle (rad) between soil and wall, from 0 to the one of the soil.
+    ///
+    /// Plane wedges overestimate the passive pressure from about a third of the soil's angle on, where surfaces of
+    /// sliding are curved (Terzaghi 1943): take no more than that, unless the wall's friction is known to act.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) for an angle below zero, above the soil's, or with which no plane wedge
+    /// slides at the passive limit.
+    pub fn with_wall_friction(self, angle: f64) -> Result<Self> {
+        let is_angle = (0.0..=self.friction_angle).contains(&angle);
+        let needed = "from 0 to the friction angle of the soil";
+        require("friction angle of the wall (rad)", angle, is_angle, needed)?;
+        let strength = Self { wall_friction_angle: angle, ..self };
+        let needed = "less: no plane wedge slides at the passive limit";
+        require("friction angle of the wall (rad)", angle, strength.root() < 1.0, needed)?;
+        Ok(strength)
+    }
+
+    /// √(sin(φ + δ) sin φ / cos δ).
+    fn root(&self) -> f64 {
+        let Self { friction_angle: phi, wall_friction_angle: delta, .. } = *self;
+        ((phi + delta).sin() * phi.sin() / delta.cos()).sqrt()
+    }
+
+    /// Active and passive horizontal pressure over the vertical pressure, without cohesion.
+    ///
+    /// K = (cos φ/(1 ± √(sin(φ + δ) sin φ/cos δ)))²: the components across the wall of Coulomb's thrust (1776, in the
+    /// form of Müller-Breslau 1906), which is inclined at δ and 1/cos δ times as large. Without wall friction
+    /// tan²(π/4 ∓ φ/2) (Rankine 1857).
+    pub fn pressure_ratios(&self) -> [f64; 2] {
+        let root = self.root();
+        [1.0 + root, 1.0 - root].map(|factor| (self.friction_angle.cos() / factor).powi(2))
+    }
+
+    /// Active and passive pressure on a wall (Pa) under a `vertical` pressure of the soil, Pa.
+    ///
+    /// K σ_v ∓ 2c √K (EN 1997-1:2004, eqs. C.1 and C.2, without adhesion). The active one is below zero where cohesion
+    /// holds the soil without a wall.
+    pub fn pressures(&self, vertical: f64) -> [f64; 2] {
+        let [active, passive] = self.pressure_ratios();
+        [
+            active * vertical - 2.0 * self.cohesion * active.sqrt(),
+            passive * vertical + 2.0 * self.cohesion * passive.sqrt(),
+        ]
+    }
+
+    /// Friction coefficient between soil and wall, tan δ.
+    pub fn wall_friction(&self) -> f64 {
+        self.wall_friction_angle.tan()
+    }
+}
