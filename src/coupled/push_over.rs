@@ -200,7 +200,9 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
         let motions = self.motions(simulation);
         let state = simulation.state();
         let areas = simulation.elements().areas();
-        let sliding = state.modes.iter().zip(areas).filter(|(mode, _)| mode.is_slip());
+        // A state begins with elements that stick where the load has left them.
+        let modes = &simulation.scene.static_state.modes;
+        let sliding = modes.iter().zip(areas).filter(|(mode, _)| mode.is_slip());
         PushPoint {
             force,
             displacement: motions[0] - self.datum[0],
