@@ -141,7 +141,7 @@ fn check(path: &PushControl) -> Result<()> {
     match path {
         PushControl::Forces(forces) => {
             at_least("forces of the push-over", forces.len(), 1)?;
-            forces.iter().try_for_each(|&own| finite("force of the push-over", own).map(drop))
+            forces.iter().try_for_each(|&force| finite("force of the push-over", force).map(drop))
         }
         PushControl::Displacements { targets, first_force } => {
             at_least("displacements of the push-over", targets.len(), 1)?;
@@ -200,7 +200,9 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
         let motions = self.motions(simulation);
         let state = simulation.state();
         let areas = simulation.elements().areas();
-        let sliding = state.modes.iter().zip(areas).filter(|(mode, _)| mode.is_slip());
+        // A state begins with elements that stick where the load has left them.
+        let modes = &simulation.scene.static_state.modes;
+        let sliding = modes.iter().zip(areas).filter(|(mode, _)| mode.is_slip());
         PushPoint {
             force,
             displacement: motions[0] - self.datum[0],
@@ -317,15 +319,17 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
 /// Whether an error says that the loads have no equilibrium.
 fn is_without_equilibrium(error: &Error) -> bool {
     match error {
-        // The resultant passes beside the middles of the outermost elements.
-        Error::Preload { .. } | Error::CoarseBase(_) => true,
-        Error::Stability(own) => matches!(
-            own.as_ref(),
+        Error::Preload { .. } => true,
+        Error::Stability(cause) => matches!(
+            cause.as_ref(),
             StabilityError::Uplift { .. }
                 | StabilityError::Sliding { .. }
                 | StabilityError::Twisting { .. }
                 | StabilityError::Overturning { .. }
                 | StabilityError::BearingFailure { .. }
+                // The resultant passes beside the middles of the outermost elements.
+                | StabilityError::Beyond { .. }
+                | StabilityError::BondBreaks { .. }
         ),
         _ => false,
     }
@@ -338,8 +342,8 @@ fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
     let mut largest = [0.0_f64; 2];
     for part in base.parts() {
         let [slope, slope_across] = slopes(part, displacement);
-        let own = if in_plan { [-slope, slope_across] } else { [slope, 0.0] };
-        for (sum, value) in largest.iter_mut().zip(own) {
+        let rotations = if in_plan { [-slope, slope_across] } else { [slope, 0.0] };
+        for (sum, value) in largest.iter_mut().zip(rotations) {
             if value.abs() > sum.abs() {
                 *sum = value;
             }

@@ -20,14 +20,15 @@ pub(crate) fn first_at_place(points: &[[f64; 3]], tolerance: f64) -> Result<Vec<
     let mut firsts: Vec<usize> = Vec::with_capacity(points.len());
     // Points in each cell that are the first at their place.
     let mut cells: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
-    // Points that are not the first: each must be far from all other places.
+    // All points of each place, by its first.
+    let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
     for (index, point) in points.iter().enumerate() {
-        let own = point.map(cell);
+        let home = point.map(cell);
         let mut near = Vec::new();
         for x in NEIGHBOURS {
             for y in NEIGHBOURS {
                 for z in NEIGHBOURS {
-                    let around = [own[0] + x, own[1] + y, own[2] + z];
+                    let around = [home[0] + x, home[1] + y, home[2] + z];
                     for &other in cells.get(&key(around)).into_iter().flatten() {
                         if distance(points[other], *point) <= tolerance && !near.contains(&other) {
                             near.push(other);
@@ -37,14 +38,16 @@ pub(crate) fn first_at_place(points: &[[f64; 3]], tolerance: f64) -> Result<Vec<
             }
         }
         let first = near.iter().map(|&other| firsts[other]).min().unwrap_or(index);
-        for &other in &near {
-            let apart = distance(points[first], *point) > tolerance;
-            if firsts[other] != first || apart {
-                return Err(in_a_row(other, index, tolerance));
-            }
+        // All points at the place must be within the tolerance, and no point of another place.
+        let same_place = places.entry(first).or_default();
+        let far = |other: &&usize| distance(points[**other], *point) > tolerance;
+        let other_place = near.iter().find(|other| firsts[**other] != first);
+        if let Some(&other) = same_place.iter().find(far).or(other_place) {
+            return Err(in_a_row(other, index, tolerance));
         }
+        same_place.push(index);
         firsts.push(first);
-        cells.entry(key(own)).or_default().push(index);
+        cells.entry(key(home)).or_default().push(index);
     }
     Ok(firsts)
 }

@@ -35,7 +35,7 @@ fn pushed(
 
 const WEIGHT: f64 = 80.0e3 * GRAVITY;
 
-/// Moments at the rotations of the table; the middles of 200 cells err by 1/200.
+/// Moments at the rotations of the table; the middles of 100 cells err by 1/100.
 #[test]
 fn a_block_on_springs_without_tension_has_the_winkler_strips_curve() {
     let stiffness = 3.0e7;
@@ -54,12 +54,12 @@ fn a_block_on_springs_without_tension_has_the_winkler_strips_curve() {
         }
     }
     assert!(forces.len() > 3 && wanted.iter().any(|row| row[2] < 0.8), "{wanted:?}");
-    let curve = pushed(200, stiffness, 5.0, 8.0, &PushControl::Forces(forces));
+    let curve = pushed(100, stiffness, 5.0, 8.0, &PushControl::Forces(forces));
     assert!(curve.limit.is_none() && curve.points.len() == wanted.len() + 1);
     for (point, [ratio, moment, contact]) in curve.points[1..].iter().zip(wanted) {
         let found = -point.base_rotation / uplift;
         assert!((found / ratio - 1.0).abs() < 0.02, "{found} {ratio}");
-        assert!((1.0 - point.uplifted_fraction - contact).abs() < 0.006, "{point:?}");
+        assert!((1.0 - point.uplifted_fraction - contact).abs() < 0.011, "{point:?}");
         assert!(
             (point.base_moment.abs() / (moment * WEIGHT * 2.5) - 1.0).abs() < 1e-6,
             "{point:?}"
@@ -83,7 +83,7 @@ fn displacements_are_met_by_their_forces() {
     let uplift = WEIGHT / (2.0 * stiffness * 2.5 * 2.5);
     let targets = vec![0.01, 0.03, 0.1, 0.3];
     let path = PushControl::Displacements { targets: targets.clone(), first_force: 20.0e3 };
-    let curve = pushed(200, stiffness, 5.0, 8.0, &path);
+    let curve = pushed(100, stiffness, 5.0, 8.0, &path);
     assert_eq!(curve.points.len(), targets.len() + 1);
     for (point, target) in curve.points[1..].iter().zip(targets) {
         assert!((point.displacement - target).abs() < 1.01e-4 * target, "{point:?}");
@@ -96,7 +96,7 @@ fn displacements_are_met_by_their_forces() {
     }
     // The other way it is the mirror image.
     let back = PushControl::Displacements { targets: vec![-0.03], first_force: -20.0e3 };
-    let mirrored = pushed(200, stiffness, 5.0, 8.0, &back);
+    let mirrored = pushed(100, stiffness, 5.0, 8.0, &back);
     assert!((mirrored.points[1].force / curve.points[2].force + 1.0).abs() < 1e-2);
 }
 
@@ -124,18 +124,18 @@ fn the_limits_are_overturning_and_friction() {
     assert!((found / wanted - 1.0).abs() < 1e-3, "{found} {wanted}");
 }
 
-/// Sliding begins at the edges of a base on elastic ground and spreads.
+/// Pushed at half its height, the block slides first at the edge with less pressure.
 #[test]
 fn sliding_spreads_on_elastic_ground() {
     let block = RigidBlock::new(6.0, 6.0, 2000.0).unwrap();
-    let row = block.horizontal_at(0.5);
+    let row = block.horizontal_at(3.0);
     let soil = Soil::new(80.0e6, 0.33, 1900.0).unwrap();
     let limit = 0.4 * 72.0e3 * GRAVITY;
     let forces: Vec<f64> = [0.2, 0.4, 0.6, 0.8, 0.95].map(|part| part * limit).to_vec();
     let curve = push_over(&row, &PushControl::Forces(forces), |force| {
         Simulation::builder(0.005)
             .gravity(GRAVITY)
-            .ground(ElasticGround::under(soil, &block, 24)?)
+            .ground(ElasticGround::under(soil, &block, 12)?)
             .structure(block.clone())
             .interface(Coulomb::new(0.4)?)
             .load(Load::constant(row.clone(), force))
@@ -145,7 +145,9 @@ fn sliding_spreads_on_elastic_ground() {
     assert_eq!(curve.points.len(), 6);
     let sliding: Vec<f64> = curve.points.iter().map(|point| point.sliding_fraction).collect();
     assert!(
-        sliding.windows(2).all(|pair| pair[1] >= pair[0]) && sliding[5] > sliding[1],
+        sliding.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12)
+            && sliding[5] > 0.0
+            && sliding[5] > sliding[1],
         "{sliding:?}"
     );
 }

@@ -91,7 +91,7 @@ impl GroupedCells {
     fn add(&mut self, cell: Tagged, entity: i64, group: i64) {
         let key = (entity, cell.nodes.clone());
         let before = self.index.get(&key).and_then(|&index| self.cells.get_mut(index));
-        match before.filter(|(own, groups)| own.kind == cell.kind && !groups.contains(&group)) {
+        match before.filter(|(known, groups)| known.kind == cell.kind && !groups.contains(&group)) {
             Some((_, groups)) => groups.push(group),
             None => {
                 self.index.insert(key, self.cells.len());

@@ -127,14 +127,14 @@ impl FemModel {
 
 /// Axes and ends of a beam, also from a box; `None` for another element.
 fn end_frame(element: &dyn Element, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
-    let own: &dyn Any = element;
-    if let Some(inner) = own.downcast_ref::<Box<dyn Element>>() {
+    let any: &dyn Any = element;
+    if let Some(inner) = any.downcast_ref::<Box<dyn Element>>() {
         return end_frame(inner.as_ref(), coordinates);
     }
-    if let Some(beam) = own.downcast_ref::<SpaceBeam>() {
+    if let Some(beam) = any.downcast_ref::<SpaceBeam>() {
         return beam.end_frame(coordinates);
     }
-    own.downcast_ref::<Beam>()?.end_frame(coordinates)
+    any.downcast_ref::<Beam>()?.end_frame(coordinates)
 }
 
 /// Weights, on the displacements of a beam's nodes, of the force or moment along `axis` at an end.

@@ -57,7 +57,7 @@ fn in_space() -> (Parts, Vec<Make>) {
     let spring: Make =
         |nodes| Box::new(Spring::new([nodes[0], nodes[1]], Direction::Z, 1e6).unwrap());
     let truss: Make =
-        |nodes| Box::new(Truss::new([nodes[0], nodes[1]], 2e11, 1e-3, 7800.0).unwrap());
+        |nodes| Box::new(Truss::in_space([nodes[0], nodes[1]], 2e11, 1e-3, 7800.0).unwrap());
     let weight: Make = |nodes| Box::new(LumpedMass::in_space(nodes[0], 500.0, [1.0; 3]).unwrap());
     let elements = vec![
         (0..8).collect(),
