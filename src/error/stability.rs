@@ -85,6 +85,15 @@ pub enum StabilityError {
         /// edge.
         ratio: f64,
     },
+    /// The weight makes it fall over or buckle (P–Δ), even with its base bonded to the ground.
+    #[error(
+        "it falls over or buckles under its weight (P–Δ), even with its base bonded to the ground: the smallest \
+         load factor is {factor:.4}"
+    )]
+    Buckling {
+        /// Fraction of the forces at rest at which it does.
+        factor: f64,
+    },
     /// The weight exceeds the bearing pressure of the interface.
     #[error(
         "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \
