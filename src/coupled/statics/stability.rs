@@ -39,8 +39,8 @@ pub(crate) fn cause(
     at_rest
         .mechanism()
         .or_else(|| if is_singular { massless() } else { None })
-        .or_else(|| resultants(stage, laws, load))
         .or_else(|| buckling(stage))
+        .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
