@@ -85,13 +85,13 @@ pub enum StabilityError {
         /// edge.
         ratio: f64,
     },
-    /// The weight makes it fall over or buckle (P–Δ), even with its base bonded to the ground.
+    /// The weight makes it fall over or buckle (P–Δ), or brings it to the verge of that.
     #[error(
-        "it falls over or buckles under its weight (P–Δ), even with its base bonded to the ground: the smallest \
-         load factor is {factor:.4}"
+        "it falls over or buckles under its weight (P–Δ), or nearly so: the smallest load factor is {factor:.4}, \
+         with its base bonded to the ground"
     )]
     Buckling {
-        /// Fraction of the forces at rest at which it does.
+        /// Multiple of the forces at rest at which it does, with its base bonded to the ground.
         factor: f64,
     },
     /// The weight exceeds the bearing pressure of the interface.

@@ -99,7 +99,7 @@ impl Assembled {
         let stands = |stiffness: &SparseMatrix| {
             check_signs(&self.base, [&self.mass, &self.damping, stiffness]).is_ok()
         };
-        let factor = LoadedStiffness::new(structure, &self.stiffness)?.factor(stands)?;
+        let factor = LoadedStiffness::new(structure, &self.stiffness)?.factor(1.0, stands)?;
         Some(StructureError::Buckling { factor }.into())
     }
 

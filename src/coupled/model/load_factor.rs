@@ -28,16 +28,16 @@ impl<'a> LoadedStiffness<'a> {
         SparseMatrix::sum("stiffness matrix", self.stiffness.order(), &terms)
     }
 
-    /// Smallest factor at which the structure does not stand, between 0 and 1.
+    /// Smallest factor at which the structure does not stand, between 0 and `limit`.
     ///
-    /// `stands` tells whether it does with a stiffness. `None` if it stands under its forces at rest, or not even without
-    /// them.
-    pub(crate) fn factor(&self, stands: impl Fn(&SparseMatrix) -> bool) -> Option<f64> {
+    /// `stands` tells whether it does with a stiffness. `None` if it stands under `limit` times its forces at rest, or not
+    /// even without them.
+    pub(crate) fn factor(&self, limit: f64, stands: impl Fn(&SparseMatrix) -> bool) -> Option<f64> {
         let stands_at = |factor: f64| self.at(factor).is_ok_and(|stiffness| stands(&stiffness));
-        if !stands_at(0.0) || stands_at(1.0) {
+        if !stands_at(0.0) || stands_at(limit) {
             return None;
         }
-        let (mut low, mut high) = (0.0, 1.0);
+        let (mut low, mut high) = (0.0, limit);
         while high - low > ACCURACY * high && high > f64::MIN_POSITIVE {
             let middle = 0.5 * (low + high);
             if stands_at(middle) {

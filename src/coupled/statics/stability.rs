@@ -18,6 +18,9 @@ use crate::interface::{InterfaceLaw, LawForm, law_of};
 use crate::linalg::{Elimination, SparseFactor, SparseMatrix, Triplets, dot};
 use crate::structure::DofCombination;
 
+/// Load factor below which a structure has no equilibrium because it buckles, or is too close to it.
+const VERGE_OF_BUCKLING: f64 = 1.1;
+
 const SOIL: &str = "stiffness matrix on the ground";
 
 /// The cause of `error`, that there is no equilibrium under `load`; `error` itself if it is unknown.
@@ -123,7 +126,7 @@ fn buckling(stage: &Standing<'_>) -> Option<StabilityError> {
         sum.and_then(|sum| SparseFactor::positive_definite(SOIL, &sum)).is_ok()
     };
     let loaded = LoadedStiffness::new(stage.structure, assembled.stiffness_at_rest())?;
-    loaded.factor(stands).map(|factor| StabilityError::Buckling { factor })
+    loaded.factor(VERGE_OF_BUCKLING, stands).map(|factor| StabilityError::Buckling { factor })
 }
 
 /// Work of a load on the displacements that these forces cause.
