@@ -85,6 +85,15 @@ pub enum StabilityError {
         /// edge.
         ratio: f64,
     },
+    /// The weight makes it fall over or buckle (P–Δ), or brings it to the verge of that.
+    #[error(
+        "it falls over or buckles under its weight (P–Δ), or nearly so: the smallest load factor is {factor:.4}, \
+         with its base bonded to the ground"
+    )]
+    Buckling {
+        /// Multiple of the forces at rest at which it does, with its base bonded to the ground.
+        factor: f64,
+    },
     /// The weight exceeds the bearing pressure of the interface.
     #[error(
         "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \

@@ -193,8 +193,8 @@ pub trait Structure: Any + Send {
 
     /// Adds the part of the stiffness that comes from the forces at rest (P–Δ), n × n, to `matrix`. Default: none.
     ///
-    /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure buckles,
-    /// and damping in proportion to the rest of the stiffness counts as proportional.
+    /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure
+    /// buckles.
     ///
     /// # Errors
     /// Any; `build` returns it.

@@ -2,7 +2,7 @@
 //! SCENE: blocks, frames and towers that are pushed, pulled, let go, thrown, tilted and dropped.
 //! REFERENCE: statics, a structure with the same load of its own, energy, free fall, Housner's block.
 
-use basemat::bem::ElasticGround;
+use basemat::bem::{ElasticGround, SpringGround};
 use basemat::coupled::StabilityError;
 use basemat::coupled::{
     Change, DissipativeMidpoint, GravityStage, HhtAlpha, Load, Midpoint, Newmark,
@@ -452,6 +452,27 @@ fn initial_motions_and_loads_that_make_no_sense_are_refused() {
     {
         assert!((table.value(time) - value).abs() < 1e-14, "{time}");
     }
+}
+
+/// A block leans on springs that are too soft for it (P–Δ): k_θ/(W h) of its weight would stand.
+///
+/// Before: "no static equilibrium", with a residual that told nothing.
+#[test]
+fn a_block_that_its_ground_cannot_hold_names_its_load_factor() {
+    let (cells, bed) = (8, 2.0e5);
+    let width = 6.0 / f64::from(cells);
+    let squares = (0..cells).map(|k| (width * (f64::from(k) + 0.5) - 3.0).powi(2));
+    let exact = bed * width * squares.sum::<f64>() / (WEIGHT * 4.5);
+    let ground = SpringGround::new(-3.0..3.0, 8, bed, 0.5 * bed).unwrap();
+    let builder = Simulation::builder(0.005)
+        .ground(ground)
+        .structure(block().with_p_delta(GRAVITY).unwrap())
+        .gravity(GRAVITY)
+        .interface(Bonded)
+        .load(Load::new(0, |_| 1.0e4));
+    let cause = refused(builder);
+    let StabilityError::Buckling { factor } = cause else { panic!("{cause}") };
+    assert!((factor / exact - 1.0).abs() < 1e-5, "{factor} {exact}");
 }
 
 /// A slender block tilted and let go on an edge: quarter period over Housner's, and the first

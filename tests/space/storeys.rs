@@ -8,7 +8,7 @@ use basemat::interface::Bonded;
 use basemat::motion::{FreeField, Triaxial, el_centro_1940};
 use basemat::structure::{
     Bilinear, DofCombination, ModalDamping, PlanStorey, RigidBody, ShearBuilding, Storey,
-    StoreyBuilding, Structure, Triplets,
+    StoreyBuilding, Structure, StructureError, Triplets,
 };
 use basemat::{Error, Simulation};
 
@@ -385,5 +385,9 @@ fn buildings_that_are_none() {
     let weak = StoreyBuilding::new(mat(), &[weak]).unwrap().with_p_delta(9.81).unwrap();
     let ground = Cells::under([MAT[0], MAT[1]], [0.0; 2], [4, 3], BED);
     let built = Simulation::builder(0.01).structure(weak).ground(ground).interface(Bonded).build();
-    assert!(matches!(built, Err(Error::Indefinite { .. })), "{:?}", built.err());
+    let Err(Error::Structure(StructureError::Buckling { factor })) = built else {
+        panic!("{:?}", built.err())
+    };
+    let exact = 2e5 * 3.0 / (1e5 * 9.81);
+    assert!((factor / exact - 1.0).abs() < 1e-5, "{factor} {exact}");
 }

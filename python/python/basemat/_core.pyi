@@ -2943,7 +2943,7 @@ class FemModel(Structure):
     `RayleighDamping`; none unless given. ``mass``: matrix of masses, "consistent" (the default)
     or "lumped". ``rigid_links``: list of pairs (leader, followers) of nodes that move as one body; none
     unless given. ``diaphragms``: list of such pairs in space, whose nodes at one height follow the leader along x, along
-    y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose axial forces make P–Δ; none unless
+    y and about z; none unless given. ``p_delta``: gravity (m/s²) of the weight whose forces at rest make P–Δ; none unless
     given. ``active_damping``: whether dashpots may feed energy in, an error by default. ``active_stiffness``: whether
     matrices of elements may be unsymmetric, an error by default.
     """

@@ -28,6 +28,11 @@ const ROUNDS_OF_MODES: usize = 5;
 const STATIC: [f64; 2] = [1e-2, 0.5];
 /// Smallest square of a shift for vibration modes, relative to the scheme's: θ of a rigid motion leaves digits for others.
 const FAR: f64 = 1e-9;
+/// Reciprocal of the response of a probe, relative to the energy norms of its row and of the force, below which directions
+/// as short as the root of the tolerance are too long to be left out.
+const WEAK: f64 = 10.0;
+/// Smallest factor by which the square of the length of directions is lowered for probes: below it are rounding errors.
+const LEAST_WEAKNESS: f64 = 1e-2;
 /// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
 const SMOOTH: usize = 32;
 
@@ -51,6 +56,8 @@ impl Reduction<'_> {
         let mut last: Option<(StepResponses, Ritz)> = None;
         let (mut products, mut change, mut effective, mut newest) =
             (Vec::new(), f64::INFINITY, None, 0);
+        let probes = self.rows.counts[1]..self.rows.counts[2];
+        let mut least = 0.5 * tolerance.sqrt();
         let inertia = |space: &Subspace<'_>, first: usize| -> Vec<f64> {
             space.momenta(first).iter().map(|momentum| c.acceleration[0] * momentum).collect()
         };
@@ -71,7 +78,13 @@ impl Reduction<'_> {
                 }
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
-            let (least, mut is_last) = (0.5 * tolerance.sqrt(), false);
+            if round == 0 && !probes.is_empty() {
+                products.extend(space.products(0, rows));
+                let responses = self.smooth_responses(&space.ritz()?, &products);
+                let weakest = responses.weakest(probes.clone());
+                least *= (WEAK * weakest).clamp(LEAST_WEAKNESS, 1.0).sqrt();
+            }
+            let mut is_last = false;
             if let Some((last, fewer)) = &last {
                 products.extend(space.products(products.len() / count, rows));
                 let (modes, all) =

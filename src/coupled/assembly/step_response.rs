@@ -101,6 +101,20 @@ impl StepResponses {
         Self { values, outputs: sizes.len(), accelerations, read, probes: rows.probes.len() }
     }
 
+    /// Largest displacement of each of these `outputs`, the smallest of all.
+    ///
+    /// It is at most about 1, the response of a row of unit energy norm to a force on itself. The row of a section force
+    /// has a large norm by the stiffness at the cut, and responds little to tractions far away. Directions that the modes
+    /// lack cause errors relative to the norms, which are larger relative to such a response.
+    pub(crate) fn weakest(&self, outputs: std::ops::Range<usize>) -> f64 {
+        let mut sizes = vec![0.0_f64; outputs.len()];
+        for responses in self.values[0].chunks_exact(self.outputs.max(1)) {
+            let values = sizes.iter_mut().zip(&responses[outputs.clone()]);
+            values.for_each(|(size, value)| *size = size.max(value.abs()));
+        }
+        sizes.into_iter().filter(|size| *size > 0.0).fold(1.0, f64::min)
+    }
+
     /// Largest difference of any output from `other`, relative to the largest value of that output.
     ///
     /// At least rounding.

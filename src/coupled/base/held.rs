@@ -33,12 +33,16 @@ pub(crate) fn held(
     let n = structure.dofs();
     let [mass, stiffness] = mass_and_stiffness(structure.as_ref())?;
     let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
-    let (mut along, mut factor) = (springs.pulls().swap_remove(0), springs.factor()?);
-    factor.solve(&mut along);
+    let mut along = springs.pulls().swap_remove(0);
+    // The assembly names the motion that makes the matrix singular.
+    if let Ok(mut factor) = springs.factor() {
+        factor.solve(&mut along);
+    }
     let total: f64 = elements.areas().iter().sum();
     let resistance = 4.0 * mass.form(&along, &along) / (time_step * time_step);
     // A massless structure: the reference is its stiffness.
-    let resistance = if resistance > 0.0 { resistance } else { stiffest(&stiffness) };
+    let is_usable = resistance > 0.0 && resistance.is_finite();
+    let resistance = if is_usable { resistance } else { stiffest(&stiffness) };
     let held = HeldGround { elements: elements.clone(), compliance: total / (GROUND * resistance) };
     let mut shape = Triplets::new(n);
     for (nodes, _) in base.foundations() {

@@ -11,6 +11,7 @@ use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
+use crate::coupled::model::load_factor::LoadedStiffness;
 use crate::coupled::model::mechanism::AtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
@@ -19,8 +20,8 @@ use crate::geometry::Patch;
 use crate::linalg::matrix::spread;
 use crate::linalg::{Elimination, Partition, SparseFactor, SparseMatrix, dot};
 use crate::structure::{
-    BaseNode, HeldBase, Structure, Tangent, Triplets, check_attached, check_damping, check_mass,
-    check_stiffness, combination, stiffest,
+    BaseNode, HeldBase, Structure, StructureError, Tangent, Triplets, check_attached,
+    check_damping, check_mass, check_stiffness, combination, stiffest,
 };
 
 /// Number of passes that refine the influence vectors.
@@ -87,10 +88,19 @@ impl Assembled {
         check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
         let (influence, held) = own.find_influence().map_err(|error| match error {
-            Error::Indefinite { .. } => error,
+            Error::Indefinite { .. } => own.buckling(structure).unwrap_or(error),
             _ => own.at_rest(structure).behind(error),
         })?;
         Ok((Self { influence: Arc::new(influence), ..own }, held))
+    }
+
+    /// Error with the load factor at which the structure buckles with its base held; `None` if it does not.
+    fn buckling(&self, structure: &dyn Structure) -> Option<Error> {
+        let stands = |stiffness: &SparseMatrix| {
+            check_signs(&self.base, [&self.mass, &self.damping, stiffness]).is_ok()
+        };
+        let factor = LoadedStiffness::new(structure, &self.stiffness)?.factor(1.0, stands)?;
+        Some(StructureError::Buckling { factor }.into())
     }
 
     /// Error for a damping that is not positive semi-definite, unless it may be.

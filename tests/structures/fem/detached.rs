@@ -160,12 +160,19 @@ fn a_node_on_a_dashpot_alone_is_a_mechanism() {
     let mut mesh = stack(1, true);
     let node = mesh.add_node(0.0, 5.0).unwrap();
     mesh.add(Dashpot::axial([4, node], 1e6).unwrap()).unwrap();
-    let built = build(FemModel::on_base(mesh).unwrap());
-    let Err(Error::Stability(cause)) = built else { panic!("{:?}", built.err()) };
-    let StabilityError::Mechanism { dofs, place, massless: false } = *cause else {
-        panic!("{cause}")
-    };
-    assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    let model = FemModel::on_base(mesh).unwrap();
+    let ground = || SpringGround::new(-1.0..1.0, 4, 4.0e7, 2.0e7).unwrap();
+    let builder = || Simulation::builder(0.01).structure(model.clone()).interface(Bonded);
+    // On the fixed base too: before, "stiffness matrix with its base held of order 14 is singular".
+    for built in
+        [builder().ground(ground()).build(), builder().ground(ground()).on_fixed_base().build()]
+    {
+        let Err(Error::Stability(cause)) = built else { panic!("{:?}", built.err()) };
+        let StabilityError::Mechanism { dofs, place, massless: false } = *cause else {
+            panic!("{cause}")
+        };
+        assert_eq!((dofs, place.as_str()), (vec![12, 13], "node 6 at (0, 5)"));
+    }
 }
 
 /// Groups and reductions say whose nodes they are.

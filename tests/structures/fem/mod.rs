@@ -18,6 +18,7 @@ mod modal_damping;
 mod own_element;
 mod p_delta;
 mod p_delta_in_space;
+mod p_delta_links;
 mod patch;
 mod quad8;
 mod rigid_block;
