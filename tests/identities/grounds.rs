@@ -4,6 +4,7 @@ use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
+use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Ground, SharedKernels, SpringGround};
 use basemat::interface::{
     Bonded, Cohesive, Coulomb, InterfaceLaw, SlipSense, ThinLayer, VariableFriction, Yielding,
@@ -59,7 +60,12 @@ pub(crate) fn trench(numbers: &Numbers, view: &View) -> Result<TrenchElements> {
     let [center, _] = view.place([0.0; 2]);
     let half = 0.5 * numbers.sides[0] * view.frame.length;
     let depth = trench_depth(numbers) * view.frame.length;
-    Trench::new(center - half..center + half, depth)?.elements(4, 2)
+    Trench::new(center - half..center + half, depth)?.elements(2, 2)
+}
+
+/// Stages of a scene: the rule that chooses them has a frequency in hertz, so other units would change them.
+fn stages(choice: &Choice) -> Stages {
+    if choice.seed.is_multiple_of(3) { Stages::Three } else { Stages::Two }
 }
 
 /// The ground of a choice under its structure.
@@ -73,6 +79,7 @@ pub(crate) fn ground(
     if choice.space == Space::Trench {
         let profile = profile(choice, numbers, view)?;
         let ground = TrenchGround::new(profile, trench(numbers, view)?)?;
+        let ground = ground.with_stages(stages(choice));
         return Ok(Box::new(KERNELS.with_borrow(|kernels| ground.with_shared_kernels(kernels))));
     }
     let count = if choice.space == Space::Plan { CELLS } else { ELEMENTS };
@@ -84,7 +91,10 @@ pub(crate) fn ground(
         return Ok(Box::new(bed.with_dashpots(2.0 * dashpot, dashpot)?));
     }
     let profile = profile(choice, numbers, view)?;
-    let ground = ElasticGround::under(profile, structure, count)?;
+    let mut ground = ElasticGround::under(profile, structure, count)?;
+    if choice.ground == parts::Ground::Layers {
+        ground = ground.with_stages(stages(choice));
+    }
     if choice.space == Space::Plane {
         return Ok(Box::new(ground));
     }
@@ -189,10 +199,9 @@ pub(crate) fn motion(
         }
         Motion::Pulse => {
             let duration = numbers.duration() * frame.time;
-            let rate = 6.0 / numbers.duration();
-            let peak = numbers.peaks[0] / (6.0 * rate * rate) * frame.length;
-            let amplitude = frame.sign() * peak;
-            Box::new(RickerDisplacement::new(amplitude, duration / 6.0, 0.5 * duration)?)
+            let rate = 14.0 / numbers.duration();
+            let amplitude = frame.sign() * numbers.peaks[0] / (6.0 * rate * rate) * frame.length;
+            Box::new(RickerDisplacement::new(amplitude, duration / 14.0, 0.4 * duration)?)
         }
         Motion::Inclined | Motion::Pressure | Motion::Across => {
             Box::new(wave(choice.motion, choice, numbers, view)?)

@@ -173,19 +173,24 @@ fn on_shells(numbers: &Numbers, triangles: bool, is_linked: bool) -> Result<Made
     let mut mesh = Mesh::in_space();
     let part = |k: usize| 0.5 * k as f64 - 0.5;
     let floor = mesh.add_grid(3, 3, |row, column| [part(column) * a, part(row) * b, 0.0])?;
-    for (_, nodes) in floor.cells().collect::<Vec<_>>() {
-        let thickness = 0.2 * a;
+    // The base is the underside of the shells.
+    let thickness = 0.2 * a;
+    let mut faces = Vec::new();
+    for (_, nodes) in floor.cells() {
         if triangles {
-            mesh.add(Shell::new([nodes[0], nodes[1], nodes[2]], material, thickness)?)?;
-            mesh.add(Shell::new([nodes[0], nodes[2], nodes[3]], material, thickness)?)?;
+            faces.extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|k| nodes[k]).to_vec()));
         } else {
-            mesh.add(Shell::new(nodes, material, thickness)?)?;
+            faces.push(nodes);
         }
+    }
+    for face in &faces {
+        mesh.add(Shell::new(face, material, thickness)?)?;
     }
     // The centre of gravity is a node of its own, which follows the middle of the base.
     let middle = floor.row(1)[1];
-    let center = mesh.add_node_at([0.0, 0.0, 0.5 * numbers.height])?;
-    let top = mesh.add_node_at([0.0, 0.0, numbers.height])?;
+    let above = |height: f64| [0.0, 0.0, height - 0.5 * thickness];
+    let center = mesh.add_node_at(above(0.5 * numbers.height))?;
+    let top = mesh.add_node_at(above(numbers.height))?;
     let mass = numbers.mass(true);
     let about = |one: f64, other: f64| mass * (one * one + other * other) / 12.0;
     let h = numbers.height;
@@ -195,7 +200,6 @@ fn on_shells(numbers: &Numbers, triangles: bool, is_linked: bool) -> Result<Made
     if is_linked {
         followers.extend((0..3).flat_map(|row| floor.row(row)).filter(|node| **node != middle));
     }
-    let faces: Vec<Vec<usize>> = floor.cells().map(|(_, nodes)| nodes).collect();
     let model = FemModel::on_faces(mesh, &faces)?.with_rigid_link(middle, &followers)?;
     let row = |direction| -> Result<DofCombination> { model.row(top, direction) };
     let top = [row(Direction::X)?, row(Direction::Y)?, row(Direction::Z)?];

@@ -135,6 +135,9 @@ fn models_in_space_turn_freely() {
 fn free_motions(structure: &dyn Structure) -> usize {
     let mut matrix = stiffness(structure);
     let largest = (0..matrix.len()).fold(0.0, |largest: f64, k| largest.max(matrix[k][k]));
+    if largest == 0.0 {
+        return matrix.len();
+    }
     let scales: Vec<f64> = (0..matrix.len())
         .map(|k| if matrix[k][k] > 1e-14 * largest { matrix[k][k].sqrt() } else { largest.sqrt() })
         .collect();
