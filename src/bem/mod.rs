@@ -72,7 +72,7 @@ use crate::soil::Soil;
 /// Parts that only rates displace (dashpots, waves, creep) have the exact displacement under a constant traction.
 ///
 /// A run warns of an elastic part that follows the traction of the step:
-/// [`Warning::FirstOrderGround`](crate::coupled::Warning::FirstOrderGround). To find it, `build` prepares a ground of
+/// [`Mistake::FirstOrderGround`](crate::coupled::Mistake::FirstOrderGround). To find it, `build` prepares a ground of
 /// your own, unless it has waves, for a step 64 times shorter, and may commit a traction. It then prepares the ground again.
 ///
 /// Every ground is [`Any`], so that [`Simulation::ground`](crate::Simulation::ground) can be downcast to your own type.
@@ -209,7 +209,7 @@ pub struct GroundDescription {
     /// Speed of shear waves near the surface, m/s, for the resolution of elements; `None` without waves.
     pub shear_wave_speed: Option<f64>,
     /// Soils of the ground; a run warns of an unusual soil:
-    /// [`Warning::UnusualSoil`](crate::coupled::Warning::UnusualSoil).
+    /// [`Mistake::UnusualSoil`](crate::coupled::Mistake::UnusualSoil).
     pub soils: Vec<Soil>,
     /// Number of cells whose passivity is checked, and of all cells; `None` if all are checked.
     ///

@@ -111,6 +111,7 @@ pub use parts::SimulationBuilder;
 pub use push_over::{PushControl, PushOver, PushPoint, push_over};
 pub use refine::{Refinement, Setting, refine};
 pub use refine_each::{Refinements, refine_each};
+pub use run::mistake::Mistake;
 pub use run::warning::Warning;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,

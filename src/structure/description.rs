@@ -9,7 +9,7 @@ use crate::fem::{Mesh, triangle_sides};
 pub struct StructureDescription {
     /// Largest height of a storey, m; `None` without storeys.
     ///
-    /// A run warns of a height above 100 m: [`Warning::TallStorey`](crate::coupled::Warning::TallStorey).
+    /// A run warns of a height above 100 m: [`Mistake::TallStorey`](crate::coupled::Mistake::TallStorey).
     pub tallest_storey: Option<f64>,
     /// Mean side of the triangles of doubly curved thin shells, and the longest with which they bend right, m.
     ///
@@ -19,12 +19,12 @@ pub struct StructureDescription {
     /// Smallest and largest density of the materials, kg/m³, without massless ones; `None` without materials.
     ///
     /// A run warns of a density that no material has:
-    /// [`Warning::UnusualDensity`](crate::coupled::Warning::UnusualDensity).
+    /// [`Mistake::UnusualDensity`](crate::coupled::Mistake::UnusualDensity).
     pub densities: Option<[f64; 2]>,
     /// Number of faces of elements at the height of the base that the base does not name, and the middle of the first, m.
     ///
     /// They do not touch the ground. A run warns of them:
-    /// [`Warning::FacesOffGround`](crate::coupled::Warning::FacesOffGround).
+    /// [`Mistake::FacesOffGround`](crate::coupled::Mistake::FacesOffGround).
     pub faces_off_ground: Option<(usize, [f64; 2])>,
 }
 

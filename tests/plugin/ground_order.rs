@@ -3,7 +3,7 @@
 //! REFERENCE: the oscillator's motion and energy in closed form; `SpringGround`.
 
 use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
-use basemat::coupled::Warning;
+use basemat::coupled::{Mistake, Warning};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::{Observer, Result, Simulation};
 
@@ -197,7 +197,7 @@ fn a_run_warns_of_the_form_of_first_order_alone() {
     let warns = |ground: Box<dyn Ground>| {
         let mut simulation = oscillator(ground, STEP);
         let run = simulation.run(10, |_| {}).unwrap();
-        run.warnings.contains(&Warning::FirstOrderGround)
+        run.warnings.contains(&Warning::Mistake(Mistake::FirstOrderGround))
     };
     assert!(warns(Box::new(Springs::new(1.0))));
     assert!(!warns(Box::new(Springs::new(2.0))));

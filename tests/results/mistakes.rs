@@ -1,7 +1,7 @@
 //! Numbers and steps that are probably mistakes warn, at the point where their mistake begins, and usual ones do not.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::Warning;
+use basemat::coupled::{Mistake, Warning};
 use basemat::fem::{Material, Mesh, Shell};
 use basemat::interface::Cohesive;
 use basemat::motion::FreeFieldFn;
@@ -54,7 +54,7 @@ fn warns(run: &Run, is_kind: impl Fn(&Warning) -> bool) -> bool {
 fn is_of_step(warning: &Warning) -> bool {
     matches!(
         warning,
-        Warning::LongTimeStep { .. }
+        Warning::Mistake(Mistake::LongTimeStep { .. })
             | Warning::UnresolvedMotion { .. }
             | Warning::UnresolvedPeriod { .. }
     )
@@ -74,7 +74,7 @@ fn a_longer_step_never_warns_less() {
         let record = run(step, building(1.0), coulomb(), el_centro_1940(), 32.0);
         assert!(warns(&record, is_of_step), "record, {step} s: {:?}", record.warnings);
         let told = record.warnings.iter().find_map(|warning| match warning {
-            Warning::LongTimeStep { period, interval, needed, .. } => {
+            Warning::Mistake(Mistake::LongTimeStep { period, interval, needed, .. }) => {
                 Some([*period, *interval, *needed])
             }
             _ => None,
@@ -103,12 +103,13 @@ fn a_longer_step_never_warns_less() {
 /// Reference: the weight by hand over 8 m, and G = ρ c² = 118.75 MPa.
 #[test]
 fn a_weight_that_no_soil_carries() {
-    let is_heavy = |warning: &Warning| matches!(warning, Warning::HeavyStructure { .. });
+    let is_heavy =
+        |warning: &Warning| matches!(warning, Warning::Mistake(Mistake::HeavyStructure { .. }));
     for (factor, expected) in [(1.0, false), (5.0, false), (20.0, true), (100.0, true)] {
         let run = run(0.005, building(factor), coulomb(), el_centro_1940(), 0.1);
         assert_eq!(warns(&run, is_heavy), expected, "{factor}: {:?}", run.warnings);
         for warning in &run.warnings {
-            if let Warning::HeavyStructure { pressure, shear_modulus } = warning {
+            if let Warning::Mistake(Mistake::HeavyStructure { pressure, shear_modulus }) = warning {
                 let by_hand = factor * 210.0e3 * STANDARD_GRAVITY / 8.0;
                 assert!((pressure / by_hand - 1.0).abs() < 1e-9);
                 assert!((shear_modulus / 118.75e6 - 1.0).abs() < 1e-9);
@@ -135,7 +136,9 @@ fn floors_that_the_vertical_mass_lacks() {
     let told = |vertical: f64| {
         let run = run(0.005, matrices(vertical), coulomb(), el_centro_1940(), 0.1);
         run.warnings.iter().find_map(|warning| match warning {
-            Warning::UnequalMasses { vertical, horizontal } => Some([*vertical, *horizontal]),
+            Warning::Mistake(Mistake::UnequalMasses { vertical, horizontal }) => {
+                Some([*vertical, *horizontal])
+            }
             _ => None,
         })
     };
@@ -172,7 +175,7 @@ fn shaken_raft(model: impl Structure + 'static) -> Run {
 fn densities_that_no_material_has() {
     let told = |run: &Run| {
         run.warnings.iter().find_map(|warning| match warning {
-            Warning::UnusualDensity { density } => Some(*density),
+            Warning::Mistake(Mistake::UnusualDensity { density }) => Some(*density),
             _ => None,
         })
     };
@@ -188,7 +191,10 @@ fn densities_that_no_material_has() {
     assert_eq!(group.description().densities, Some([25.0, 2500.0]));
     // A wall of a kilometre is told by its weight.
     let thick = shaken_raft(raft(2500.0, 1000.0));
-    assert!(warns(&thick, |warning| matches!(warning, Warning::HeavyStructure { .. })));
+    assert!(warns(&thick, |warning| matches!(
+        warning,
+        Warning::Mistake(Mistake::HeavyStructure { .. })
+    )));
     // Reduction keeps what the model tells.
     let reduced = CraigBampton::new(3).reduce(raft(25.0, 1.0)).unwrap();
     assert_eq!(reduced.description().densities, Some([25.0; 2]));
@@ -198,9 +204,11 @@ fn densities_that_no_material_has() {
 fn motions_stronger_than_two_g_and_records_that_drift() {
     let told = |record: Record| {
         let run = run(0.005, building(1.0), coulomb(), record, 0.2);
-        let strong = warns(&run, |warning| matches!(warning, Warning::UnusualMotion { .. }));
+        let strong = warns(&run, |warning| {
+            matches!(warning, Warning::Mistake(Mistake::UnusualMotion { .. }))
+        });
         let drift = run.warnings.iter().find_map(|warning| match warning {
-            Warning::DriftingRecord { velocity } => Some(*velocity),
+            Warning::Mistake(Mistake::DriftingRecord { velocity }) => Some(*velocity),
             _ => None,
         });
         (strong, drift)
@@ -230,7 +238,9 @@ fn strengths_in_kilopascals() {
         let law = Cohesive::new(tension, cohesion, 0.4).unwrap();
         let run = run(0.005, block(), law, el_centro_1940(), 0.1);
         run.warnings.iter().find_map(|warning| match warning {
-            Warning::WeakBond { strength, pressure } => Some([*strength, *pressure]),
+            Warning::Mistake(Mistake::WeakBond { strength, pressure }) => {
+                Some([*strength, *pressure])
+            }
             _ => None,
         })
     };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use basemat::bem::{ElasticGround, Grading, Ground, Strip};
-use basemat::coupled::Warning;
+use basemat::coupled::{Mistake, Warning};
 use basemat::motion::{FreeFieldFn, RickerDisplacement, TravellingWave};
 use basemat::prelude::*;
 use basemat::results::{ElementEnvelope, Run};
@@ -285,8 +285,10 @@ fn numbers_in_another_unit() {
         let mut seen = [None; 2];
         for warning in &run.warnings {
             match warning {
-                Warning::LongPeriod { period } => seen[0] = Some(*period),
-                Warning::UnusualMotion { acceleration } => seen[1] = Some(acceleration / peak),
+                Warning::Mistake(Mistake::LongPeriod { period }) => seen[0] = Some(*period),
+                Warning::Mistake(Mistake::UnusualMotion { acceleration }) => {
+                    seen[1] = Some(acceleration / peak)
+                }
                 _ => {}
             }
         }
@@ -370,7 +372,7 @@ fn soils_in_other_units() {
         let soil = Soil::new(modulus, 0.33, density).unwrap();
         let run = short(soil);
         let speed = soil.shear_wave_speed();
-        let wanted = Warning::UnusualSoil { shear_wave_speed: speed, density };
+        let wanted = Warning::Mistake(Mistake::UnusualSoil { shear_wave_speed: speed, density });
         assert_eq!(run.warnings, [wanted], "{modulus} {density}");
         let line = format!("warning: {wanted}");
         assert!(line.ends_with(slip) && line.chars().count() <= 100, "{line}");

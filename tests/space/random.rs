@@ -5,7 +5,7 @@
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, ElasticGround};
 use basemat::coupled::StepError;
-use basemat::coupled::{GravityStage, Load, Warning};
+use basemat::coupled::{GravityStage, Load, Mistake, Warning};
 use basemat::interface::{Cohesive, Coulomb, InterfaceLaw, Mode, ThinLayer, Yielding};
 use basemat::structure::RigidBody;
 use basemat::{Error, Simulation, Soil};
@@ -147,11 +147,11 @@ fn energies_of_random_scenes_close() {
         for warning in simulation.end_run(begun).warnings {
             let of_units = matches!(
                 warning,
-                Warning::UnusualInterval { .. }
-                    | Warning::LightStructure { .. }
-                    | Warning::UnusualFriction { .. }
-                    | Warning::TallStorey { .. }
-                    | Warning::UnusualGravity { .. }
+                Warning::Mistake(Mistake::UnusualInterval { .. })
+                    | Warning::Mistake(Mistake::LightStructure { .. })
+                    | Warning::Mistake(Mistake::UnusualFriction { .. })
+                    | Warning::Mistake(Mistake::TallStorey { .. })
+                    | Warning::Mistake(Mistake::UnusualGravity { .. })
             );
             assert!(!of_units, "{number}: {warning}");
             if let Warning::LessFriction { steps, .. } = warning {

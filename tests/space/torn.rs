@@ -4,7 +4,7 @@
 //! REFERENCE: points by hand; the same rafts with common nodes, or with the node tied to the ends of the side.
 
 use basemat::bem::{PlanError, SpringGround};
-use basemat::coupled::Warning;
+use basemat::coupled::{Mistake, Warning};
 use basemat::fem::{Material, Mesh, Shell};
 use basemat::interface::Coulomb;
 use basemat::structure::{
@@ -42,7 +42,9 @@ fn torn(structure: impl Structure + Clone + 'static) -> Result<Option<(usize, [f
     let builder = Simulation::builder(0.01).ground(ground).structure(structure);
     let run = builder.interface(Coulomb::new(0.5)?).build()?.run(1, |_| {})?;
     let found = run.warnings.iter().find_map(|warning| match warning {
-        Warning::TornBase { points, x, y } => Some((*points, [*x, *y], warning.to_string())),
+        Warning::Mistake(Mistake::TornBase { points, x, y }) => {
+            Some((*points, [*x, *y], warning.to_string()))
+        }
         _ => None,
     });
     Ok(found)
@@ -140,7 +142,7 @@ fn faces_that_a_base_does_not_name_are_counted() -> Result<()> {
         let builder = Simulation::builder(0.01).ground(ground).structure(group);
         let run = builder.interface(Coulomb::new(0.5)?).build()?.run(1, |_| {})?;
         let found = run.warnings.iter().find_map(|warning| match warning {
-            Warning::FacesOffGround { faces, x, y } => Some((*faces, [*x, *y])),
+            Warning::Mistake(Mistake::FacesOffGround { faces, x, y }) => Some((*faces, [*x, *y])),
             _ => None,
         });
         assert_eq!(found, wanted);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround};
-use basemat::coupled::{Load, Warning};
+use basemat::coupled::{Load, Mistake, Warning};
 use basemat::interface::{Bonded, Cohesive, Coulomb};
 use basemat::motion::{FreeField, Record, TravellingWave, Triaxial, el_centro_1940};
 use basemat::results::Run;
@@ -132,7 +132,7 @@ fn what_is_said_of_x_is_said_of_y() {
         let has = |of: &dyn Fn(&Warning) -> bool| assert!(warnings.iter().any(of), "{warnings:?}");
         let long = TAU * (1e5 / 1e4_f64).sqrt();
         has(
-            &|own| matches!(own, Warning::LongPeriod { period } if (period / long - 1.0).abs() < 0.02),
+            &|own| matches!(own, Warning::Mistake(Mistake::LongPeriod { period }) if (period / long - 1.0).abs() < 0.02),
         );
         has(&|own| matches!(own, Warning::LargeRotation { rotation } if *rotation > 0.11));
         has(&|own| match own {

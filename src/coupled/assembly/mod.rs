@@ -37,6 +37,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
 use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
+use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Weight, wall_pressure};
 use crate::coupled::scene::Scene;
@@ -355,10 +356,12 @@ impl SimulationBuilder {
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let mut warnings =
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
-        warnings.extend(first_order_ground.then_some(Warning::FirstOrderGround));
+        warnings.extend(first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
         let weight = Weight::new(given.gravity, &assembled);
         let description = structure.description();
-        let is_to_scale = !warnings.iter().any(|own| matches!(own, Warning::UnusualSoil { .. }));
+        let is_to_scale = !warnings
+            .iter()
+            .any(|own| matches!(own, Warning::Mistake(Mistake::UnusualSoil { .. })));
         warnings.extend(Warning::of_units(is_to_scale, &scene, &weight, &description));
         if is_to_scale {
             warnings.extend(Warning::of_weight(&weight, ground.as_ref()));

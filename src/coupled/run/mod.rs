@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 mod base_view;
 mod envelope;
 mod ground_motion;
+pub(crate) mod mistake;
 pub(crate) mod page;
 pub(crate) mod peak;
 pub(crate) mod quantity;
@@ -36,7 +37,7 @@ use crate::contact::SearchMethod;
 use crate::coupled::serviceability::Serviceability;
 use crate::coupled::state::Context;
 use crate::coupled::state::sequence::Sequence;
-use crate::coupled::{EnergyBalance, Probe, State, Warning};
+use crate::coupled::{EnergyBalance, Mistake, Probe, State, Warning};
 use crate::error::Result;
 use crate::motion::FreeField;
 use crate::structure::probe::probe_index;
@@ -290,7 +291,8 @@ impl Run {
         self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
         self.warnings.extend(wall_pressure::warning(&self.envelope, pressures_above));
         self.warnings.extend_from_slice(of_scene);
-        let is_to_scale = !of_scene.iter().any(|w| matches!(w, Warning::UnusualSoil { .. }));
+        let is_to_scale =
+            !of_scene.iter().any(|w| matches!(w, Warning::Mistake(Mistake::UnusualSoil { .. })));
         let acceleration = self.resolution.largest_acceleration();
         self.ground_motion = GroundMotion::new(motion, self.end, acceleration);
         let of_motion = Warning::of_motion(acceleration, &self.ground_motion, motion);

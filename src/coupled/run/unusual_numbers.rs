@@ -6,6 +6,7 @@ use crate::bem::{Ground, GroundDescription};
 use crate::coupled::base::influence::UP;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::run::GroundMotion;
+use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::variation::Variation;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::warning_text::within;
@@ -111,29 +112,36 @@ impl Warning {
         let form = LawForm::of(scene.layout());
         let frictions = scene.laws.iter().map(|law| friction_at_rest(law.as_ref(), form));
         let unlikely = frictions.filter(|friction| within(UNLIKELY_FRICTION, *friction));
-        warnings
-            .extend(unlikely.reduce(f64::max).map(|friction| Self::UnusualFriction { friction }));
+        warnings.extend(
+            unlikely
+                .reduce(f64::max)
+                .map(|friction| Self::Mistake(Mistake::UnusualFriction { friction })),
+        );
         if !is_to_scale {
             return warnings;
         }
         let &Weight { gravity, pressure, .. } = weight;
         if gravity > 0.0 && !within(GRAVITIES, gravity) {
-            warnings.push(Self::UnusualGravity { gravity });
+            warnings.push(Self::Mistake(Mistake::UnusualGravity { gravity }));
         }
         if gravity > 0.0 && pressure < MIN_BASE_PRESSURE {
-            warnings.push(Self::LightStructure { pressure });
+            warnings.push(Self::Mistake(Mistake::LightStructure { pressure }));
         }
         let bonds = scene.laws.iter().filter_map(|law| bond_at_rest(law.as_ref(), pressure));
         let weak = bonds.filter(|strength| {
             within(WEAK_BONDS, *strength) && *strength < MAX_WEAK_BOND_RATIO * pressure
         });
-        warnings
-            .extend(weak.reduce(f64::min).map(|strength| Self::WeakBond { strength, pressure }));
+        warnings.extend(
+            weak.reduce(f64::min)
+                .map(|strength| Self::Mistake(Mistake::WeakBond { strength, pressure })),
+        );
         let tall = description.tallest_storey.filter(|height| *height > MAX_STOREY_HEIGHT);
-        warnings.extend(tall.map(|height| Self::TallStorey { height }));
+        warnings.extend(tall.map(|height| Self::Mistake(Mistake::TallStorey { height })));
         let densities = description.densities.into_iter().flatten();
         let unusual = densities.filter(|density| !within(MATERIAL_DENSITIES, *density));
-        warnings.extend(unusual.map(|density| Self::UnusualDensity { density }).take(1));
+        warnings.extend(
+            unusual.map(|density| Self::Mistake(Mistake::UnusualDensity { density })).take(1),
+        );
         warnings
     }
 
@@ -150,7 +158,9 @@ impl Warning {
         let has_walls = ContactElement::any_wall(ground.elements().iter());
         let modulus = if has_walls { moduli.reduce(f64::max) } else { moduli.take(1).next() };
         let soft = modulus.filter(|modulus| pressure > MAX_PRESSURE_RATIO * modulus);
-        warnings.extend(soft.map(|shear_modulus| Self::HeavyStructure { pressure, shear_modulus }));
+        warnings.extend(soft.map(|shear_modulus| {
+            Self::Mistake(Mistake::HeavyStructure { pressure, shear_modulus })
+        }));
         let vertical = masses[UP];
         let sideways = masses.iter().enumerate().filter(|(direction, _)| *direction != UP);
         let other = sideways.map(|(_, mass)| *mass).find(|horizontal| {
@@ -158,7 +168,9 @@ impl Warning {
                 && vertical > 0.0
                 && (vertical / horizontal).min(horizontal / vertical) < MIN_MASS_RATIO
         });
-        warnings.extend(other.map(|horizontal| Self::UnequalMasses { vertical, horizontal }));
+        warnings.extend(
+            other.map(|horizontal| Self::Mistake(Mistake::UnequalMasses { vertical, horizontal })),
+        );
         warnings
     }
 
@@ -181,7 +193,7 @@ impl Warning {
         let slow = Some(structure_period / STEPS_PER_STRUCTURE_PERIOD)
             .filter(|_| structure_period > period);
         let needed = slow.unwrap_or(f64::INFINITY).min(period / STEPS_PER_RECORD_PERIOD);
-        Some(Self::LongTimeStep { time_step, interval, period, needed })
+        Some(Self::Mistake(Mistake::LongTimeStep { time_step, interval, period, needed }))
     }
 
     /// Drops the warning of a long time step where the run itself shows that its steps miss the motion.
@@ -190,7 +202,8 @@ impl Warning {
             matches!(warning, Self::UnresolvedMotion { .. } | Self::UnresolvedPeriod { .. })
         };
         if warnings.iter().any(is_shown) {
-            warnings.retain(|warning| !matches!(warning, Self::LongTimeStep { .. }));
+            warnings
+                .retain(|warning| !matches!(warning, Self::Mistake(Mistake::LongTimeStep { .. })));
         }
     }
 
@@ -203,23 +216,25 @@ impl Warning {
         let mut warnings = Vec::new();
         let Some(time_step) = ground_motion.time_step else {
             if acceleration > MAX_GROUND_ACCELERATION {
-                warnings.push(Self::UnusualMotion { acceleration });
+                warnings.push(Self::Mistake(Mistake::UnusualMotion { acceleration }));
             }
             return warnings;
         };
         let acceleration = acceleration.max(ground_motion.peak);
         if acceleration > MAX_GROUND_ACCELERATION {
-            warnings.push(Self::UnusualMotion { acceleration });
+            warnings.push(Self::Mistake(Mistake::UnusualMotion { acceleration }));
         }
         if within(WEAK_ACCELERATIONS, ground_motion.peak) {
-            warnings.push(Self::UnusualMotion { acceleration: ground_motion.peak });
+            warnings
+                .push(Self::Mistake(Mistake::UnusualMotion { acceleration: ground_motion.peak }));
         }
         if !within(RECORD_INTERVALS, time_step) {
-            warnings.push(Self::UnusualInterval { time_step });
+            warnings.push(Self::Mistake(Mistake::UnusualInterval { time_step }));
         }
         let drifts = motion.records().into_iter().filter_map(drift);
         let largest = drifts.max_by(|one, other| one.abs().total_cmp(&other.abs()));
-        warnings.extend(largest.map(|velocity| Self::DriftingRecord { velocity }));
+        warnings
+            .extend(largest.map(|velocity| Self::Mistake(Mistake::DriftingRecord { velocity })));
         warnings
     }
 
@@ -229,6 +244,8 @@ impl Warning {
         let unusual = numbers.filter(|[speed, density]| {
             !(within(SOIL_SPEEDS, *speed) && within(SOIL_DENSITIES, *density))
         });
-        unusual.map(|[shear_wave_speed, density]| Self::UnusualSoil { shear_wave_speed, density })
+        unusual.map(|[shear_wave_speed, density]| {
+            Self::Mistake(Mistake::UnusualSoil { shear_wave_speed, density })
+        })
     }
 }

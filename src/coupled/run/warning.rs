@@ -1,9 +1,8 @@
 //! Warnings of a run.
 
 use crate::coupled::run::Quantity;
-use crate::coupled::run::warning_text::{
-    across, height, likely_slip, places, unit_of_motion, with_twice_as_many,
-};
+use crate::coupled::run::mistake::Mistake;
+use crate::coupled::run::warning_text::{across, height, with_twice_as_many};
 use crate::error::{along, of_units};
 
 /// Warning that a run exceeds assumptions of the model, or is too coarse.
@@ -200,36 +199,6 @@ pub enum Warning {
         /// Multiple of the cells along a side with an error of 1 %.
         factor: f64,
     },
-    /// Faces of a base in plan meet and move apart: nodes at one point that nothing ties together, or a node on the edge
-    /// of another face.
-    ///
-    /// There the base is cut, as where two meshes were put side by side.
-    #[error(
-        "base torn at {}, first at x = {x:.2} m, y = {y:.2} m: faces meet there and move apart (merge coincident nodes, \
-         tie nodes on an edge to its ends)",
-        places(*points)
-    )]
-    TornBase {
-        /// Number of points where faces move apart.
-        points: usize,
-        /// The first of these points, m.
-        x: f64,
-        /// The first of these points along y, m.
-        y: f64,
-    },
-    /// Shells or sides of solids at the height of the base do not touch the ground: the base does not name them.
-    #[error(
-        "faces at the height of the base that do not touch the ground: {faces}, first at x = {x:.2} m, y = {y:.2} m; name \
-         them, too, if they stand on it"
-    )]
-    FacesOffGround {
-        /// Number of these faces.
-        faces: usize,
-        /// Middle of the first of them, m.
-        x: f64,
-        /// Middle of the first of them along y, m.
-        y: f64,
-    },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
     ///
     /// In these steps an element slid with the lower coefficient times its pressure. Steps are counted since the
@@ -255,131 +224,9 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         friction: f64,
     },
-    /// An elastic part of a ground of your own takes the traction of a step as the traction at its end, s₁ = C τ.
-    ///
-    /// The ground is then of first order in the time step, and damps the motion without any damping. See
-    /// [`Ground`](crate::bem::Ground#elastic-parts-in-the-mid-step-form).
-    #[error(
-        "ground of first order: an elastic part follows the traction of the step, which damps; \
-         the traction belongs to the middle of the step"
-    )]
-    FirstOrderGround,
     /// The motion has a component along y, which a ground in the plane ignores.
     #[error("motion along y: a ground in the plane leaves it out")]
     MotionAcross,
-    /// A soil with impossible numbers: probably in another unit, unless the model is not to scale.
-    #[error("soil of {density:.3e} kg/m³, shear waves of {shear_wave_speed:.2e} m/s: {}",
-        likely_slip(*shear_wave_speed, *density))]
-    UnusualSoil {
-        /// Speed of its shear waves, m/s.
-        shear_wave_speed: f64,
-        /// Density, kg/m³.
-        density: f64,
-    },
-    /// A structure with an unusually long period: probably a stiffness in another unit.
-    #[error("structure with a period of {period:.3} s on a fixed base: stiffness in kN/m or kPa?")]
-    LongPeriod {
-        /// Period on a fixed base, s (Rayleigh's quotient of the deflection under its weight to the side).
-        period: f64,
-    },
-    /// Ground acceleration above 2 g, or a record too weak in m/s²: probably in another unit.
-    ///
-    /// Numbers of a weak record are probably in g, above 60 m/s² in cm/s².
-    #[error("ground acceleration of {acceleration:.3} m/s²: motion in {}?", unit_of_motion(*acceleration))]
-    UnusualMotion {
-        /// Largest component at any step or sample, m/s².
-        acceleration: f64,
-    },
-    /// A record with a time step that no recorder has: probably in another unit.
-    #[error("record in steps of {time_step:.2e} s: interval in another unit?")]
-    UnusualInterval {
-        /// Time step of the record, s.
-        time_step: f64,
-    },
-    /// The time step is longer than half the mean period of a record: it does not see the record.
-    #[error(
-        "steps of {time_step:.2e} s miss a record of period {period:.2e} s; take {needed:.1e} s"
-    )]
-    LongTimeStep {
-        /// The time step, s.
-        time_step: f64,
-        /// Time step of the record, s.
-        interval: f64,
-        /// Mean period of the record's acceleration, by the root mean square of its frequency, s.
-        period: f64,
-        /// Time step that resolves the record, and a structure with a longer period, s.
-        needed: f64,
-    },
-    /// The velocity of a record does not return to zero: an offset of the recorder, or a record that is cut off.
-    ///
-    /// The ground drifts with this velocity. [`Record::with_baseline`](crate::motion::Record::with_baseline) removes
-    /// an offset.
-    #[error("record ends at {velocity:.3} m/s: baseline not corrected, or cut off?")]
-    DriftingRecord {
-        /// Velocity at the end of the record, m/s.
-        velocity: f64,
-    },
-    /// A weight that no soil of this stiffness carries, over 2.5 % of its shear modulus.
-    ///
-    /// Probably masses, a thickness or the soil's modulus in another unit, or a mass that is not per metre of thickness.
-    #[error(
-        "weight of {pressure:.2e} Pa on soil of G = {shear_modulus:.2e} Pa: no soil carries this"
-    )]
-    HeavyStructure {
-        /// Weight over the area of the contact elements, Pa.
-        pressure: f64,
-        /// Shear modulus of the soil, Pa: at the surface, with walls of the stiffest soil.
-        shear_modulus: f64,
-    },
-    /// Masses of vertical and of horizontal motion that differ by more than a tenth.
-    ///
-    /// The weight follows from the vertical mass. Where the masses of floors are missing in it, the base bears too little
-    /// pressure. Water that moves with a structure to the side has no weight on the base.
-    #[error("mass moving up {vertical:.3e} kg, sideways {horizontal:.3e} kg: floors left out?")]
-    UnequalMasses {
-        /// Mass of the structure moving up, kg (in the plane kg/m).
-        vertical: f64,
-        /// Mass of the structure moving along x, in plan along x or y, kg (in the plane kg/m).
-        horizontal: f64,
-    },
-    /// A material with a density that no material has: probably in another unit.
-    #[error("material of {density:.4} kg/m³: density in t/m³, kN/m³ or N/m³?")]
-    UnusualDensity {
-        /// Density, kg/m³.
-        density: f64,
-    },
-    /// A bond much weaker than the pressure under the weight: its strength is probably in kPa.
-    #[error("bond of {strength:.3} Pa under a weight of {pressure:.2e} Pa: strength in kPa?")]
-    WeakBond {
-        /// Smallest tensile or shear strength of an element, Pa.
-        strength: f64,
-        /// Weight over the area of the contact elements, Pa.
-        pressure: f64,
-    },
-    /// A structure lighter than any building: probably masses in another unit.
-    #[error("weight of {pressure:.3} Pa over the base: masses in t, or gravity in another unit?")]
-    LightStructure {
-        /// Weight over the area of the contact elements, Pa.
-        pressure: f64,
-    },
-    /// A friction coefficient that no material has: probably an angle in degrees, or a percentage.
-    #[error("friction coefficient of {friction}: in degrees, or in per cent?")]
-    UnusualFriction {
-        /// The coefficient.
-        friction: f64,
-    },
-    /// A storey above 100 m: probably a height in another unit, or a mass in its place.
-    #[error("storey of {height:.1} m: in another unit, or in place of the mass?")]
-    TallStorey {
-        /// Height of the storey, m.
-        height: f64,
-    },
-    /// A gravity that no planet has: probably in another unit.
-    #[error("gravity of {gravity} m/s²: in another unit?")]
-    UnusualGravity {
-        /// Acceleration of gravity, m/s².
-        gravity: f64,
-    },
     /// The run ended before the larger part of its record: more than a third of the Arias intensity was left.
     #[error("run ends at {end:.2} s, its record at {duration:.2} s: {:.0} % of the record's intensity until then",
         100.0 * passed)]
@@ -455,4 +302,7 @@ pub enum Warning {
         /// Time of that pressure, s.
         time: f64,
     },
+    /// A number, mesh or ground that is probably a mistake.
+    #[error(transparent)]
+    Mistake(Mistake),
 }

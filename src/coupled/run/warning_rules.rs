@@ -1,6 +1,7 @@
 //! Conditions of warnings: limits, and the warnings of a scene, a motion and a run.
 
 use crate::bem::{Ground, GroundDescription};
+use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Quantity, Run, unusual_numbers};
 use crate::coupled::scene::Scene;
@@ -58,7 +59,7 @@ impl Warning {
         let mut warnings: Vec<_> = Self::of_soils(&soils).collect();
         // A model not to scale has its own warning.
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
-            warnings.push(Self::LongPeriod { period });
+            warnings.push(Self::Mistake(Mistake::LongPeriod { period }));
         }
         let uncovered = scene.base.uncovered().into_iter();
         warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
@@ -135,12 +136,12 @@ impl Warning {
 
     /// Warning of points where faces of a base move apart: their number, and the first one (m).
     pub(crate) fn of_tears(tears: Option<(usize, [f64; 2])>) -> Option<Self> {
-        tears.map(|(points, [x, y])| Self::TornBase { points, x, y })
+        tears.map(|(points, [x, y])| Self::Mistake(Mistake::TornBase { points, x, y }))
     }
 
     /// Warning of faces at the height of the base that do not touch the ground: their number, and the first one (m).
     pub(crate) fn of_faces_off_ground(found: Option<(usize, [f64; 2])>) -> Option<Self> {
-        found.map(|(faces, [x, y])| Self::FacesOffGround { faces, x, y })
+        found.map(|(faces, [x, y])| Self::Mistake(Mistake::FacesOffGround { faces, x, y }))
     }
 
     /// Warning of friction for which steps in plan may have several solutions.

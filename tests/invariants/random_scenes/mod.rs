@@ -12,7 +12,7 @@ mod run_checks;
 mod shaking;
 mod tally;
 
-use basemat::coupled::{State, Warning};
+use basemat::coupled::{Mistake, State, Warning};
 use basemat::motion::Record;
 use basemat::{Error, Simulation};
 use proptest::prelude::*;
@@ -100,12 +100,12 @@ fn record_of((peak, time_step, waves): (f64, f64, f64)) -> Record {
 fn is_of_units(warning: &Warning) -> bool {
     matches!(
         warning,
-        Warning::UnusualMotion { .. }
-            | Warning::UnusualInterval { .. }
-            | Warning::LightStructure { .. }
-            | Warning::UnusualFriction { .. }
-            | Warning::TallStorey { .. }
-            | Warning::UnusualGravity { .. }
+        Warning::Mistake(Mistake::UnusualMotion { .. })
+            | Warning::Mistake(Mistake::UnusualInterval { .. })
+            | Warning::Mistake(Mistake::LightStructure { .. })
+            | Warning::Mistake(Mistake::UnusualFriction { .. })
+            | Warning::Mistake(Mistake::TallStorey { .. })
+            | Warning::Mistake(Mistake::UnusualGravity { .. })
             | Warning::EndsEarly { .. }
             | Warning::PeakAtEnd { .. }
     )
