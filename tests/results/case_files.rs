@@ -39,7 +39,9 @@ fn append(file: &mut CaseFile, case: usize) {
 
 fn whole(name: &str) -> CaseTable {
     let mut file = sweep().open(path(name)).unwrap();
-    (0..6).for_each(|case| append(&mut file, case));
+    for case in 0..6 {
+        append(&mut file, case);
+    }
     file.finish().unwrap()
 }
 
@@ -49,7 +51,9 @@ fn rows_survive_the_process_in_any_order() {
     for first in [vec![], vec![2], vec![5, 0, 2], vec![0, 2, 1, 3], vec![5, 4, 3, 2, 1, 0]] {
         let path = path("resumed");
         let mut file = sweep().open(&path).unwrap();
-        first.iter().for_each(|&case| append(&mut file, case));
+        for &case in &first {
+            append(&mut file, case);
+        }
         drop(file);
         // A row within which the process was killed.
         let text = std::fs::read_to_string(part(&path)).unwrap();
@@ -58,7 +62,9 @@ fn rows_survive_the_process_in_any_order() {
         let missing: Vec<_> = (0..6).filter(|case| !first.contains(case)).collect();
         assert_eq!(file.missing(), missing);
         assert_eq!(file.table().rows().len(), first.len());
-        missing.into_iter().for_each(|case| append(&mut file, case));
+        for case in missing {
+            append(&mut file, case);
+        }
         let table = file.finish().unwrap();
         assert!(!part(&path).exists());
         // Columns are in the order in which results came.
