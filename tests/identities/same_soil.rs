@@ -20,6 +20,7 @@ struct Site {
     /// Shear wave speed, m/s.
     speed: f64,
     soil: Soil,
+    is_damped: bool,
 }
 
 impl Site {
@@ -43,7 +44,7 @@ impl Site {
                 layered = layered.with_damping(damping.clone());
             }
         }
-        Self { whole, layered, speed, soil }
+        Self { whole, layered, speed, soil, is_damped }
     }
 
     fn profiles(&self) -> [SoilProfile; 2] {
@@ -91,7 +92,14 @@ fn waves_from_below_at_any_angle() {
         let place = format!("{number}: {kind} at {angle:.3}, {frequency:.3} Hz");
         match found {
             [Ok(one), Ok(other)] => {
-                ledger.within(&place, apart(&parts(&one), &parts(&other)), 1e-9);
+                // The wave reaches the surface later than its outcrop: both components by one factor.
+                let scale = one[0].abs().hypot(one[1].abs());
+                let other_scale = other[0].abs().hypot(other[1].abs());
+                let unlike = (other[0] * one[1] - other[1] * one[0]).abs() / (scale * other_scale);
+                ledger.within(&place, unlike, 1e-9);
+                if !site.is_damped {
+                    ledger.within(&place, (other_scale / scale - 1.0).abs(), 1e-9);
+                }
             }
             [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
             [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
@@ -182,7 +190,7 @@ fn answers(ground: &mut dyn Ground, step: f64, seed: u64) -> basemat::Result<Vec
 fn steps_of_strips_mats_and_trenches() {
     let mut ledger = Ledger::new("layer of the same soil: convolution weights");
     let mut random = Random(713);
-    for number in 0..scenes(9, 60) {
+    for number in 0..scenes(3, 60) {
         let half = random.log_within(1.0, 5.0);
         let site = Site::draw(&mut random, half);
         let step = random.log_within(0.1, 0.6) * half / site.speed;
