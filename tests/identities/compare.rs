@@ -42,8 +42,11 @@ pub(crate) fn same(
     }
 }
 
-/// How much a scene amplifies differences of 1e-10.
+/// How much a scene amplifies differences of 1e-10 in shaking, soil and friction.
 fn amplified(choice: &Choice, usual: &Response) -> f64 {
-    let nearly = run(choice, &PLAIN, Writing::Nearly);
-    nearly.map_or(0.0, |nearly| AMPLIFICATION * usual.apart(&nearly).0)
+    let ways = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    ways.into_iter().fold(0.0, |largest, way| {
+        let nearly = run(choice, &PLAIN, Writing::Nearly(way));
+        nearly.map_or(largest, |nearly| usual.apart(&nearly).0.max(largest))
+    }) * AMPLIFICATION
 }

@@ -120,7 +120,7 @@ pub(crate) fn law(kind: Law, numbers: &Numbers, view: &View) -> Result<Box<dyn I
         Law::Varying => {
             let speed = 0.05 * frame.length / frame.time;
             Box::new(VariableFriction::new(move |start| {
-                friction * (0.8 + 0.2 * (-start.slip_rate / speed).exp())
+                friction * (0.8 + 0.2 * (-start.slip_rate.abs() / speed).exp())
             }))
         }
     })

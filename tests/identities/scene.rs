@@ -22,8 +22,8 @@ pub(crate) const REDUCED_LIMIT: f64 = 1e3 * REDUCTION;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Writing {
     Usual,
-    /// Shaking and soil that differ by 1e-10: how much the scene amplifies.
-    Nearly,
+    /// Shaking, soil and friction that differ by so many times 1e-10: how much the scene amplifies.
+    Nearly([f64; 3]),
     /// Structure, law and ground behind traits that a user implements.
     ByUser,
     In(Coordinate),
@@ -56,9 +56,10 @@ impl Writing {
 /// The builder of a choice in a view, without its coordinates' part.
 pub(crate) fn builder(choice: &Choice, view: &View, writing: Writing) -> Result<SimulationBuilder> {
     let mut numbers = Numbers::draw(choice.seed);
-    if writing == Writing::Nearly {
-        numbers.peaks = numbers.peaks.map(|peak| peak * (1.0 + 1e-10));
-        numbers.modulus *= 1.0 + 1e-10;
+    if let Writing::Nearly([shaking, modulus, friction]) = writing {
+        numbers.peaks = numbers.peaks.map(|peak| peak * (1.0 + 1e-10 * shaking));
+        numbers.modulus *= 1.0 + 1e-10 * modulus;
+        numbers.friction *= 1.0 + 1e-10 * friction;
     }
     let made = structures::structure(choice, &numbers, view)?;
     builder_with(choice, &numbers, view, writing, made)

@@ -58,23 +58,23 @@ fn record(random: &mut Random, time: f64) -> Result<(Record, f64)> {
 fn own_soil_fills_a_trench_without_a_trace() {
     let mut ledger = Ledger::new("trench: filled with its own soil");
     let mut random = Random(131);
-    for number in 0..scenes(4, 40) {
+    for number in 0..scenes(1, 40) {
         let half = random.log_within(2.0, 6.0);
         let depth = half * random.within(0.4, 1.0);
         let speed = random.log_within(120.0, 300.0);
         let poisson = random.within(0.1, 0.4);
         let soil = Soil::from_shear_wave_speed(speed, poisson, 1900.0).unwrap();
         let mut profile = SoilProfile::on_half_plane(soil);
-        if number % 2 == 1 {
+        if number % 2 == 0 {
             // A layer that ends below the trench.
             profile = profile.with_layer(soil, depth * random.within(1.1, 2.5)).unwrap();
         }
         let kind = ["vertical waves", "SV wave", "vertical waves", "P wave"][number % 4];
-        let layers = if number % 2 == 1 { "layers" } else { "half-plane" };
+        let layers = if number % 2 == 0 { "layers" } else { "half-plane" };
         ledger.scene(&["trench", layers, "quadrilaterals", "bonded", kind]);
         let run = || -> Result<f64> {
             let (record, rate) = record(&mut random, depth / speed)?;
-            let elements = Trench::new(-half..half, depth)?.elements(6, 4)?;
+            let elements = Trench::new(-half..half, depth)?.elements(4, 3)?;
             let ground = TrenchGround::new(profile.clone(), elements)?;
             let angle = random.within(0.1, 0.3);
             let motion = match kind {
@@ -93,11 +93,11 @@ fn own_soil_fills_a_trench_without_a_trace() {
                 }
             };
             let surface = motion.clone();
-            let (filled, top) = fill(half, depth, &soil, [12, 8])?;
+            let (filled, top) = fill(half, depth, &soil, [8, 6])?;
             let step = 0.05 / rate;
             let rows = [Direction::X, Direction::Y].map(|direction| filled.row(top, direction));
             let [along, up] = rows;
-            let steps = 240;
+            let steps = 160;
             let mut simulation = Simulation::builder(step)
                 .gravity(0.0)
                 .ground(ground)
@@ -129,7 +129,7 @@ fn own_soil_fills_a_trench_without_a_trace() {
     ledger.close(0.7);
 }
 
-/// Step compliances of a trench without depth and of a strip.
+/// Step compliances of a trench without depth, by finite elements of the soil, and of a strip, by wavenumber integrals.
 #[test]
 fn a_trench_without_depth_is_a_strip() {
     let mut ledger = Ledger::new("trench: without depth");
@@ -164,7 +164,7 @@ fn a_trench_without_depth_is_a_strip() {
         let scale = other.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
         let pairs = one.iter().zip(&other);
         let apart = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-        ledger.within(&format!("{number}: {layers}, half width {half:.2}"), apart / scale, 5e-3);
+        ledger.within(&format!("{number}: {layers}, half width {half:.2}"), apart / scale, 1e-2);
     }
     ledger.close(1.0);
 }
@@ -241,7 +241,7 @@ fn a_long_mat_has_the_impedance_of_a_strip() {
         let frequency = random.within(1.0, 1.5) / std::f64::consts::TAU;
         // Two lengths: their difference has no ends.
         let plan = |length: f64| -> Result<[basemat::Complex; 2]> {
-            let plan = Plan::rectangle(-1.0..1.0, -length..length, 6)?;
+            let plan = Plan::rectangle(-1.0..1.0, -length..length, 5)?;
             let found = basemat::bem::plan::impedances_in_plan(
                 &soil.into(),
                 &plan,
@@ -251,11 +251,11 @@ fn a_long_mat_has_the_impedance_of_a_strip() {
             )?;
             Ok([found[0].matrix[0][0], found[0].matrix[2][2]])
         };
-        let [short, long] = [3.0, 6.0].map(|length| plan(length).unwrap());
+        let [short, long] = [2.0, 4.0].map(|length| plan(length).unwrap());
         let strip = ElasticGround::new(soil, Strip::graded(-1.0..1.0, 12).unwrap()).unwrap();
         let found = strip.impedances(&[frequency], StripContact::Bonded, &mut unobserved).unwrap();
         for (k, wanted) in [found[0].horizontal, found[0].vertical].into_iter().enumerate() {
-            let per_metre = (long[k] - short[k]) * (1.0 / 6.0);
+            let per_metre = (long[k] - short[k]) * (1.0 / 4.0);
             let apart = (per_metre - wanted).abs() / wanted.abs();
             ledger.within(&format!("{number}: {}", ["horizontal", "vertical"][k]), apart, 0.1);
         }

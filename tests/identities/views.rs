@@ -40,8 +40,9 @@ fn check(space: Space, row: &'static str, count: usize) {
         let views = views(choice);
         let is_reduced = choice.coordinate == Coordinate::Reduced;
         let limit = if is_reduced { REDUCED_LIMIT } else { LIMIT };
-        // Each scene in one view, by turns; all of them at night.
-        let chosen = views.len().min(if basemat_problems::heavy() { usize::MAX } else { 2 });
+        // Some views of each scene, by turns; all of them at night.
+        let short = if space == Space::Trench { 1 } else { 2 };
+        let chosen = if basemat_problems::heavy() { views.len() } else { short };
         for k in 0..chosen {
             let (name, view) = &views[(number + 2 * k) % views.len()];
             same(choice, &response, (name, view, Writing::Usual), limit, &mut ledger);
@@ -62,5 +63,5 @@ fn scenes_in_plan_are_the_same_from_everywhere() {
 
 #[test]
 fn scenes_around_a_trench_are_the_same_from_everywhere() {
-    check(Space::Trench, "views around a trench", scenes(3, 60));
+    check(Space::Trench, "views around a trench", scenes(1, 40));
 }

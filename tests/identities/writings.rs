@@ -39,5 +39,5 @@ fn coordinates_and_users_parts_in_plan() {
 
 #[test]
 fn coordinates_and_users_parts_around_a_trench() {
-    check(Space::Trench, "coordinates and users' parts around a trench", scenes(3, 40));
+    check(Space::Trench, "coordinates and users' parts around a trench", scenes(1, 40));
 }
