@@ -338,11 +338,13 @@ fn is_without_equilibrium(error: &Error) -> bool {
 /// Rotations of the base about y and, in plan, about x: of the plane that fits its nodes best, the largest of all parts.
 fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
     let base = structure.base();
-    let in_plan = matches!(base, Base::Faces(_));
     let mut largest = [0.0_f64; 2];
     for part in base.parts() {
         let [slope, slope_across] = slopes(part, displacement);
-        let rotations = if in_plan { [-slope, slope_across] } else { [slope, 0.0] };
+        let rotations = match base {
+            Base::Faces(_) => [-slope, slope_across],
+            _ => [slope, 0.0],
+        };
         for (sum, value) in largest.iter_mut().zip(rotations) {
             if value.abs() > sum.abs() {
                 *sum = value;

@@ -36,6 +36,11 @@ const LEAST_WEAKNESS: f64 = 1e-2;
 /// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
 const SMOOTH: usize = 32;
 
+/// Factor on the length of directions that are left out, where the `weakest` response of a probe is small.
+fn probe_factor(weakest: f64) -> f64 {
+    (WEAK * weakest).clamp(LEAST_WEAKNESS, 1.0).sqrt()
+}
+
 impl Reduction<'_> {
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
     ///
@@ -58,9 +63,6 @@ impl Reduction<'_> {
             (Vec::new(), f64::INFINITY, None, 0);
         let probes = self.rows.counts[1]..self.rows.counts[2];
         let mut least = 0.5 * tolerance.sqrt();
-        let inertia = |space: &Subspace<'_>, first: usize| -> Vec<f64> {
-            space.momenta(first).iter().map(|momentum| c.acceleration[0] * momentum).collect()
-        };
         for round in 0..ROUNDS_OF_MODES {
             // One more power alone is the comparison.
             if round != 1 {
@@ -72,7 +74,7 @@ impl Reduction<'_> {
                     floating.factor.solve_many(&mut block);
                     newest = space.count();
                     space.extend(block, LEAST_NEW);
-                    block = inertia(&space, newest);
+                    block = space.inertia(newest, c.acceleration[0]);
                     drop(floating);
                     effective = Some((self.factored)()?);
                 }
@@ -81,8 +83,7 @@ impl Reduction<'_> {
             if round == 0 && !probes.is_empty() {
                 products.extend(space.products(0, rows));
                 let responses = self.smooth_responses(&space.ritz()?, &products);
-                let weakest = responses.weakest(probes.clone());
-                least *= (WEAK * weakest).clamp(LEAST_WEAKNESS, 1.0).sqrt();
+                least *= probe_factor(responses.weakest(probes.clone()));
             }
             let mut is_last = false;
             if let Some((last, fewer)) = &last {
@@ -98,7 +99,7 @@ impl Reduction<'_> {
             }
             newest = space.count();
             space.extend_by_length(block, least);
-            block = inertia(&space, newest);
+            block = space.inertia(newest, c.acceleration[0]);
             let modes = space.ritz()?;
             if is_last || space.count() == self.assembled.dofs() {
                 return Ok(space.basis(&modes));

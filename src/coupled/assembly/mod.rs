@@ -358,16 +358,7 @@ impl SimulationBuilder {
             Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
         warnings.extend(first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
         let weight = Weight::new(given.gravity, &assembled);
-        let description = structure.description();
-        let is_to_scale = !warnings
-            .iter()
-            .any(|own| matches!(own, Warning::Mistake(Mistake::UnusualSoil { .. })));
-        warnings.extend(Warning::of_units(is_to_scale, &scene, &weight, &description));
-        if is_to_scale {
-            warnings.extend(Warning::of_weight(&weight, ground.as_ref()));
-        }
-        warnings.extend(Warning::of_triangles(description.triangle_sides));
-        warnings.extend(Warning::of_faces_off_ground(description.faces_off_ground));
+        Warning::add_mistakes(&mut warnings, &scene, ground.as_ref(), structure.as_ref(), &weight);
         warnings.extend(Warning::of_tears(tears(&structure.base())?));
         warnings.extend(coarse);
         let pressures_above =

@@ -83,6 +83,11 @@ impl<'a> Subspace<'a> {
         &self.rows.momenta()[first * self.order()..]
     }
 
+    /// V M of the vectors from number `first` on, times the scheme's coefficient of the acceleration.
+    pub(crate) fn inertia(&self, first: usize, coefficient: f64) -> Vec<f64> {
+        self.momenta(first).iter().map(|momentum| coefficient * momentum).collect()
+    }
+
     /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
     pub(crate) fn extend(&mut self, block: Vec<f64>, least: f64) {
         let before = self.count();

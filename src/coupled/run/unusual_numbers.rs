@@ -16,7 +16,7 @@ use crate::geometry::ContactElement;
 use crate::interface::LawForm;
 use crate::motion::{FreeField, Record, STANDARD_GRAVITY};
 use crate::soil::Soil;
-use crate::structure::StructureDescription;
+use crate::structure::{Structure, StructureDescription};
 
 /// Speeds of shear waves in soils, m/s, from mud to rock.
 const SOIL_SPEEDS: [f64; 2] = [10.0, 5000.0];
@@ -99,10 +99,30 @@ fn drift(record: &Record) -> Option<f64> {
 }
 
 impl Warning {
+    /// Adds warnings of numbers and of a structure that are probably mistakes, to the `warnings` of its scene.
+    pub(crate) fn add_mistakes(
+        warnings: &mut Vec<Self>,
+        scene: &Scene,
+        ground: &dyn Ground,
+        structure: &dyn Structure,
+        weight: &Weight,
+    ) {
+        let description = structure.description();
+        let is_unusual =
+            |warning: &Self| matches!(warning, Self::Mistake(Mistake::UnusualSoil { .. }));
+        let is_to_scale = !warnings.iter().any(is_unusual);
+        warnings.extend(Self::of_units(is_to_scale, scene, weight, &description));
+        if is_to_scale {
+            warnings.extend(Self::of_weight(weight, ground));
+        }
+        warnings.extend(Self::of_triangles(description.triangle_sides));
+        warnings.extend(Self::of_faces_off_ground(description.faces_off_ground));
+    }
+
     /// Warnings of numbers of a scene that are probably in another unit.
     ///
     /// For a scene that is not to scale only friction is checked.
-    pub(crate) fn of_units(
+    fn of_units(
         is_to_scale: bool,
         scene: &Scene,
         weight: &Weight,
@@ -146,7 +166,7 @@ impl Warning {
     }
 
     /// Warnings of a weight that its soil cannot carry, and of masses that differ with their direction.
-    pub(crate) fn of_weight(weight: &Weight, ground: &dyn Ground) -> Vec<Self> {
+    fn of_weight(weight: &Weight, ground: &dyn Ground) -> Vec<Self> {
         let &Weight { gravity, pressure, ref masses } = weight;
         let mut warnings = Vec::new();
         if gravity <= 0.0 {
