@@ -7,7 +7,8 @@ use basemat::bem::embedded::{Trench, TrenchElements, TrenchGround};
 use basemat::bem::layered::Stages;
 use basemat::bem::{ElasticGround, Ground, SharedKernels, SpringGround};
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, InterfaceLaw, SlipSense, ThinLayer, VariableFriction, Yielding,
+    Bonded, Cohesive, Coulomb, EarthPressure, InterfaceLaw, SlipSense, ThinLayer, VariableFriction,
+    Yielding,
 };
 use basemat::motion::{
     AtRest, FreeField, FreeFieldFn, PlaneWave, Record, RickerDisplacement, TravellingWave,
@@ -113,6 +114,8 @@ pub(crate) fn law(kind: Law, numbers: &Numbers, view: &View) -> Result<Box<dyn I
         Law::Tension => Box::new(Coulomb::new(friction)?.with_tensile_strength(0.3 * pressure)?),
         Law::Cohesive => Box::new(Cohesive::new(0.3 * pressure, 0.5 * pressure, friction)?),
         Law::Yielding => Box::new(Yielding::new(4.0 * pressure, friction)?),
+        // Soil that stands without the wall, so that the law suits the base too.
+        Law::Earth => Box::new(EarthPressure::new(0.0, 6.0 * pressure, friction)?),
         Law::Layer => {
             let layer = ThinLayer::from_stiffness(stiffness, 0.5 * stiffness, friction)?;
             Box::new(layer.with_debonded_ratio(0.0)?.with_slip_sense(SlipSense::Inelastic))
