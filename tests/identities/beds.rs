@@ -9,7 +9,7 @@ use basemat::structure::RigidBlock;
 use basemat::{Observer, Result, Simulation};
 use basemat_problems::random::Random;
 
-use super::ledger::{Ledger, scenes};
+use super::tally::{Tally, scenes};
 
 /// How a spring and a dashpot answer to a traction that is constant over a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -161,32 +161,32 @@ fn largest(values: &[f64]) -> f64 {
 
 #[test]
 fn the_bed_of_the_documents_is_the_built_in_one() {
-    let mut ledger = Ledger::new("own ground: bed of the documents");
+    let mut tally = Tally::new("own ground: bed of the documents");
     let mut random = Random(101);
     for number in 0..scenes(20, 300) {
         let scene = Scene::draw(&mut random);
-        ledger.scene(&["springs", "block", "record", "ground of a user"]);
+        tally.scene(&["springs", "block", "record", "ground of a user"]);
         let own = scene.run(scene.own(Form::MidStep)).unwrap();
         let built_in = scene.run(scene.built_in()).unwrap();
         for (name, k) in [("rotation", 0), ("energy of the soil", 1)] {
             let pairs = own[k].iter().zip(&built_in[k]);
             let apart = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
             let place = format!("{number}: {name}, {scene:?}");
-            ledger.within(&place, apart / largest(&built_in[k]), 1e-7);
+            tally.within(&place, apart / largest(&built_in[k]), 1e-7);
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }
 
 /// A block pulled aside and let go on springs without dashpots, bonded: nothing is lost.
 #[test]
 fn a_lossless_bed_returns_its_energy_or_is_noticed() {
-    let mut ledger = Ledger::new("own ground: lossless bed");
+    let mut tally = Tally::new("own ground: lossless bed");
     let mut random = Random(102);
     for number in 0..scenes(20, 300) {
         let scene = Scene { dashpot: [0.0; 2], friction: None, ..Scene::draw(&mut random) };
         for form in [Form::MidStep, Form::EndOfStep] {
-            ledger.scene(&["springs", "block", "loads", "ground of a user"]);
+            tally.scene(&["springs", "block", "loads", "ground of a user"]);
             let block = RigidBlock::new(scene.width, scene.height, 1200.0).unwrap();
             let roof = block.horizontal_at(scene.height);
             let force = 0.1 * 1200.0 * 9.81 * scene.width * scene.height;
@@ -208,14 +208,14 @@ fn a_lossless_bed_returns_its_energy_or_is_noticed() {
                 .iter()
                 .any(|warning| format!("{warning:?}").contains("FirstOrderGround"));
             if form == Form::MidStep {
-                ledger.within(&place, 1.0 - kept, 0.25);
+                tally.within(&place, 1.0 - kept, 0.25);
                 if is_noticed {
-                    ledger.fail(format!("{place}: a warning of a lossless bed"));
+                    tally.fail(format!("{place}: a warning of a lossless bed"));
                 }
             } else if kept < 0.9 && !is_noticed {
-                ledger.fail(format!("{place}: loses its energy without a warning"));
+                tally.fail(format!("{place}: loses its energy without a warning"));
             }
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }

@@ -1,21 +1,21 @@
 //! Comparison of two writings of a scene.
 
-use super::ledger::Ledger;
 use super::parts::Choice;
 use super::scene::{Response, Writing, kind, run};
+use super::tally::Tally;
 use super::view::{PLAIN, View};
 
 /// Factor by which two writings may differ more than two scenes that differ by 1e-10.
 const AMPLIFICATION: f64 = 30.0;
 
 /// The scene as it is usually written; `None`, and noted, if a builder refuses it.
-pub(crate) fn usual(choice: &Choice, ledger: &mut Ledger) -> Option<Response> {
+pub(crate) fn usual(choice: &Choice, tally: &mut Tally) -> Option<Response> {
     super::grounds::next_scene();
-    ledger.scene(&choice.words());
+    tally.scene(&choice.words());
     match run(choice, &PLAIN, Writing::Usual) {
         Ok(response) => Some(response),
         Err(error) => {
-            ledger.refuse(format!("{}: {error}", choice.name()));
+            tally.refuse(format!("{}: {error}", choice.name()));
             None
         }
     }
@@ -29,16 +29,16 @@ pub(crate) fn same(
     usual: &Response,
     (name, view, writing): (&str, &View, Writing),
     limit: f64,
-    ledger: &mut Ledger,
+    tally: &mut Tally,
 ) {
     let place = format!("{name}: {}", choice.name());
     match run(choice, view, writing) {
         Ok(response) => {
             let (value, group) = usual.apart(&response);
             let limit = if value > limit { limit.max(amplified(choice, usual)) } else { limit };
-            ledger.within(&format!("{group}, {place}"), value, limit);
+            tally.within(&format!("{group}, {place}"), value, limit);
         }
-        Err(error) => ledger.fail(format!("{place}: refused, {}: {error}", kind(&error))),
+        Err(error) => tally.fail(format!("{place}: refused, {}: {error}", kind(&error))),
     }
 }
 

@@ -8,11 +8,11 @@ use basemat_problems::random::Random;
 
 use super::blueprint::{Blueprint, Piece};
 use super::grounds;
-use super::ledger::{Ledger, scenes};
 use super::numbers::Numbers;
 use super::parts::{Choice, Coordinate, Ground, Motion, Space, covering};
 use super::scene::{Response, run_with};
 use super::structures::{Faces, Made, on_faces};
+use super::tally::{Tally, scenes};
 use super::view::PLAIN;
 
 /// Static states are known to 1e-10.
@@ -121,7 +121,7 @@ fn words(choice: &Choice, form: &'static str) -> [&'static str; 5] {
 
 #[test]
 fn any_division_of_the_base_is_one_face() {
-    let mut ledger = Ledger::new("one body: faces");
+    let mut tally = Tally::new("one body: faces");
     for (number, (choice, numbers, mut random)) in choices(91, scenes(21, 300)).enumerate() {
         let division = DIVISIONS[1 + number % (DIVISIONS.len() - 1)];
         let form = match division {
@@ -129,7 +129,7 @@ fn any_division_of_the_base_is_one_face() {
             _ => "quadrilateral faces",
         };
         grounds::next_scene();
-        ledger.scene(&words(&choice, form));
+        tally.scene(&words(&choice, form));
         let mut respond = |division: Division| {
             let faces = faces(division, numbers.sides, &mut random);
             let (model, top) = on_faces(&numbers, &faces, &PLAIN)?;
@@ -139,16 +139,16 @@ fn any_division_of_the_base_is_one_face() {
         match [respond(Division::OneFace), respond(division)] {
             [Ok(one), Ok(other)] => {
                 let (value, group) = one.apart(&other);
-                ledger.within(&format!("{group}, {place}"), value, LIMIT);
+                tally.within(&format!("{group}, {place}"), value, LIMIT);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
             [one, other] => {
                 let [one, other] = [one, other].map(|found| found.err().map(|own| own.to_string()));
-                ledger.fail(format!("{place}: {one:?} but {other:?}"));
+                tally.fail(format!("{place}: {one:?} but {other:?}"));
             }
         }
     }
-    ledger.close(0.8);
+    tally.close(0.8);
 }
 
 /// A cuboid of bricks with a modulus of 1e6 times the soil's.
@@ -208,13 +208,13 @@ fn on_shells(numbers: &Numbers, triangles: bool, is_linked: bool) -> Result<Made
 
 #[test]
 fn bricks_shells_and_rigid_links_are_the_rigid_body() {
-    let mut ledger = Ledger::new("one body: bricks, shells, rigid links");
+    let mut tally = Tally::new("one body: bricks, shells, rigid links");
     let forms =
         ["bricks", "shells", "shells of triangles", "rigid link", "rigid link of triangles"];
     for (number, (choice, numbers, _)) in choices(92, scenes(15, 200)).enumerate() {
         let form = forms[number % forms.len()];
         grounds::next_scene();
-        ledger.scene(&words(&choice, form));
+        tally.scene(&words(&choice, form));
         let [a, b] = numbers.sides;
         let whole = || -> Result<Response> {
             let body = RigidBody::cuboid([a, b, numbers.height], numbers.density)?;
@@ -234,22 +234,22 @@ fn bricks_shells_and_rigid_links_are_the_rigid_body() {
             [Ok(one), Ok(other)] => {
                 let (value, group) =
                     one.apart_in(&other, &["forces", "moments", "rotations", "top"]);
-                ledger.within(&format!("{group}, {place}"), value, limit);
+                tally.within(&format!("{group}, {place}"), value, limit);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
             [one, other] => {
                 let [one, other] = [one, other].map(|found| found.err().map(|own| own.to_string()));
-                ledger.fail(format!("{place}: {one:?} but {other:?}"));
+                tally.fail(format!("{place}: {one:?} but {other:?}"));
             }
         }
     }
-    ledger.close(0.8);
+    tally.close(0.8);
 }
 
 /// Static stiffness of long mats: the fault of sharp corners grows with the ratio of the sides.
 #[test]
 fn sharp_triangles_keep_the_outline() {
-    let mut ledger = Ledger::new("one body: static stiffness of long mats");
+    let mut tally = Tally::new("one body: static stiffness of long mats");
     let mut random = Random(93);
     for (number, division) in DIVISIONS.iter().cycle().skip(1).take(scenes(12, 120)).enumerate() {
         if *division == Division::OneFace {
@@ -263,7 +263,7 @@ fn sharp_triangles_keep_the_outline() {
         } else {
             [numbers.sides[0] / ratio, numbers.sides[0]]
         };
-        ledger.scene(&["half-plane", "triangles", "loads"]);
+        tally.scene(&["half-plane", "triangles", "loads"]);
         let numbers = Numbers { sides, ..numbers };
         let choice = Choice {
             ground: Ground::HalfPlane,
@@ -287,14 +287,14 @@ fn sharp_triangles_keep_the_outline() {
             [Ok(one), Ok(other)] if one.len() == other.len() => {
                 let pairs = one.iter().zip(&other);
                 let apart = pairs.fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
-                ledger.within(&place, apart / sides[0], 1e-9);
+                tally.within(&place, apart / sides[0], 1e-9);
             }
             [Ok(one), Ok(other)] => {
                 let counts = [one.len() / 5, other.len() / 5];
-                ledger.fail(format!("{place}: {counts:?} cells"));
+                tally.fail(format!("{place}: {counts:?} cells"));
             }
-            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+            [one, other] => tally.fail(format!("{place}: {one:?} but {other:?}")),
         }
     }
-    ledger.close(0.8);
+    tally.close(0.8);
 }

@@ -6,7 +6,7 @@ use basemat::motion::{
 };
 use basemat_problems::random::Random;
 
-use super::ledger::{Ledger, scenes};
+use super::tally::{Tally, scenes};
 
 /// Names of all formats; `table.rs` compares them with the library's.
 pub(crate) const FORMATS: [&str; 9] = [
@@ -79,7 +79,7 @@ fn written(format: &str, step: f64, samples: &[f64]) -> Option<(String, Box<dyn 
 
 #[test]
 fn every_format_holds_the_same_samples() {
-    let mut ledger = Ledger::new("records: the same samples from every format");
+    let mut tally = Tally::new("records: the same samples from every format");
     let mut random = Random(141);
     for number in 0..scenes(20, 400) {
         let step = random.pick(&[0.01, 0.02, 0.05]);
@@ -88,28 +88,28 @@ fn every_format_holds_the_same_samples() {
         let samples: Vec<f64> = (0..count).map(|_| random.within(-300.0, 300.0)).collect();
         for format in FORMATS {
             let Some((text, reader)) = written(format, step, &samples) else { continue };
-            ledger.scene(&[format]);
+            tally.scene(&[format]);
             let place = format!("{number}: {format}, {count} samples of {step} s");
             match Record::from_reader(format, text.as_bytes(), reader.as_ref()) {
                 Ok(record) if record.len() == samples.len() => {
-                    ledger.within(&place, (record.time_step() / step - 1.0).abs(), 1e-12);
+                    tally.within(&place, (record.time_step() / step - 1.0).abs(), 1e-12);
                     let pairs = record.accelerations().iter().zip(&samples);
                     let apart = pairs
                         .fold(0.0, |most: f64, (found, gal)| most.max((found - 0.01 * gal).abs()));
-                    ledger.within(&place, apart / 3.0, 1e-14);
+                    tally.within(&place, apart / 3.0, 1e-14);
                 }
-                Ok(record) => ledger.fail(format!("{place}: {} samples", record.len())),
-                Err(error) => ledger.fail(format!("{place}: {error}")),
+                Ok(record) => tally.fail(format!("{place}: {} samples", record.len())),
+                Err(error) => tally.fail(format!("{place}: {error}")),
             }
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }
 
 /// Files of all agencies, written as columns and read again, to the last bit.
 #[test]
 fn records_are_read_again_as_they_were_written() {
-    let mut ledger = Ledger::new("records: written and read again");
+    let mut tally = Tally::new("records: written and read again");
     let files: [(&str, &'static str, Box<dyn RecordFormat>); 9] = [
         ("peer.at2", "PeerFormat", Box::new(PeerFormat)),
         ("esm_hne.asc", "EsmFormat", Box::new(EsmFormat)),
@@ -122,15 +122,15 @@ fn records_are_read_again_as_they_were_written() {
         ("geonet.v2a", "GeoNetFormat", Box::new(GeoNetFormat::default())),
     ];
     for (file, name, format) in files {
-        ledger.scene(&[name, "ColumnFormat"]);
+        tally.scene(&[name, "ColumnFormat"]);
         let path = basemat_problems::data_path(&format!("records/{file}"));
         let record = Record::read(path, format.as_ref()).unwrap();
         let columns = ColumnFormat::new(AccelerationUnit::MetrePerSecondSquared);
         match Record::from_reader(file, record.csv().as_bytes(), &columns) {
             Ok(again) if again == record => {}
-            Ok(_) => ledger.fail(format!("{file}: other samples")),
-            Err(error) => ledger.fail(format!("{file}: {error}")),
+            Ok(_) => tally.fail(format!("{file}: other samples")),
+            Err(error) => tally.fail(format!("{file}: {error}")),
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }

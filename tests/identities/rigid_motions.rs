@@ -8,10 +8,10 @@ use basemat_problems::dense::{eigenpairs, product, stiffness};
 use basemat_problems::random::Random;
 
 use super::blueprint::{Blueprint, Piece};
-use super::ledger::{Ledger, scenes};
 use super::numbers::Numbers;
 use super::parts::{Body, Choice, Space, covering};
 use super::structures;
+use super::tally::{Tally, scenes};
 use super::view::PLAIN;
 
 /// Rounding of a force, of the sum of its parts' magnitudes.
@@ -108,27 +108,27 @@ fn upright(direction: Direction) -> bool {
 
 #[test]
 fn models_in_space_turn_freely() {
-    let mut ledger = Ledger::new("rigid motions: models in space");
+    let mut tally = Tally::new("rigid motions: models in space");
     let mut random = Random(731);
     for number in 0..scenes(20, 400) {
         let mut plan = building(&mut random);
         plan.p_delta = number % 2 == 1;
         let name = if plan.p_delta { "with P–Δ" } else { "without P–Δ" };
-        ledger.scene(&["shells and beams", name]);
+        tally.scene(&["shells and beams", name]);
         let model = match plan.model(&PLAIN) {
             Ok(model) => model,
             Err(error) => {
-                ledger.refuse(format!("{number}: {error}"));
+                tally.refuse(format!("{number}: {error}"));
                 continue;
             }
         };
         let middle = [random.within(-5.0, 5.0), random.within(-5.0, 5.0), 0.0];
         for direction in ALL.into_iter().filter(|own| !plan.p_delta || upright(*own)) {
             let value = force(&model, &model.rigid_motion(direction, middle));
-            ledger.within(&format!("{number}: {direction:?} {name}"), value, ROUNDING);
+            tally.within(&format!("{number}: {direction:?} {name}"), value, ROUNDING);
         }
     }
-    ledger.close(0.8);
+    tally.close(0.8);
 }
 
 /// Number of motions without force, by the eigenvalues of the matrix scaled to a diagonal of one.
@@ -154,10 +154,10 @@ fn free_motions(structure: &dyn Structure) -> usize {
 /// columns upright.
 #[test]
 fn every_structure_has_all_rigid_motions() {
-    let mut ledger = Ledger::new("rigid motions: all structures");
+    let mut tally = Tally::new("rigid motions: all structures");
     for space in [Space::Plane, Space::Plan] {
         for choice in bodies(space) {
-            ledger.scene(&[choice.body.word()]);
+            tally.scene(&[choice.body.word()]);
             let numbers = Numbers::draw(choice.seed);
             let structure = structures::structure(&choice, &numbers, &PLAIN).unwrap().structure;
             let slender =
@@ -174,11 +174,11 @@ fn every_structure_has_all_rigid_motions() {
             }
             let found = free_motions(structure.as_ref());
             if found != needed {
-                ledger.fail(format!("{}: {found} rigid motions, not {needed}", choice.name()));
+                tally.fail(format!("{}: {found} rigid motions, not {needed}", choice.name()));
             }
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }
 
 /// A choice of each structure.
@@ -194,29 +194,29 @@ fn bodies(space: Space) -> Vec<Choice> {
 
 #[test]
 fn reduced_models_keep_them() {
-    let mut ledger = Ledger::new("rigid motions: reduced models");
+    let mut tally = Tally::new("rigid motions: reduced models");
     let mut random = Random(733);
     for number in 0..scenes(6, 60) {
         let mut plan = building(&mut random);
         plan.link = None;
-        ledger.scene(&["reduced model", "shells and beams"]);
+        tally.scene(&["reduced model", "shells and beams"]);
         let model = plan.model(&PLAIN).unwrap();
         match CraigBampton::new(4).reduce(model) {
             Ok(reduced) => {
                 let found = free_motions(&reduced);
                 if found != 6 {
-                    ledger.fail(format!("{number}: {found} rigid motions, not 6"));
+                    tally.fail(format!("{number}: {found} rigid motions, not 6"));
                 }
             }
-            Err(error) => ledger.refuse(format!("{number}: {error}")),
+            Err(error) => tally.refuse(format!("{number}: {error}")),
         }
     }
-    ledger.close(0.8);
+    tally.close(0.8);
 }
 
 #[test]
 fn meshes_from_gmsh_turn_freely() {
-    let mut ledger = Ledger::new("rigid motions: meshes from Gmsh");
+    let mut tally = Tally::new("rigid motions: meshes from Gmsh");
     let concrete = Material::new(30.0e9, 0.2, 2500.0).unwrap();
     let section = BeamSection::new(0.2, [0.002, 0.004], 0.003).unwrap();
     let parts = [
@@ -227,14 +227,14 @@ fn meshes_from_gmsh_turn_freely() {
     ];
     let file = GmshSpaceMesh::read(basemat_problems::data_path("gmsh/space.msh")).unwrap();
     for p_delta in [false, true] {
-        ledger.scene(&["Gmsh", if p_delta { "with P–Δ" } else { "without P–Δ" }]);
+        tally.scene(&["Gmsh", if p_delta { "with P–Δ" } else { "without P–Δ" }]);
         let base = file.cells(2, "base").unwrap();
         let model = FemModel::on_faces(file.mesh(&parts).unwrap(), &base).unwrap();
         let model = if p_delta { model.with_p_delta(9.81).unwrap() } else { model };
         for direction in ALL.into_iter().filter(|own| !p_delta || upright(*own)) {
             let value = force(&model, &model.rigid_motion(direction, [1.0, -2.0, 0.5]));
-            ledger.within(&format!("{direction:?}, P–Δ {p_delta}"), value, ROUNDING);
+            tally.within(&format!("{direction:?}, P–Δ {p_delta}"), value, ROUNDING);
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }

@@ -11,7 +11,7 @@ use basemat::soil::{GeneralizedMaxwell, SoilProfile};
 use basemat::{Complex, Soil, unobserved};
 use basemat_problems::random::Random;
 
-use super::ledger::{Ledger, scenes};
+use super::tally::{Tally, scenes};
 
 /// A random soil and the same soil in one or two layers upon itself, with the same damping.
 struct Site {
@@ -71,7 +71,7 @@ fn parts(values: &[Complex]) -> Vec<f64> {
 
 #[test]
 fn waves_from_below_at_any_angle() {
-    let mut ledger = Ledger::new("layer of the same soil: waves in frequency");
+    let mut tally = Tally::new("layer of the same soil: waves in frequency");
     let mut random = Random(711);
     for number in 0..scenes(40, 400) {
         let site = Site::draw(&mut random, 10.0);
@@ -85,7 +85,7 @@ fn waves_from_below_at_any_angle() {
         let control =
             random.pick(&[InclinedControl::OutcropHorizontal, InclinedControl::OutcropVertical]);
         let kind = random.pick(&["SV", "P", "SH"]);
-        ledger.scene(&["layers", kind]);
+        tally.scene(&["layers", kind]);
         let found = site.profiles().map(|profile| {
             let wave = match kind {
                 "SV" => InclinedWave::sv(profile, angle),
@@ -101,20 +101,20 @@ fn waves_from_below_at_any_angle() {
                 let scale = one[0].abs().hypot(one[1].abs());
                 let other_scale = other[0].abs().hypot(other[1].abs());
                 let unlike = (other[0] * one[1] - other[1] * one[0]).abs() / (scale * other_scale);
-                ledger.within(&place, unlike, 1e-9);
-                ledger.within(&place, (other_scale / scale - 1.0).abs(), 1e-9);
+                tally.within(&place, unlike, 1e-9);
+                tally.within(&place, (other_scale / scale - 1.0).abs(), 1e-9);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
-            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
+            [one, other] => tally.fail(format!("{place}: {one:?} but {other:?}")),
         }
     }
-    ledger.close(0.5);
+    tally.close(0.5);
 }
 
 /// Impedances of the same elements, with wavenumber integrals of layers.
 #[test]
 fn impedances_of_strips_mats_and_trenches() {
-    let mut ledger = Ledger::new("layer of the same soil: impedances");
+    let mut tally = Tally::new("layer of the same soil: impedances");
     let mut random = Random(712);
     for number in 0..scenes(9, 60) {
         let half = random.log_within(1.0, 5.0);
@@ -123,7 +123,7 @@ fn impedances_of_strips_mats_and_trenches() {
         let kind = ["half-plane", "mat", "trench"][number % 3];
         let contact = random.pick(&[StripContact::Bonded, StripContact::Relaxed]);
         let depth = half * random.within(0.3, 1.5);
-        ledger.scene(&["layers", kind]);
+        tally.scene(&["layers", kind]);
         let found = site.profiles().map(|profile| -> basemat::Result<Vec<f64>> {
             match kind {
                 "half-plane" => {
@@ -160,13 +160,13 @@ fn impedances_of_strips_mats_and_trenches() {
             // Finite elements of a trench divide the layers in another way.
             [Ok(one), Ok(other)] => {
                 let limit = if kind == "trench" { 2e-3 } else { 1e-6 };
-                ledger.within(&place, apart(&one, &other), limit);
+                tally.within(&place, apart(&one, &other), limit);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
-            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
+            [one, other] => tally.fail(format!("{place}: {one:?} but {other:?}")),
         }
     }
-    ledger.close(0.5);
+    tally.close(0.5);
 }
 
 /// Steps of a convolution.
@@ -191,7 +191,7 @@ fn answers(ground: &mut dyn Ground, step: f64, seed: u64) -> basemat::Result<Vec
 
 #[test]
 fn steps_of_strips_mats_and_trenches() {
-    let mut ledger = Ledger::new("layer of the same soil: convolution weights");
+    let mut tally = Tally::new("layer of the same soil: convolution weights");
     let mut random = Random(713);
     for number in 0..scenes(3, 60) {
         let half = random.log_within(1.0, 5.0);
@@ -200,7 +200,7 @@ fn steps_of_strips_mats_and_trenches() {
         let stages = random.pick(&[Stages::Two, Stages::Three]);
         let kind = ["half-plane", "mat", "trench"][number % 3];
         let depth = half * random.within(0.3, 1.5);
-        ledger.scene(&["layers", kind]);
+        tally.scene(&["layers", kind]);
         let found = site.profiles().map(|profile| -> basemat::Result<Vec<f64>> {
             let mut ground: Box<dyn Ground> = match kind {
                 "half-plane" => {
@@ -223,13 +223,13 @@ fn steps_of_strips_mats_and_trenches() {
         match found {
             [Ok(one), Ok(other)] => {
                 let limit = if kind == "trench" { 2e-3 } else { 1e-6 };
-                ledger.within(&place, apart(&one, &other), limit);
+                tally.within(&place, apart(&one, &other), limit);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
-            [one, other] => ledger.fail(format!("{place}: {one:?} but {other:?}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
+            [one, other] => tally.fail(format!("{place}: {one:?} but {other:?}")),
         }
     }
-    ledger.close(0.5);
+    tally.close(0.5);
 }
 
 /// A pulse of acceleration that ends at rest.
@@ -264,7 +264,7 @@ const TRANSFORM: f64 = 1e-5;
 /// Motion and tractions of the soil at the faces of a trench.
 #[test]
 fn waves_at_the_faces_of_trenches() {
-    let mut ledger = Ledger::new("layer of the same soil: waves at the faces of trenches");
+    let mut tally = Tally::new("layer of the same soil: waves at the faces of trenches");
     let mut random = Random(714);
     for number in 0..scenes(24, 240) {
         let half = random.log_within(1.0, 6.0);
@@ -274,7 +274,7 @@ fn waves_at_the_faces_of_trenches() {
         // Short surface waves do not reach the base.
         let slowly = if kind == "Rayleigh" { 4.0 } else { 1.0 };
         let record = record(&mut random, slowly * depth / site.speed);
-        ledger.scene(&["trench", "layers", kind]);
+        tally.scene(&["trench", "layers", kind]);
         let angle = random.within(0.05, 0.5);
         let elements = Trench::new(-half..half, depth).unwrap().elements(4, 3).unwrap();
         let found = site.profiles().map(|profile| -> basemat::Result<[Vec<f64>; 2]> {
@@ -297,16 +297,16 @@ fn waves_at_the_faces_of_trenches() {
         let place = format!("{number}: {kind}, half width {half:.2}, depth {depth:.2}");
         match found {
             [Ok([moved, impulse]), Ok([other_moved, other_impulse])] => {
-                ledger.within(&format!("motion, {place}"), apart(&moved, &other_moved), TRANSFORM);
+                tally.within(&format!("motion, {place}"), apart(&moved, &other_moved), TRANSFORM);
                 let tractions = apart(&impulse, &other_impulse);
-                ledger.within(&format!("impulse, {place}"), tractions, TRANSFORM);
+                tally.within(&format!("impulse, {place}"), tractions, TRANSFORM);
             }
-            [Err(error), Err(_)] => ledger.refuse(format!("{place}: {error}")),
+            [Err(error), Err(_)] => tally.refuse(format!("{place}: {error}")),
             [one, other] => {
                 let [one, other] = [one, other].map(|found| found.map(drop));
-                ledger.fail(format!("{place}: {one:?} but {other:?}"));
+                tally.fail(format!("{place}: {one:?} but {other:?}"));
             }
         }
     }
-    ledger.close(0.5);
+    tally.close(0.5);
 }

@@ -9,10 +9,10 @@ use basemat::{Result, Simulation};
 use basemat_problems::scenes::GRAVITY;
 
 use super::grounds::{self, CELLS, ELEMENTS};
-use super::ledger::{Ledger, scenes};
 use super::numbers::Numbers;
 use super::parts::{Choice, Coordinate, Law, Motion, Space, covering};
 use super::structures::{self, Made};
+use super::tally::{Tally, scenes};
 use super::view::PLAIN;
 
 /// Steps of the ramp and of the rest after it.
@@ -81,7 +81,7 @@ fn both(choice: &Choice, numbers: &Numbers) -> Result<[Vec<f64>; 2]> {
 }
 
 fn check(space: Space, row: &'static str, count: usize) {
-    let mut ledger = Ledger::new(row);
+    let mut tally = Tally::new(row);
     for choice in covering(space, 111, count) {
         // Friction that falls with speed has no slow limit of its own beside the static one; motions do not matter.
         let coordinate = Coordinate::Physical;
@@ -90,18 +90,18 @@ fn check(space: Space, row: &'static str, count: usize) {
             continue;
         }
         let numbers = Numbers::draw(choice.seed);
-        ledger.scene(&["springs", choice.body.word(), choice.law.word(), choice.motion.word()]);
+        tally.scene(&["springs", choice.body.word(), choice.law.word(), choice.motion.word()]);
         match both(&choice, &numbers) {
             Ok([static_state, ramp]) => {
                 let scale = static_state.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
                 let pairs = static_state.iter().zip(&ramp);
                 let apart = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-                ledger.within(&choice.name(), apart / scale, LIMIT);
+                tally.within(&choice.name(), apart / scale, LIMIT);
             }
-            Err(error) => ledger.refuse(format!("{}: {error}", choice.name())),
+            Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
         }
     }
-    ledger.close(0.75);
+    tally.close(0.75);
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use basemat::Result;
 
-use super::ledger::{Ledger, scenes};
 use super::numbers::Numbers;
 use super::parts::{Choice, Coordinate, Law, Motion, Scheme, Space, covering};
 use super::scene::{Writing, builder};
+use super::tally::{Tally, scenes};
 use super::view::PLAIN;
 
 /// Displacements of the top at the ends of steps that all runs share, with steps divided by `parts`.
@@ -38,7 +38,7 @@ fn check_order(space: Space, row: &'static str, count: usize) {
     if count == 0 {
         return;
     }
-    let mut ledger = Ledger::new(row);
+    let mut tally = Tally::new(row);
     for choice in covering(space, 121, count) {
         // Slips and landings are not smooth.
         let coordinate = Coordinate::Physical;
@@ -47,7 +47,7 @@ fn check_order(space: Space, row: &'static str, count: usize) {
             continue;
         }
         super::grounds::next_scene();
-        ledger.scene(&choice.words());
+        tally.scene(&choice.words());
         // Set-up around a trench grows with the steps.
         let first = if space == Space::Trench { 1 } else { 2 };
         let runs = || -> Result<[Vec<f64>; 3]> {
@@ -60,13 +60,13 @@ fn check_order(space: Space, row: &'static str, count: usize) {
                 // Static states and reductions are not exact beyond this.
                 if fine > 1e-8 * scale {
                     let limit = 1.0 / ratio(choice.scheme);
-                    ledger.within(&choice.name(), fine / coarse, limit);
+                    tally.within(&choice.name(), fine / coarse, limit);
                 }
             }
-            Err(error) => ledger.refuse(format!("{}: {error}", choice.name())),
+            Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
         }
     }
-    ledger.close(0.75);
+    tally.close(0.75);
 }
 
 #[test]
@@ -95,14 +95,14 @@ fn warnings(choice: &Choice, factor: usize) -> Result<usize> {
 /// The motion has some ten steps a wave: ten times that is one step a wave.
 #[test]
 fn long_steps_are_warned_of() {
-    let mut ledger = Ledger::new("steps ten times as long are warned of");
+    let mut tally = Tally::new("steps ten times as long are warned of");
     for space in [Space::Plane, Space::Plan] {
         for choice in covering(space, 122, scenes(if space == Space::Plan { 6 } else { 24 }, 200)) {
             let has_record = !matches!(choice.motion, Motion::Function | Motion::Loads);
             if !has_record {
                 continue;
             }
-            ledger.scene(&choice.words());
+            tally.scene(&choice.words());
             let counts = || -> Result<[usize; 3]> {
                 Ok([warnings(&choice, 1)?, warnings(&choice, 10)?, warnings(&choice, 100)?])
             };
@@ -110,12 +110,12 @@ fn long_steps_are_warned_of() {
                 Ok([usual, longer, longest]) => {
                     if longer == 0 || longest == 0 {
                         let counts = format!("{usual}, {longer} and {longest} warnings");
-                        ledger.fail(format!("{counts} for steps × 1, 10, 100: {}", choice.name()));
+                        tally.fail(format!("{counts} for steps × 1, 10, 100: {}", choice.name()));
                     }
                 }
-                Err(error) => ledger.refuse(format!("{}: {error}", choice.name())),
+                Err(error) => tally.refuse(format!("{}: {error}", choice.name())),
             }
         }
     }
-    ledger.close(0.5);
+    tally.close(0.5);
 }

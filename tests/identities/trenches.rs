@@ -15,7 +15,7 @@ use basemat::structure::{FemModel, RigidBlock, RigidBody};
 use basemat::{Result, Simulation, Soil, unobserved};
 use basemat_problems::random::Random;
 
-use super::ledger::{Ledger, scenes};
+use super::tally::{Tally, scenes};
 
 /// The trench of half width `half` and a `depth`, filled with finite elements of `soil`, `counts` along and up.
 fn fill(half: f64, depth: f64, soil: &Soil, counts: [usize; 2]) -> Result<(FemModel, usize)> {
@@ -56,7 +56,7 @@ fn record(random: &mut Random, time: f64) -> Result<(Record, f64)> {
 /// The middle of the filled surface moves as the free surface.
 #[test]
 fn own_soil_fills_a_trench_without_a_trace() {
-    let mut ledger = Ledger::new("trench: filled with its own soil");
+    let mut tally = Tally::new("trench: filled with its own soil");
     let mut random = Random(131);
     for number in 0..scenes(1, 40) {
         let half = random.log_within(2.0, 6.0);
@@ -71,7 +71,7 @@ fn own_soil_fills_a_trench_without_a_trace() {
         }
         let kind = ["vertical waves", "SV wave", "vertical waves", "P wave"][number % 4];
         let layers = if number % 2 == 0 { "layers" } else { "half-plane" };
-        ledger.scene(&["trench", layers, "quadrilaterals", "bonded", kind]);
+        tally.scene(&["trench", layers, "quadrilaterals", "bonded", kind]);
         let run = || -> Result<f64> {
             let (record, rate) = record(&mut random, depth / speed)?;
             let elements = Trench::new(-half..half, depth)?.elements(4, 3)?;
@@ -122,17 +122,17 @@ fn own_soil_fills_a_trench_without_a_trace() {
         let place = format!("{number}: {kind}, {layers}, half width {half:.2}, depth {depth:.2}");
         let mut run = run;
         match run() {
-            Ok(apart) => ledger.within(&place, apart, 0.03),
-            Err(error) => ledger.refuse(format!("{place}: {error}")),
+            Ok(apart) => tally.within(&place, apart, 0.03),
+            Err(error) => tally.refuse(format!("{place}: {error}")),
         }
     }
-    ledger.close(0.7);
+    tally.close(0.7);
 }
 
 /// Step compliances of a trench without depth, by finite elements of the soil, and of a strip, by wavenumber integrals.
 #[test]
 fn a_trench_without_depth_is_a_strip() {
-    let mut ledger = Ledger::new("trench: without depth");
+    let mut tally = Tally::new("trench: without depth");
     let mut random = Random(132);
     for number in 0..scenes(3, 30) {
         let half = random.log_within(1.0, 5.0);
@@ -144,7 +144,7 @@ fn a_trench_without_depth_is_a_strip() {
             profile = profile.with_layer(soft, half * random.within(0.5, 2.0)).unwrap();
         }
         let layers = if number % 2 == 1 { "layers" } else { "half-plane" };
-        ledger.scene(&["trench", layers, "strip"]);
+        tally.scene(&["trench", layers, "strip"]);
         let step = random.within(0.1, 0.4) * half / 200.0;
         let matrix = |mut ground: Box<dyn Ground>| -> Result<Vec<f64>> {
             ground.prepare(step, Some(8), &mut unobserved)?;
@@ -164,15 +164,15 @@ fn a_trench_without_depth_is_a_strip() {
         let scale = other.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
         let pairs = one.iter().zip(&other);
         let apart = pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-        ledger.within(&format!("{number}: {layers}, half width {half:.2}"), apart / scale, 1e-2);
+        tally.within(&format!("{number}: {layers}, half width {half:.2}"), apart / scale, 1e-2);
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }
 
 /// A body on springs that moves in one plane: the block per metre times its depth.
 #[test]
 fn a_body_in_one_plane_is_a_block_per_metre() {
-    let mut ledger = Ledger::new("wide mat: strip per metre");
+    let mut tally = Tally::new("wide mat: strip per metre");
     let mut random = Random(133);
     for number in 0..scenes(8, 120) {
         let [a, b] = [random.within(3.0, 8.0), random.within(2.0, 20.0)];
@@ -181,7 +181,7 @@ fn a_body_in_one_plane_is_a_block_per_metre() {
         let stiffness = random.log_within(2e7, 2e8);
         let friction = random.within(0.2, 0.8);
         let is_bonded = random.chance(0.3);
-        ledger.scene(&["springs", "rigid body", "block", "three records", "record"]);
+        tally.scene(&["springs", "rigid body", "block", "three records", "record"]);
         let record = basemat::motion::el_centro_1940().scaled(random.within(0.3, 1.5)).unwrap();
         // Cells of both grounds have the same ends along x.
         let columns = 6;
@@ -224,20 +224,20 @@ fn a_body_in_one_plane_is_a_block_per_metre() {
         for k in 0..3 {
             let place =
                 format!("{number}: {}, {a:.2} × {b:.2} m", ["shear", "moment", "normal"][k]);
-            ledger.within(&place, apart[k] / largest[k], 1e-6);
+            tally.within(&place, apart[k] / largest[k], 1e-6);
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }
 
 /// Impedances of the middle of a long mat, per metre, against the strip's.
 #[test]
 fn a_long_mat_has_the_impedance_of_a_strip() {
-    let mut ledger = Ledger::new("wide mat: impedance per metre");
+    let mut tally = Tally::new("wide mat: impedance per metre");
     let mut random = Random(134);
     for number in 0..scenes(1, 6) {
         let soil = Soil::new(1.0, random.within(0.1, 0.4), 1.0).unwrap();
-        ledger.scene(&["half-plane", "mat", "strip"]);
+        tally.scene(&["half-plane", "mat", "strip"]);
         let frequency = random.within(1.0, 1.5) / std::f64::consts::TAU;
         // Two lengths: their difference has no ends.
         let plan = |length: f64| -> Result<[basemat::Complex; 2]> {
@@ -257,8 +257,8 @@ fn a_long_mat_has_the_impedance_of_a_strip() {
         for (k, wanted) in [found[0].horizontal, found[0].vertical].into_iter().enumerate() {
             let per_metre = (long[k] - short[k]) * (1.0 / 4.0);
             let apart = (per_metre - wanted).abs() / wanted.abs();
-            ledger.within(&format!("{number}: {}", ["horizontal", "vertical"][k]), apart, 0.1);
+            tally.within(&format!("{number}: {}", ["horizontal", "vertical"][k]), apart, 0.1);
         }
     }
-    ledger.close(1.0);
+    tally.close(1.0);
 }

@@ -4,9 +4,9 @@ use basemat_problems::random::Random;
 use basemat_problems::scenes::{Frame, SI};
 
 use super::compare::{same, usual};
-use super::ledger::{Ledger, scenes};
 use super::parts::{Choice, Coordinate, Space, covering};
 use super::scene::{REDUCED_LIMIT, Writing};
+use super::tally::{Tally, scenes};
 use super::view::{PLAIN, View};
 
 /// Static states are known to 1e-10.
@@ -34,9 +34,9 @@ fn views(choice: &Choice) -> Vec<(&'static str, View)> {
 }
 
 fn check(space: Space, row: &'static str, count: usize) {
-    let mut ledger = Ledger::new(row);
+    let mut tally = Tally::new(row);
     for (number, choice) in covering(space, 61, count).iter().enumerate() {
-        let Some(response) = usual(choice, &mut ledger) else { continue };
+        let Some(response) = usual(choice, &mut tally) else { continue };
         let views = views(choice);
         let is_reduced = choice.coordinate == Coordinate::Reduced;
         let limit = if is_reduced { REDUCED_LIMIT } else { LIMIT };
@@ -45,10 +45,10 @@ fn check(space: Space, row: &'static str, count: usize) {
         let chosen = if basemat_problems::heavy() { views.len() } else { short };
         for k in 0..chosen {
             let (name, view) = &views[(number + 2 * k) % views.len()];
-            same(choice, &response, (name, view, Writing::Usual), limit, &mut ledger);
+            same(choice, &response, (name, view, Writing::Usual), limit, &mut tally);
         }
     }
-    ledger.close(0.75);
+    tally.close(0.75);
 }
 
 #[test]

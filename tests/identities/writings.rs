@@ -1,30 +1,30 @@
 //! A scene in modal or reduced coordinates, and with parts that a user writes, is the scene in physical coordinates.
 
 use super::compare::{same, usual};
-use super::ledger::{Ledger, scenes};
 use super::parts::{Choice, Coordinate, Space, covering};
 use super::scene::{REDUCED_LIMIT, Writing};
+use super::tally::{Tally, scenes};
 use super::view::{PLAIN, View};
 
 /// Static states are known to 1e-10.
 const LIMIT: f64 = 1e-7;
 
 fn check(space: Space, row: &'static str, count: usize) {
-    let mut ledger = Ledger::new(row);
+    let mut tally = Tally::new(row);
     for choice in covering(space, 81, count) {
         let other = choice.coordinate;
         let physical = Choice { coordinate: Coordinate::Physical, ..choice };
-        let Some(response) = usual(&physical, &mut ledger) else { continue };
-        ledger.pair(&choice.words());
+        let Some(response) = usual(&physical, &mut tally) else { continue };
+        tally.pair(&choice.words());
         let by_user = ("parts of a user", &View { by_user: true, ..PLAIN }, Writing::ByUser);
-        same(&physical, &response, by_user, LIMIT, &mut ledger);
+        same(&physical, &response, by_user, LIMIT, &mut tally);
         if other != Coordinate::Physical {
             let limit = if other == Coordinate::Reduced { REDUCED_LIMIT } else { LIMIT };
             let writing = (other.word(), &PLAIN, Writing::In(other));
-            same(&physical, &response, writing, limit, &mut ledger);
+            same(&physical, &response, writing, limit, &mut tally);
         }
     }
-    ledger.close(0.75);
+    tally.close(0.75);
 }
 
 #[test]

@@ -4,6 +4,7 @@
 //! they leave (MacNeal 1971; Rubin 1975), without directions far shorter than the root of the tolerance. Symbols: see
 //! `krylov.rs`.
 
+use std::ops::Range;
 use std::rc::Rc;
 
 use crate::coupled::assembly::krylov::{FASTEST, LEAST_NEW, NEW, Reduction, inaccurate};
@@ -36,9 +37,16 @@ const LEAST_WEAKNESS: f64 = 1e-2;
 /// Steps over which many forces grow, in the comparison of responses: a binomial distribution.
 const SMOOTH: usize = 32;
 
-/// Factor on the length of directions that are left out, where the `weakest` response of a probe is small.
-fn probe_factor(weakest: f64) -> f64 {
-    (WEAK * weakest).clamp(LEAST_WEAKNESS, 1.0).sqrt()
+/// Adds the static responses to the forces of `block`, and returns the number of the first; drops the factor.
+fn add_static_responses(
+    floating: Rc<Floating>,
+    space: &mut Subspace<'_>,
+    mut block: Vec<f64>,
+) -> usize {
+    floating.factor.solve_many(&mut block);
+    let first = space.count();
+    space.extend(block, LEAST_NEW);
+    first
 }
 
 impl Reduction<'_> {
@@ -56,12 +64,11 @@ impl Reduction<'_> {
         let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), LEAST_NEW);
         let own = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        // A mode at the limit takes part by the tolerance in responses to forces that grow over many steps.
+        // Modes at the limit take part by the tolerance in responses to forces that grow over many steps.
         let mut limit = own * (tolerance.powf(-2.0 / SMOOTH as f64) - 1.0).sqrt();
         let mut last: Option<(StepResponses, Ritz)> = None;
-        let (mut products, mut change, mut effective, mut newest) =
-            (Vec::new(), f64::INFINITY, None, 0);
-        let probes = self.rows.counts[1]..self.rows.counts[2];
+        let (mut products, mut effective) = (Vec::new(), None);
+        let (mut change, mut newest) = (f64::INFINITY, 0);
         let mut least = 0.5 * tolerance.sqrt();
         for round in 0..ROUNDS_OF_MODES {
             // One more power alone is the comparison.
@@ -71,19 +78,15 @@ impl Reduction<'_> {
                 };
                 limit *= GROWTH;
                 if round == 0 {
-                    floating.factor.solve_many(&mut block);
-                    newest = space.count();
-                    space.extend(block, LEAST_NEW);
+                    newest = add_static_responses(floating, &mut space, block);
                     block = space.inertia(newest, c.acceleration[0]);
-                    drop(floating);
                     effective = Some((self.factored)()?);
                 }
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
-            if round == 0 && !probes.is_empty() {
+            if round == 0 && !self.probes().is_empty() {
                 products.extend(space.products(0, rows));
-                let responses = self.smooth_responses(&space.ritz()?, &products);
-                least *= probe_factor(responses.weakest(probes.clone()));
+                least *= self.probe_factor(&space, &products)?;
             }
             let mut is_last = false;
             if let Some((last, fewer)) = &last {
@@ -108,6 +111,17 @@ impl Reduction<'_> {
             last = Some((self.smooth_responses(&modes, &products), modes));
         }
         Err(inaccurate(change, tolerance, space.count()))
+    }
+
+    /// Numbers of the rows of probes.
+    fn probes(&self) -> Range<usize> {
+        self.rows.counts[1]..self.rows.counts[2]
+    }
+
+    /// Factor on the length of directions that are left out, where the weakest response of a probe is small.
+    fn probe_factor(&self, space: &Subspace<'_>, products: &[f64]) -> Result<f64> {
+        let responses = self.smooth_responses(&space.ritz()?, products);
+        Ok((WEAK * responses.weakest(self.probes())).clamp(LEAST_WEAKNESS, 1.0).sqrt())
     }
 
     /// Adds the vibration modes up to a frequency `limit`; returns the factor, or `None` for too many modes.

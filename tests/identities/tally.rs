@@ -10,7 +10,7 @@ use basemat_problems::heavy;
 static COVERED: Mutex<BTreeSet<[&'static str; 2]>> = Mutex::new(BTreeSet::new());
 
 /// One row of the suite: an identity with its limits.
-pub(crate) struct Ledger {
+pub(crate) struct Tally {
     row: &'static str,
     scenes: usize,
     /// Scenes that a builder refuses, both ways, with the reason.
@@ -26,7 +26,7 @@ pub(crate) fn scenes(short: usize, long: usize) -> usize {
     if heavy() { long } else { short }
 }
 
-impl Ledger {
+impl Tally {
     pub(crate) fn new(row: &'static str) -> Self {
         Self {
             row,
