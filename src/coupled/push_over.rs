@@ -1,13 +1,17 @@
 //! A static push-over: load against displacement, with uplift and sliding, up to the largest load.
 
 use crate::coupled::simulation::Simulation;
+use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
+use crate::linalg::largest;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
 /// Width of the bracket of the largest force, relative to it, at which the search ends.
 const LIMIT_TOLERANCE: f64 = 1e-4;
 /// Largest difference of a displacement from its target, relative to it.
 const DISPLACEMENT_TOLERANCE: f64 = 1e-4;
+/// Shear that counts as rounding, relative to the largest traction.
+const ROUNDING_OF_SHEAR: f64 = 1e-9;
 /// Largest number of static states for one target.
 const MAX_STATES: usize = 60;
 /// Largest factor by which a force grows in a step towards a target that lies beyond all known states.
@@ -44,7 +48,7 @@ pub struct PushPoint {
     pub rotation_across: f64,
     /// Area of open elements over the area of the base.
     pub uplifted_fraction: f64,
-    /// Area of sliding elements over the area of the base.
+    /// Area of elements that slide against friction over the area of the base.
     pub sliding_fraction: f64,
     /// Horizontal force on the soil along x, N (N/m in the plane).
     pub base_shear: f64,
@@ -201,15 +205,23 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
         let state = simulation.state();
         let areas = simulation.elements().areas();
         // A state begins with elements that stick where the load has left them.
-        let modes = &simulation.scene.static_state.modes;
-        let sliding = modes.iter().zip(areas).filter(|(mode, _)| mode.is_slip());
+        let StaticState { modes, traction, .. } = &simulation.scene.static_state;
+        let rounding = ROUNDING_OF_SHEAR * largest(traction);
+        // Under a weight without friction all elements may slide, and none bears shear.
+        let bears_shear = |element: usize| {
+            let mut shears = traction[modes.len()..].iter().skip(element).step_by(modes.len());
+            shears.any(|shear| shear.abs() > rounding)
+        };
+        let elements = modes.iter().zip(areas).enumerate();
+        let sliding =
+            elements.filter(|(element, (mode, _))| mode.is_slip() && bears_shear(*element));
         PushPoint {
             force,
             displacement: motions[0] - self.datum[0],
             base_rotation: motions[1] - self.datum[1],
             rotation_across: motions[2] - self.datum[2],
             uplifted_fraction: state.uplifted_fraction,
-            sliding_fraction: sliding.fold(0.0, |sum, (_, area)| sum + area)
+            sliding_fraction: sliding.fold(0.0, |sum, (_, (_, area))| sum + area)
                 / areas.iter().sum::<f64>(),
             base_shear: state.base_shear,
             base_moment: state.base_moment,

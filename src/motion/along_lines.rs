@@ -215,7 +215,7 @@ impl LineSeries {
             }
         }
         let pointless = |field: &&str| has_implied_point(field) && field.contains(nonzero_digit);
-        if self.off_implied_points && fields.texts.iter().any(|field| pointless(&field)) {
+        if self.off_implied_points && fields.texts.iter().any(pointless) {
             return Err(off_columns(line));
         }
         Ok(numbers)

@@ -2,6 +2,8 @@
 //! SCENE: eight values on a line with and without a lost value, cards of SHAKE, lists of samples, tables.
 //! REFERENCE: the words of the files, counted and converted here one by one.
 
+use std::fmt::Write;
+
 use basemat::motion::{
     AccelerationUnit, AlongLinesFormat, ColumnFormat, FortranFormat, Record, SlistFormat,
 };
@@ -103,12 +105,9 @@ fn no_column_of_a_series_is_read() {
 fn columns_without_titles_are_read_beside_times() {
     let mut text = String::new();
     for k in 0..30 {
-        text += &format!(
-            "{:.3} {:.4} {:.4}\n",
-            (f64::from(k) / 0.128).round() * 1e-3,
-            f64::from(k * k % 17),
-            f64::from(k * k % 13)
-        );
+        let [time, one, other] =
+            [(f64::from(k) / 0.128).round() * 1e-3, f64::from(k * k % 17), f64::from(k * k % 13)];
+        writeln!(text, "{time:.3} {one:.4} {other:.4}").unwrap();
     }
     let record = Record::from_reader("a", text.as_bytes(), &column(2)).unwrap();
     assert_eq!((record.len(), record.accelerations()[3]), (30, 9.0 * GRAVITY));

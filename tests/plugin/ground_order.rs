@@ -178,6 +178,11 @@ fn the_energy_of_springs_returns_in_the_mid_step_form_alone() {
             simulation.run(600, |state| soil.push(state.energy_balance.soil / energy)).unwrap();
         assert!(run.energy_error < 1e-9, "{run}");
         // The last period.
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "some hundred steps"
+        )]
         let period = (std::f64::consts::TAU / frequency() / STEP).ceil() as usize;
         let last = &soil[soil.len() - period..];
         last.iter().fold([f64::INFINITY, 0.0_f64], |[low, high], value| {

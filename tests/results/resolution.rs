@@ -287,7 +287,7 @@ fn numbers_in_another_unit() {
             match warning {
                 Warning::Mistake(Mistake::LongPeriod { period }) => seen[0] = Some(*period),
                 Warning::Mistake(Mistake::UnusualMotion { acceleration }) => {
-                    seen[1] = Some(acceleration / peak)
+                    seen[1] = Some(acceleration / peak);
                 }
                 _ => {}
             }

@@ -147,11 +147,13 @@ fn energies_of_random_scenes_close() {
         for warning in simulation.end_run(begun).warnings {
             let of_units = matches!(
                 warning,
-                Warning::Mistake(Mistake::UnusualInterval { .. })
-                    | Warning::Mistake(Mistake::LightStructure { .. })
-                    | Warning::Mistake(Mistake::UnusualFriction { .. })
-                    | Warning::Mistake(Mistake::TallStorey { .. })
-                    | Warning::Mistake(Mistake::UnusualGravity { .. })
+                Warning::Mistake(
+                    Mistake::UnusualInterval { .. }
+                        | Mistake::LightStructure { .. }
+                        | Mistake::UnusualFriction { .. }
+                        | Mistake::TallStorey { .. }
+                        | Mistake::UnusualGravity { .. }
+                )
             );
             assert!(!of_units, "{number}: {warning}");
             if let Warning::LessFriction { steps, .. } = warning {

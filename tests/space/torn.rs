@@ -5,7 +5,7 @@
 
 use basemat::bem::{PlanError, SpringGround};
 use basemat::coupled::{Mistake, Warning};
-use basemat::fem::{Material, Mesh, Shell};
+use basemat::fem::{Direction, Material, Mesh, Shell};
 use basemat::interface::Coulomb;
 use basemat::structure::{
     Base, BaseNode, DofCombination, FemModel, MatrixModel, RigidBody, Structure, StructureGroup,
@@ -168,5 +168,23 @@ fn overlapping_rafts_are_refused() -> Result<()> {
     }
     let body = || RigidBody::cuboid([6.0, 5.0, 4.0], 2000.0);
     assert!(StructureGroup::new().with(body()?, 0.0)?.with(body()?, 3.0).is_err());
+    Ok(())
+}
+
+/// The base is the underside of the shells, however it is divided: 0.4 m below the nodes, in a rotation about y.
+#[test]
+fn an_outline_over_several_shells_is_their_underside() -> Result<()> {
+    let mut mesh = Mesh::in_space();
+    let cells = add_raft(&mut mesh, 2, 0.0)?;
+    let outline = vec![cells[0][0], cells[1][1], cells[3][2], cells[2][3]];
+    let corners: Vec<[f64; 3]> = outline.iter().map(|&node| mesh.nodes()[node]).collect();
+    assert!(corners.iter().all(|corner| [0.0, 6.0].contains(&corner[0])), "{corners:?}");
+    for faces in [cells, vec![outline]] {
+        let model = FemModel::on_faces(mesh.clone(), &faces)?;
+        let turned = model.rigid_motion(Direction::RotationY, [0.0; 3]);
+        for node in model.base().nodes() {
+            assert!((node.horizontal.value(&turned) + 0.4).abs() < 1e-12, "{}", faces.len());
+        }
+    }
     Ok(())
 }

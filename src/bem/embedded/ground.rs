@@ -167,7 +167,7 @@ impl TrenchGround {
         let walls = self.wall_laws(strengths, gravity)?;
         let elements = self.trench_elements().elements();
         let last = elements.len() - 1;
-        let law = |(e, element): (usize, &ContactElement)| -> Box<dyn InterfaceLaw> {
+        let law = move |(e, element): (usize, &ContactElement)| -> Box<dyn InterfaceLaw> {
             if element.faces_down() {
                 Box::new(base.clone())
             } else {

@@ -44,6 +44,7 @@ fn add_static_responses(
     mut block: Vec<f64>,
 ) -> usize {
     floating.factor.solve_many(&mut block);
+    drop(floating);
     let first = space.count();
     space.extend(block, LEAST_NEW);
     first

@@ -91,12 +91,13 @@ impl GroupedCells {
     fn add(&mut self, cell: Tagged, entity: i64, group: i64) {
         let key = (entity, cell.nodes.clone());
         let before = self.index.get(&key).and_then(|&index| self.cells.get_mut(index));
-        match before.filter(|(known, groups)| known.kind == cell.kind && !groups.contains(&group)) {
-            Some((_, groups)) => groups.push(group),
-            None => {
-                self.index.insert(key, self.cells.len());
-                self.cells.push((cell, vec![group]));
-            }
+        let same =
+            before.filter(|(known, groups)| known.kind == cell.kind && !groups.contains(&group));
+        if let Some((_, groups)) = same {
+            groups.push(group);
+        } else {
+            self.index.insert(key, self.cells.len());
+            self.cells.push((cell, vec![group]));
         }
     }
 

@@ -22,11 +22,15 @@
 use super::rigid_links::Follower;
 use crate::error::Result;
 use crate::fem::{Direction, MatrixKind, assemble};
+use crate::geometry::span;
 use crate::linalg::{SparseMatrix, dot, largest};
 use crate::structure::{BaseNode, DofCombination, FemModel, Structure, Triplets};
 
 /// Forces below this fraction of the largest are rounding.
 const ROUNDING_OF_FORCES: f64 = 1e-12;
+
+/// Difference of two distances that counts as rounding, relative to the size of the base.
+const SAME_DISTANCE: f64 = 1e-9;
 
 type Entries = Vec<(usize, usize, f64)>;
 
@@ -253,17 +257,26 @@ impl MovingBase {
     }
 }
 
-/// The nodes that lie farthest out in eight directions, each once.
+/// The nodes that lie farthest out in eight directions, each once; of several as far out the two ends of their row.
 ///
-/// Few nodes suffice for the mean rotations of a base, and keep the matrix sparse.
+/// Few nodes suffice for the mean rotations of a base, and keep the matrix sparse. Their choice depends on their places
+/// alone, whatever their numbers.
 fn outermost(nodes: &[BaseNode]) -> Vec<BaseNode> {
     let ways = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
     let mut found: Vec<BaseNode> = Vec::new();
     for [x, y] in ways.into_iter().flatten().filter(|way| *way != [0.0; 2]) {
-        let far = |node: &&BaseNode| x * node.x + y * node.y;
-        let farthest = nodes.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
-        let is_new = |node: &&BaseNode| found.iter().all(|other| other.place() != node.place());
-        found.extend(farthest.filter(is_new).cloned());
+        let outwards = |node: &BaseNode| x * node.x + y * node.y;
+        let along = |node: &BaseNode| x * node.y - y * node.x;
+        let [nearest, farthest] = span(nodes.iter().map(outwards));
+        let slack = SAME_DISTANCE * (farthest - nearest);
+        let row = || nodes.iter().filter(|node| outwards(node) >= farthest - slack);
+        let first = row().min_by(|a, b| along(a).total_cmp(&along(b)));
+        let last = row().max_by(|a, b| along(a).total_cmp(&along(b)));
+        for node in first.into_iter().chain(last) {
+            if found.iter().all(|other| other.place() != node.place()) {
+                found.push(node.clone());
+            }
+        }
     }
     found
 }

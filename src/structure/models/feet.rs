@@ -62,17 +62,42 @@ pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot
     let mut height = None;
     let foot = |face: &Vec<usize>| {
         at_least("corners of a face of the base", face.len(), 3)?;
-        let depth = 0.5 * shells.get(&sorted(face)).map_or(0.0, ElementFace::thickness);
-        let corner = |&node: &usize| {
+        for &node in face {
             let [_, _, z] =
                 mesh.nodes()[in_bounds("corner of the base", node, mesh.nodes().len())?];
             let near = (z - *height.get_or_insert(z)).abs() <= mesh.tolerance();
             require("z of a corner of the base", z, near, "the height of the others")?;
-            Ok(Foot { node, depth, height: 0.0 })
-        };
-        face.iter().map(corner).collect()
+        }
+        let shell = shells.get(&sorted(face));
+        let thickness =
+            shell.map_or_else(|| thickness_over(mesh, &shells, face), ElementFace::thickness);
+        let depth = 0.5 * thickness;
+        Ok(face.iter().map(|&node| Foot { node, depth, height: 0.0 }).collect())
     };
     faces.iter().map(foot).collect()
+}
+
+/// Largest thickness of the `shells` that a face of the base covers, m; zero without any.
+fn thickness_over(mesh: &Mesh, shells: &HashMap<Vec<usize>, ElementFace>, face: &[usize]) -> f64 {
+    let height = mesh.nodes()[face[0]][mesh.up()];
+    let is_covered = |corners: &Vec<usize>| {
+        is_level(mesh, corners, height) && covers(mesh, face, middle(mesh, corners))
+    };
+    let covered = shells.iter().filter(|(corners, _)| is_covered(corners));
+    covered.map(|(_, shell)| shell.thickness()).fold(0.0, f64::max)
+}
+
+/// Whether all `corners` are at this height.
+fn is_level(mesh: &Mesh, corners: &[usize], height: f64) -> bool {
+    let mut heights = corners.iter().map(|&node| mesh.nodes()[node][mesh.up()]);
+    heights.all(|corner| (corner - height).abs() <= mesh.tolerance())
+}
+
+/// Mean place of the `corners` in plan.
+fn middle(mesh: &Mesh, corners: &[usize]) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        corners.iter().map(|&node| mesh.nodes()[node][axis]).sum::<f64>() / corners.len() as f64
+    })
 }
 
 /// Feet of all faces of a mesh in space at its lowest height: sides of solids, and shells.
@@ -99,21 +124,14 @@ pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
 /// Faces of elements at the height of the base that none of its faces covers: their number, and the middle of the first.
 pub(super) fn uncovered(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64; 2])> {
     let height = mesh.nodes()[feet.first()?.first()?.node][mesh.up()];
-    let is_level = |face: &ElementFace| {
-        let mut heights = face.corners().iter().map(|&node| mesh.nodes()[node][mesh.up()]);
-        mesh.has_depth() && heights.all(|own| (own - height).abs() <= mesh.tolerance())
-    };
+    let is_beside = |face: &ElementFace| mesh.has_depth() && is_level(mesh, face.corners(), height);
     let nodes = |face: &Vec<Foot>| face.iter().map(|foot| foot.node).collect::<Vec<_>>();
     let base: Vec<Vec<usize>> = feet.iter().map(nodes).collect();
     let named: HashSet<Vec<usize>> = base.iter().map(|face| sorted(face)).collect();
-    let others = faces_by_corners(mesh, is_level).into_iter();
+    let others = faces_by_corners(mesh, is_beside).into_iter();
     let others = others.filter(|(corners, _)| !named.contains(corners));
     let mut middles: Vec<[f64; 2]> = others
-        .map(|(corners, _)| {
-            let mean =
-                |axis: usize| corners.iter().map(|&node| mesh.nodes()[node][axis]).sum::<f64>();
-            [0, 1].map(|axis| mean(axis) / corners.len() as f64)
-        })
+        .map(|(corners, _)| middle(mesh, &corners))
         .filter(|place| !base.iter().any(|face| covers(mesh, face, *place)))
         .collect();
     middles.sort_by(|one, other| one[0].total_cmp(&other[0]).then(one[1].total_cmp(&other[1])));

@@ -326,6 +326,17 @@ impl Structure for ReducedModel {
         Ok(())
     }
 
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut triplets = Triplets::new(full.structure.dofs());
+        full.structure.geometric_stiffness(&mut triplets)?;
+        if !triplets.entries().is_empty() {
+            let geometric = SparseMatrix::new("geometric stiffness matrix", &triplets)?;
+            add(&self.basis.congruence(&geometric), self.dofs(), matrix);
+        }
+        Ok(())
+    }
+
     fn has_active_damping(&self) -> bool {
         self.active
     }

@@ -100,13 +100,14 @@ fn record_of((peak, time_step, waves): (f64, f64, f64)) -> Record {
 fn is_of_units(warning: &Warning) -> bool {
     matches!(
         warning,
-        Warning::Mistake(Mistake::UnusualMotion { .. })
-            | Warning::Mistake(Mistake::UnusualInterval { .. })
-            | Warning::Mistake(Mistake::LightStructure { .. })
-            | Warning::Mistake(Mistake::UnusualFriction { .. })
-            | Warning::Mistake(Mistake::TallStorey { .. })
-            | Warning::Mistake(Mistake::UnusualGravity { .. })
-            | Warning::EndsEarly { .. }
+        Warning::Mistake(
+            Mistake::UnusualMotion { .. }
+                | Mistake::UnusualInterval { .. }
+                | Mistake::LightStructure { .. }
+                | Mistake::UnusualFriction { .. }
+                | Mistake::TallStorey { .. }
+                | Mistake::UnusualGravity { .. }
+        ) | Warning::EndsEarly { .. }
             | Warning::PeakAtEnd { .. }
     )
 }

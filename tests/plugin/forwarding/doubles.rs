@@ -365,6 +365,16 @@ impl Element for Double {
         Some(CORRECT)
     }
 
+    fn density(&self) -> Option<f64> {
+        self.0.asked("density");
+        Some(CORRECT)
+    }
+
+    fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
+        self.0.asked("with_nodes");
+        (nodes == [6]).then(|| Box::new(Self(self.0.clone())) as Box<dyn Element>)
+    }
+
     fn mass(&self, _: &[[f64; 3]], _: MassKind, matrix: &mut [f64]) {
         self.0.asked("mass");
         matrix[0] += 2.0 * CORRECT;

@@ -174,6 +174,8 @@ fn boxed_elements() {
         assert_eq!(matrix, [10.0 * CORRECT]);
         assert!(part.in_static_state(&[], &[], 9.0).is_some());
         assert_eq!(part.compression(), Some(CORRECT));
+        assert_eq!(part.density(), Some(CORRECT));
+        assert!(part.with_nodes(&[6]).is_some() && part.with_nodes(&[5]).is_none());
         assert_eq!(part.faces(), [ElementFace::side(&[7])]);
         assert!(!part.is_plane());
         assert_eq!(part.check(&[]), Err(doubles::refusal()));

@@ -65,6 +65,12 @@ impl Structure for Double {
         Ok(())
     }
 
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.log.asked("geometric_stiffness");
+        add_diagonal(matrix, -CORRECT);
+        Ok(())
+    }
+
     fn has_active_damping(&self) -> bool {
         self.log.asked("has_active_damping");
         true
@@ -155,6 +161,7 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert_eq!(diagonal(&|m| part.mass(m)), CORRECT);
     assert_eq!(diagonal(&|m| part.stiffness(m)), 2.0 * CORRECT);
     assert!((diagonal(&|m| part.damping(m)) - damping).abs() < 1e-12);
+    assert_eq!(diagonal(&|m| part.geometric_stiffness(m)), -CORRECT);
     assert!(part.has_active_damping());
     assert!(part.has_active_stiffness());
     let description = part.description();

@@ -166,18 +166,20 @@ fn degenerate_elements_and_rows_of_nodes_are_named() {
     let twice = error(&mut double, 1e-6);
     assert!(twice.contains("element 1") && twice.contains("count twice"), "{twice}");
     // An element of a user without new nodes.
-    struct Tie([usize; 2]);
-    impl Element for Tie {
-        fn nodes(&self) -> &[usize] {
-            &self.0
-        }
-        fn directions(&self) -> &[Direction] {
-            &[Direction::X]
-        }
-        fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
-        fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
-    }
     mesh.add(Tie([nodes[2], nodes[3]])).unwrap();
     let tie = error(&mut mesh, 1e-6);
     assert!(tie.contains("element 1") && tie.contains("with_nodes"), "{tie}");
+}
+
+/// An element of a user that cannot be renumbered.
+struct Tie([usize; 2]);
+impl Element for Tie {
+    fn nodes(&self) -> &[usize] {
+        &self.0
+    }
+    fn directions(&self) -> &[Direction] {
+        &[Direction::X]
+    }
+    fn stiffness(&self, _coordinates: &[[f64; 3]], _matrix: &mut [f64]) {}
+    fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, _matrix: &mut [f64]) {}
 }
