@@ -138,7 +138,8 @@ fn layer_at(depth: f64) -> (usize, f64) {
 
 /// Mean over each level of a pair of functions of depth, and the pair at the base.
 fn levels(at: impl Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
-    const POINTS: usize = 40;
+    // The stress on a vertical plane jumps where the soil changes.
+    const POINTS: usize = 2000;
     let ends = |e: usize| {
         let own = elements().elements()[e];
         let [middle, half] = [-own.center()[2], 0.5 * own.length()];
