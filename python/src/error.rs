@@ -141,6 +141,8 @@ pub(crate) fn in_python(mut text: String) -> String {
         ("`HistoryOptions::memory`", "`history_memory`"),
         ("`bem::plan::impedances_in_plan`", "`Plan.impedances`"),
         ("GmshMesh::foundations", "GmshMesh.foundations"),
+        ("TrenchGround::interfaces", "TrenchGround.interfaces"),
+        (" (Element::with_nodes)", ""),
         ("DofCombination::of_base", "DofCombination.of_base"),
         ("LumpedMass::in_space", "`add_mass` with three numbers"),
         ("site::SoilColumn", "SoilColumn"),

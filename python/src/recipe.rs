@@ -39,6 +39,7 @@ impl<T: Structure + Sync> Structure for Shared<T> {
         mass(matrix: &mut Triplets) -> Result<()>;
         stiffness(matrix: &mut Triplets) -> Result<()>;
         damping(matrix: &mut Triplets) -> Result<()>;
+        geometric_stiffness(matrix: &mut Triplets) -> Result<()>;
         has_active_damping() -> bool;
         has_active_stiffness() -> bool;
         description() -> StructureDescription;

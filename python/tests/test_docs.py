@@ -187,8 +187,9 @@ PLAN_RUN = bm.Simulation(0.01, MAT, bm.SpringGround.under(MAT, 2, 1e8, 5e7), bm.
 def read(word: str) -> object:
     """A file that is not there: a word that is known leads to it."""
     try:
-        unit = "g" if word == "columns" else None
-        return bm.Record.read("not there", format=word, unit=unit)  # type: ignore[arg-type]
+        unit = "g" if word in ("columns", "along_lines") else None
+        time_step = 0.01 if word == "along_lines" else None
+        return bm.Record.read("not there", format=word, unit=unit, time_step=time_step)  # type: ignore[arg-type]
     except bm.FileError:
         return None
 

@@ -115,11 +115,11 @@ impl Ground for UserGround {
         _steps: Option<usize>,
         _observer: &mut Observer<'_>,
     ) -> Result<()> {
-        if *self.time_step.get_or_insert(time_step) != time_step {
+        if *self.time_step.get_or_insert(time_step) == time_step {
+            self.step = self.matrix("step_compliance", (time_step,))?;
+        } else {
             // A trial of `build` with a shorter step, which the ground need not have: its exception is not the run's.
             self.step = quietly(|| self.matrix("step_compliance", (time_step,)))?;
-        } else {
-            self.step = self.matrix("step_compliance", (time_step,))?;
         }
         self.history = Some(vec![0.0; self.size]);
         Ok(())

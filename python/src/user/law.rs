@@ -268,12 +268,16 @@ impl InterfaceLaw for UserLaw {
     }
 
     fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
+        if !self.object.has("limits") {
+            // No exception of user code: the core also asks laws of the plane, which may have none.
+            let name = Python::attach(|py| {
+                let name = self.object.bind(py).get_type().name();
+                name.map_or_else(|_| "interface law".into(), |name| name.to_string())
+            });
+            let reason = "it has no method `limits`, to act on a ground in plan";
+            return Err(basemat::Error::part(name, reason));
+        }
         self.object.attempt(|py| {
-            if !self.object.has("limits") {
-                let name = self.object.bind(py).get_type().name()?;
-                let needed = "to act on a ground in plan";
-                return Err(refuse(format!("{name} has no method `limits`, {needed}")));
-            }
             let start = (PyPreviousContact::from_core(py, start)?,);
             let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
             Ok(found.get().0)
