@@ -1,16 +1,19 @@
 //! A record is the same samples from every format, and written and read again.
 
 use basemat::motion::{
-    AccelerationUnit, AfadFormat, ColumnFormat, CosmosFormat, EsmFormat, GeoNetFormat,
-    KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SmcFormat,
+    AccelerationUnit, AfadFormat, AlongLinesFormat, ColumnFormat, CosmosFormat, EsmFormat,
+    GeoNetFormat, KNetCsvFormat, KNetFormat, PeerFormat, Record, RecordFormat, SlistFormat,
+    SmcFormat,
 };
 use basemat_problems::random::Random;
 
 use super::tally::{Tally, scenes};
 
 /// Names of all formats; `table.rs` compares them with the library's.
-pub(crate) const FORMATS: [&str; 9] = [
+pub(crate) const FORMATS: [&str; 11] = [
     "ColumnFormat",
+    "AlongLinesFormat",
+    "SlistFormat",
     "PeerFormat",
     "EsmFormat",
     "AfadFormat",
@@ -30,11 +33,29 @@ fn written(format: &str, step: f64, samples: &[f64]) -> Option<(String, Box<dyn 
     let lines = |of: &dyn Fn(f64) -> String| {
         samples.iter().map(|sample| of(*sample) + "\n").collect::<String>()
     };
+    let eight_a_line = || {
+        let rows = samples.chunks(8).map(|row| {
+            let numbers: Vec<String> = row.iter().map(|sample| format!("{sample:?}")).collect();
+            numbers.join(" ") + "\n"
+        });
+        rows.collect::<String>()
+    };
     Some(match format {
         "ColumnFormat" => {
             let times = samples.iter().enumerate();
             let text = times.map(|(k, sample)| format!("{} {sample:?}\n", k as f64 * step));
             (text.collect(), Box::new(ColumnFormat::new(AccelerationUnit::Gal)))
+        }
+        "AlongLinesFormat" => {
+            (eight_a_line(), Box::new(AlongLinesFormat::new(AccelerationUnit::Gal, step)))
+        }
+        "SlistFormat" => {
+            let rate = (1.0 / step).round();
+            let head = format!(
+                "TIMESERIES XX_STA1_00_HNE_D, {count} samples, {rate} sps, 2020-01-01T00:00:00.000000, \
+                 SLIST, FLOAT, CM/S**2\n"
+            );
+            (head + &eight_a_line(), Box::new(SlistFormat::default()))
         }
         "PeerFormat" => {
             let title = "PEER NGA STRONG MOTION DATABASE RECORD\nNowhere, 1\n";

@@ -128,6 +128,8 @@ pub(crate) struct Resolution {
     ground: Variation,
     normal_force: f64,
     samples: GroundSamples,
+    /// Whether the ground's motion between the steps decides, whatever it is at the steps.
+    is_judged_by_ground: bool,
 }
 
 /// A foundation along one axis.
@@ -228,6 +230,7 @@ impl Resolution {
             ground: Variation::default(),
             normal_force: state.normal_force.abs(),
             samples: GroundSamples::default(),
+            is_judged_by_ground: false,
         }
     }
 
@@ -278,11 +281,6 @@ impl Resolution {
                 > self.steps as f64 * rounding * rounding
     }
 
-    /// Whether the ground is sampled between the steps, whatever it does at the steps.
-    fn has_long_steps(&self) -> bool {
-        self.time_step > LONG_STEP
-    }
-
     /// Whether the base shear varies more slowly than the ground.
     fn is_own_vibration(&self) -> bool {
         self.base_shear.ratio() < SLOWER * self.ground.ratio()
@@ -326,7 +324,7 @@ impl Resolution {
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
         let time_step = self.time_step;
         // At the steps a motion of about one period a step appears as a slow one.
-        if self.has_long_steps()
+        if self.is_judged_by_ground
             && !self.is_coarse()
             && let Some(frequency) = self.samples.frequency
             && PI * frequency * time_step > FOLLOWING
@@ -389,7 +387,9 @@ impl Resolution {
         motion: &dyn FreeField,
         times: Range<f64>,
     ) {
-        if self.has_long_steps() || self.is_coarse() || self.short_waves().is_some() {
+        let unseen = times.start == 0.0 && self.steps < LEAST_STEPS && motion.records().is_empty();
+        self.is_judged_by_ground = unseen || self.time_step > LONG_STEP;
+        if self.is_judged_by_ground || self.is_coarse() || self.short_waves().is_some() {
             let sampler = Sampler { ground, motion, times, time_step: self.time_step };
             let (frequency, running) = (sampler.frequency(), sampler.is_running());
             self.samples = GroundSamples { frequency, running };

@@ -158,8 +158,8 @@ impl FemModel {
     ///
     /// Faces lie at one height and do not overlap, as [`Base::Faces`]. A shell touches the ground with its
     /// underside: a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness))
-    /// moves like the points half the thickness below its nodes, and a face over several shells like those of the
-    /// thickest one. Another face moves like its nodes, such as the outline of nodes that a rigid link ties together.
+    /// moves like the points half the thickness below its nodes. For a face over several shells the thickest one
+    /// counts. Another face moves like its nodes, such as the outline of nodes that a rigid link ties together.
     ///
     /// # Errors
     /// [`Error::Scene`] for a mesh in the plane, or when no element moves a corner in all directions;
