@@ -26,9 +26,9 @@ impl Sweep<'_> {
     /// file. Progress ([`Sweep::on_progress`]) counts the cases that run, not the rows that are read.
     ///
     /// # Errors
-    /// As for [`Sweep::table`]; [`Error::File`] if the file of rows cannot be opened.
+    /// As for [`Sweep::table`]; [`Error::File`](crate::Error::File) if the file of rows cannot be opened.
     /// [`SweepError::Unwritten`] if a row cannot be written: it holds all computed rows, and no further case
-    /// is started. [`Error::File`] if an existing file has other columns, other values of parameters or
+    /// is started. [`Error::File`](crate::Error::File) if an existing file has other columns, other values of parameters or
     /// cases outside this shard, another version of the format, or if it does not agree with its check sum.
     pub fn table_in<const N: usize, E: Display + Send>(
         &self,
@@ -54,7 +54,7 @@ impl Sweep<'_> {
     /// into shards.
     ///
     /// # Errors
-    /// [`Error::File`] for a file that cannot be read, that was cut off, has other columns than the first
+    /// [`Error::File`](crate::Error::File) for a file that cannot be read, that was cut off, has other columns than the first
     /// one (a file whose cases all failed may have no names of results) or other values of parameters than this sweep, bit for bit, is of another version of the format, does not
     /// agree with its check sum, or has a case that another file has; [`SweepError::Missing`] for cases in no file.
     pub fn merge(&self, paths: impl IntoIterator<Item = impl AsRef<Path>>) -> Result<CaseTable> {
