@@ -5,6 +5,9 @@ use std::collections::{HashMap, HashSet};
 use crate::error::{Result, at_least, in_bounds, positive, require, require_part};
 use crate::fem::{Element, ElementFace, Mesh};
 
+/// Distance from a corner of a shell towards its middle, relative to it, that clears rounding.
+const INWARDS: f64 = 1e-6;
+
 /// A point of the base: it moves with a node of the mesh, some distance above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Foot {
@@ -81,7 +84,13 @@ pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot
 fn thickness_over(mesh: &Mesh, shells: &HashMap<Vec<usize>, ElementFace>, face: &[usize]) -> f64 {
     let height = mesh.nodes()[face[0]][mesh.up()];
     let is_covered = |corners: &Vec<usize>| {
-        is_level(mesh, corners, height) && covers(mesh, face, middle(mesh, corners))
+        let [x, y] = middle(mesh, corners);
+        // Just inside the corners, which may lie on a side of the face.
+        let mut places = corners.iter().map(|&node| {
+            let [corner_x, corner_y, _] = mesh.nodes()[node];
+            [corner_x + INWARDS * (x - corner_x), corner_y + INWARDS * (y - corner_y)]
+        });
+        is_level(mesh, corners, height) && places.all(|place| covers(mesh, face, place))
     };
     let covered = shells.iter().filter(|(corners, _)| is_covered(corners));
     covered.map(|(_, shell)| shell.thickness()).fold(0.0, f64::max)
