@@ -30,17 +30,12 @@ use crate::error::{Error, Result, not_negative, require};
 /// strengths of soils.
 ///
 /// ```
-/// use basemat::interface::{ContactState, EarthPressure, InterfaceLaw, Mode, PreviousContact, Tolerance};
+/// use basemat::interface::{EarthPressure, InterfaceLaw, Mode};
 /// let law = EarthPressure::new(6.0e3, 54.0e3, 0.3)?;
-/// let rest = PreviousContact {
-///     state_variables: &[0.0],
-///     ..PreviousContact::new(ContactState { pressure: 9.0e3, ..ContactState::default() }, Mode::Stick, 0.01)
-/// };
-/// # let next = |pressure| {
-/// #     let trial = ContactState { pressure, ..ContactState::default() };
-/// #     law.next_mode(Mode::Stick, &rest, &trial, Tolerance::new(1e-9, 1.0))
-/// # };
-/// assert_eq!([next(5.0e3), next(9.0e3), next(60.0e3)], [Mode::Active, Mode::Stick, Mode::Yield]);
+/// assert_eq!(law.friction_coefficient(), Some(0.3));
+/// assert!(law.modes().contains(&Mode::Active) && law.modes().contains(&Mode::Yield));
+/// // The active pressure is below the passive one.
+/// assert!(EarthPressure::new(54.0e3, 6.0e3, 0.3).is_err());
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
