@@ -8,6 +8,7 @@ mod elastic;
 mod equations;
 mod finite_elements;
 mod interaction;
+mod landing;
 mod limits;
 mod march;
 mod mast;

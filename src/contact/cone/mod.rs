@@ -2,7 +2,7 @@
 //!
 //! 1. If nothing slid in the previous step, its statuses are tried; their factors are kept as long as they do not
 //!    change. Many elements on a lattice begin with sweeps, unless all stick and each moves many others.
-//! 2. Sweeps over the elements, from the forces of the previous step.
+//! 2. Sweeps over the elements, from the forces of the previous step; accelerated if many elements move most others.
 //! 3. Newton's method, then sweeps and Newton's method in turn.
 //! 4. Newton's method from other forces, with partial steps.
 //! 5. The proximal point method around all of them.
@@ -18,6 +18,7 @@
 //! A bond bears tension, and shear without pressure, up to its strength. The bond of an element that has opened
 //! beyond it breaks in the step, which is then solved again: at most once for each element.
 
+mod acceleration;
 mod blocks;
 mod group;
 mod modes;
@@ -237,6 +238,7 @@ impl Cone {
             }
             problem.take_blocks(blocks);
         }
+        problem.prepare_acceleration();
         self.newton.forget(lasts);
         self.generation = Some(generation);
         Ok(())

@@ -11,6 +11,13 @@ use super::system::System;
 
 /// Largest number of iterations.
 const ITERATIONS: usize = 15;
+/// Number of elements from which a factorization takes longer than several sweeps.
+pub(super) const MANY_ELEMENTS: usize = 64;
+/// With many elements: factor by which an iteration must reduce the residual, and the number of iterations that may not.
+const MIN_REDUCTION: f64 = 0.5;
+const MAX_SLOW_ITERATIONS: usize = 2;
+/// With many elements: residual, relative to the largest force, below which factors of the same step solve.
+const NEAR_RESIDUAL: f64 = 1e-4;
 /// Largest number of iterations of an attempt with partial steps, and the smallest part of a step.
 const WANDERED: usize = 60;
 const LEAST: f64 = 0.2;
@@ -60,6 +67,42 @@ impl Newton {
             }
         }
         (ITERATIONS, problem.is_solved())
+    }
+
+    /// The same for many elements between sweeps: ends early, at the forces of the smallest residual, if the residual
+    /// hardly falls.
+    ///
+    /// Iterations that start too far from the solution let more and more elements slip, and one of them takes longer
+    /// than several sweeps.
+    pub(super) fn solve_briefly(&mut self, problem: &mut Problem, ahead: bool) -> (usize, bool) {
+        let (mut smallest, mut slow) = (f64::INFINITY, 0);
+        self.before.copy_from_slice(&problem.change);
+        for iteration in 0..=ITERATIONS {
+            let residual = problem.residual();
+            if residual <= problem.tolerance() {
+                return (iteration, true);
+            }
+            // False for NaN.
+            let falls = residual <= MIN_REDUCTION * smallest;
+            if iteration > 0 && !falls {
+                slow += 1;
+            }
+            if residual < smallest {
+                smallest = residual;
+                self.before.copy_from_slice(&problem.change);
+            }
+            if slow == MAX_SLOW_ITERATIONS || iteration == ITERATIONS {
+                problem.change.copy_from_slice(&self.before);
+                return (iteration, false);
+            }
+            self.classify(problem, ahead);
+            let is_near = slow == 0 && residual <= NEAR_RESIDUAL * problem.largest();
+            if !self.system.solve(problem, &self.statuses, is_near) {
+                problem.change.copy_from_slice(&self.before);
+                return (iteration + 1, false);
+            }
+        }
+        (ITERATIONS, false)
     }
 
     /// Makes `attempts` in turn: from `start`, from zero forces and with all elements sticking.
@@ -179,6 +222,6 @@ impl Newton {
 
     /// Solves the system of the statuses; `false` if it is singular.
     pub(super) fn step(&mut self, problem: &mut Problem) -> bool {
-        self.system.solve(problem, &self.statuses)
+        self.system.solve(problem, &self.statuses, false)
     }
 }

@@ -16,8 +16,10 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
+use super::acceleration::Acceleration;
 use super::blocks::Blocks;
 use super::group::{Group, LANES};
+use super::newton::MANY_ELEMENTS;
 use super::wide::Wide;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
@@ -120,6 +122,8 @@ pub(super) struct Problem {
     pub(super) blocks: Option<Blocks>,
     /// The same where each element moves most others.
     pub(super) wide: Option<Wide>,
+    /// Acceleration of sweeps, for many elements without `blocks`.
+    pub(super) acceleration: Option<Acceleration>,
     /// Number that the proximal point method has added to W's diagonal.
     pub(super) added: f64,
     /// Blocks of W between the components of each element.
@@ -150,6 +154,7 @@ impl Problem {
             w: vec![0.0; 9 * count * count],
             blocks: None,
             wide: None,
+            acceleration: None,
             added: 0.0,
             own: vec![[[0.0; 3]; 3]; count],
             groups: vec![],
@@ -208,6 +213,16 @@ impl Problem {
     pub(super) fn take_blocks(&mut self, blocks: Option<Blocks>) {
         self.groups = vec![Group::NONE; blocks.as_ref().map_or(0, |blocks| blocks.groups.len())];
         self.blocks = blocks;
+    }
+
+    /// Allocates the acceleration of sweeps, for many elements without blocks.
+    pub(super) fn prepare_acceleration(&mut self) {
+        let motion_count = self.wide.as_ref().map_or(self.size(), Wide::response_count);
+        if self.blocks.is_some() || self.count < MANY_ELEMENTS {
+            self.acceleration = None;
+        } else if self.acceleration.as_ref().is_none_or(|a| a.motion_count() != motion_count) {
+            self.acceleration = Some(Acceleration::new(self.size(), motion_count));
+        }
     }
 
     /// Computes ρ and the blocks of elements; call it when the diagonal of W has changed.

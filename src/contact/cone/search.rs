@@ -9,6 +9,8 @@ use crate::contact::SearchMethod;
 const SWEEPS: usize = 60;
 /// Rounds of sweeps and Newton's method, alone or within the proximal method.
 const ROUNDS: usize = 12;
+/// Accelerated sweeps of a round end at this change, relative to the largest force, for Newton's method to begin.
+const CHANGES_BEFORE_NEWTON: [f64; 4] = [1e-3, 1e-5, 1e-8, 0.0];
 /// Largest friction that all methods are tried with; a higher one is approached from below.
 const GRIP: f64 = 100.0;
 /// Smallest friction from which a higher one is approached.
@@ -136,6 +138,9 @@ fn search_held(
 
 /// Sweeps and Newton's method in turn; returns the number of iterations, and the last method used.
 fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
+    if problem.acceleration.is_some() {
+        return accelerated_rounds(problem, newton);
+    }
     let mut all = 0;
     for round in 0..ROUNDS {
         let (sweeps, found) = problem.sweep(SWEEPS);
@@ -156,3 +161,28 @@ fn rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMe
     }
     (all, None)
 }
+
+/// The same for many elements: sweeps that bring the forces ever nearer to the solution, and Newton's method in turn.
+fn accelerated_rounds(problem: &mut Problem, newton: &mut Newton) -> (usize, Option<SearchMethod>) {
+    let mut all = 0;
+    for (round, relative_change) in CHANGES_BEFORE_NEWTON.into_iter().enumerate() {
+        let (sweeps, found) = problem.sweep_accelerated(relative_change);
+        all += sweeps;
+        if found {
+            let alone = SearchMethod::GaussSeidel;
+            return (all, Some(if round == 0 { alone } else { SearchMethod::Newton }));
+        }
+        if problem.change.iter().any(|change| !change.is_finite()) {
+            problem.change.fill(0.0);
+        }
+        let (iterations, found) = newton.solve_briefly(problem, round % 2 == 1);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+    }
+    (all, None)
+}
+
+#[cfg(test)]
+mod tests;

@@ -2,6 +2,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
+use super::acceleration::Acceleration;
 use super::group::LANES;
 use super::problem::{Bounds, Problem};
 use crate::linalg::{Simd, WithSimd, transposed_multiply_add, vectorized};
@@ -26,17 +27,24 @@ const FAR: f64 = 10.0;
 /// With blocks: factor of the number of sweeps, which then are cheap beside a factorization.
 const PATIENCE: usize = 4;
 
+/// Accelerated sweeps: their largest number, change at which they end as a fraction of the residual of a solution,
+/// and the number of sweeps that may pass before the change falls by this factor.
+const MAX_ACCELERATED_SWEEPS: usize = 200;
+const ACCELERATED_CHANGE: f64 = 0.3;
+const MIN_REDUCTION: f64 = 0.5;
+const MAX_SWEEPS_WITHOUT_REDUCTION: usize = 30;
+
 impl Problem {
-    /// Makes up to `most` sweeps; returns their number, and whether they found a solution.
+    /// Makes up to `max_count` sweeps; returns their number, and whether they found a solution.
     ///
     /// Sweeps that will not converge end early.
-    pub(super) fn sweep(&mut self, most: usize) -> (usize, bool) {
+    pub(super) fn sweep(&mut self, max_count: usize) -> (usize, bool) {
         if self.blocks.is_some() {
-            return self.sweep_blocks(PATIENCE * most);
+            return self.sweep_blocks(PATIENCE * max_count);
         }
         self.respond();
         let mut before = f64::INFINITY;
-        for sweep in 1..=most {
+        for sweep in 1..=max_count {
             let tolerance = GOAL * self.tolerance();
             let largest = self.relax_all(LEAST * tolerance);
             if largest.is_nan() {
@@ -48,12 +56,60 @@ impl Problem {
             // Factor by which a sweep reduces the change.
             let rate = largest / before;
             let left = (tolerance / largest).ln() / rate.ln();
-            if sweep > KNOWN && (rate >= 1.0 || left > 2.0 * (most - sweep) as f64) {
+            if sweep > KNOWN && (rate >= 1.0 || left > 2.0 * (max_count - sweep) as f64) {
                 return (sweep, self.is_solved());
             }
             before = largest;
         }
-        (most, self.is_solved())
+        (max_count, self.is_solved())
+    }
+
+    /// Makes accelerated sweeps until the largest change is below `relative_change` times the largest force.
+    ///
+    /// Returns their number, and whether they found a solution. Sweeps that hardly reduce the change end early.
+    pub(super) fn sweep_accelerated(&mut self, relative_change: f64) -> (usize, bool) {
+        let Some(mut acceleration) = self.acceleration.take() else { return (0, false) };
+        let result = self.sweep_with(&mut acceleration, relative_change);
+        self.acceleration = Some(acceleration);
+        result
+    }
+
+    fn sweep_with(
+        &mut self,
+        acceleration: &mut Acceleration,
+        relative_change: f64,
+    ) -> (usize, bool) {
+        acceleration.restart();
+        self.respond();
+        let mut smallest_change = f64::INFINITY;
+        let mut last_reduction = 0;
+        for sweep in 1..=MAX_ACCELERATED_SWEEPS {
+            let tolerance = ACCELERATED_CHANGE * self.tolerance();
+            let sufficient_change = tolerance.max(relative_change * self.largest());
+            acceleration.begin_sweep(&self.change);
+            let largest = self.relax_all(LEAST * tolerance);
+            if largest.is_nan() {
+                return (sweep, false);
+            }
+            if largest <= sufficient_change && (self.is_solved() || largest > tolerance) {
+                return (sweep, self.is_solved());
+            }
+            if largest <= MIN_REDUCTION * smallest_change {
+                smallest_change = largest;
+                last_reduction = sweep;
+            }
+            if sweep - last_reduction == MAX_SWEEPS_WITHOUT_REDUCTION {
+                return (sweep, self.is_solved());
+            }
+            let Self { change, y, wide, .. } = self;
+            if let Some(wide) = wide {
+                let [normal, along_x, along_y, amplitudes] = wide.response_mut();
+                acceleration.end_sweep(&mut [change, normal, along_x, along_y, amplitudes]);
+            } else {
+                acceleration.end_sweep(&mut [change, y]);
+            }
+        }
+        (MAX_ACCELERATED_SWEEPS, self.is_solved())
     }
 
     /// Sweeps over groups that move near elements at once, and all others by the sum of several sweeps.

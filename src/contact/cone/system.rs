@@ -26,6 +26,8 @@ use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 const BLOCK: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE: f64 = 4.0;
+/// Cost of a product with W⁻¹ of many elements: operations of a factorization for each entry, which memory delivers.
+const OPERATIONS_PER_ENTRY: f64 = 24.0;
 
 /// A weighted sum of components: one with weight 1, or the three of an element.
 #[derive(Clone, Copy)]
@@ -68,6 +70,9 @@ struct Unknown {
 #[allow(clippy::struct_excessive_bools, reason = "each says of one matrix whether it is there")]
 pub(super) struct System {
     dofs: Vec<Unknown>,
+    /// Rows of the conditions with a single component, and the others.
+    rows: Vec<usize>,
+    mixed_rows: Vec<Mix>,
     rhs: Vec<f64>,
     factor: DenseFactor,
     /// Factors of W, if `is_whole`.
@@ -79,9 +84,12 @@ pub(super) struct System {
     lasts: bool,
     /// Cost of the solutions of this step that W⁻¹ would have saved, if W changes.
     spent: f64,
-    /// Statuses of the present factors, without slip; valid only if `is_held`.
+    /// Statuses of the present factors.
     held: Vec<Status>,
+    /// Whether the factors belong to `held`, all without slip.
     is_held: bool,
+    /// Whether the factors belong to `held`, computed in this step.
+    is_recent: bool,
     /// Whether the present factors belong to unknown motions.
     by_motions: bool,
     /// Corrections that follow from the statuses alone, of the same kind as the unknown quantities.
@@ -95,6 +103,8 @@ impl System {
         let size = 3 * count;
         Self {
             dofs: Vec::with_capacity(size),
+            rows: Vec::with_capacity(size),
+            mixed_rows: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             factor: DenseFactor::with_capacity(size),
             whole: DenseFactor::with_columns(size, BLOCK),
@@ -104,6 +114,7 @@ impl System {
             spent: 0.0,
             held: vec![Status::STICK; count],
             is_held: false,
+            is_recent: false,
             by_motions: false,
             given: vec![0.0; size],
             answer: vec![0.0; size],
@@ -113,12 +124,14 @@ impl System {
     /// Discards factors and W⁻¹; call it when W has changed. `lasts`: whether W will stay constant.
     pub(super) fn forget(&mut self, lasts: bool) {
         (self.is_held, self.is_whole, self.lasts) = (false, false, lasts);
+        self.is_recent = false;
         self.inverse.clear();
         self.spent = 0.0;
     }
 
     /// Discards the results of previous steps that influence the choice of a system.
     pub(super) fn begin_step(&mut self) {
+        self.is_recent = false;
         if !self.lasts {
             self.is_held &= !self.by_motions;
             self.inverse.clear();
@@ -127,24 +140,34 @@ impl System {
     }
 
     /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
-    pub(super) fn solve(&mut self, problem: &mut Problem, statuses: &[Status]) -> bool {
+    ///
+    /// With `is_near` factors of the same step for statuses of the same kinds are near enough.
+    pub(super) fn solve(
+        &mut self,
+        problem: &mut Problem,
+        statuses: &[Status],
+        is_near: bool,
+    ) -> bool {
         if statuses.iter().all(|status| *status == Status::STICK) {
             return self.stick(problem);
         }
         let slips = |status: &Status| matches!(status.tangential, Tangential::Slip { .. });
         let sticks = !statuses.iter().any(slips);
         let by_motions = self.prefers_motions(problem, statuses);
-        let known =
-            sticks && self.is_held && self.by_motions == by_motions && self.held == statuses;
+        let same_kinds =
+            || self.held.iter().map(Status::kind).eq(statuses.iter().map(Status::kind));
+        let known = self.by_motions == by_motions
+            && (sticks && self.is_held && self.held == statuses
+                || is_near && self.is_recent && same_kinds());
         if !known {
-            (self.is_held, self.by_motions) = (false, by_motions);
+            (self.is_held, self.is_recent, self.by_motions) = (false, false, by_motions);
         }
         self.gather(problem, statuses);
         if !known {
             if !self.assemble(problem) {
                 return false;
             }
-            self.is_held = sticks;
+            (self.is_held, self.is_recent) = (sticks, true);
             self.held.copy_from_slice(statuses);
         }
         self.correct(problem);
@@ -190,8 +213,13 @@ impl System {
         if motions >= forces {
             return false;
         }
-        let (size, cube) = (problem.size(), |order: usize| (order as f64).powi(3));
-        self.spent += cube(forces) - cube(motions);
+        let size = problem.size();
+        let cube = |order: usize| (order as f64).powi(3);
+        let gain = cube(forces) - cube(motions);
+        if problem.acceleration.is_some() && gain < OPERATIONS_PER_ENTRY * (size * size) as f64 {
+            return false;
+        }
+        self.spent += gain;
         if self.inverse.is_empty() && (self.lasts || self.spent > INVERSE * cube(size)) {
             if !self.factor_whole(problem) {
                 return false;
@@ -284,21 +312,32 @@ impl System {
     /// Factors the matrix of the unknown quantities; `false` if it is singular.
     fn assemble(&mut self, problem: &Problem) -> bool {
         let (size, motions) = (problem.size(), self.by_motions);
-        let Self { dofs, factor, inverse, answer, .. } = self;
+        let Self { dofs, factor, inverse, answer, rows, mixed_rows, .. } = self;
         let matrix = if motions { inverse.as_slice() } else { problem.w.as_slice() };
         let singles = dofs.partition_point(|unknown| unknown.row.is_single());
         let (single, mixed) = dofs.split_at(singles);
+        // Compact lists: each column reads them.
+        rows.clear();
+        rows.extend(single.iter().map(|unknown| unknown.row.places[0]));
+        mixed_rows.clear();
+        mixed_rows.extend(mixed.iter().map(|unknown| unknown.row));
         factor.factor_columns(dofs.len(), |j, values| {
             let Unknown { column: Mix { places, weights }, own, .. } = &dofs[j];
             // It is symmetric: its rows are its columns.
-            let rows = places.map(|place| &matrix[place * size..][..size]);
-            let [a, b, c] = *weights;
-            for (i, answer) in answer.iter_mut().enumerate() {
-                *answer = a * rows[0][i] + b * rows[1][i] + c * rows[2][i];
-            }
+            let [first, second, third] = places.map(|place| &matrix[place * size..][..size]);
+            let column = if dofs[j].column.is_single() {
+                first
+            } else {
+                let [a, b, c] = *weights;
+                let others = second.iter().zip(third);
+                for ((answer, first), (second, third)) in answer.iter_mut().zip(first).zip(others) {
+                    *answer = a * first + b * second + c * third;
+                }
+                &answer[..]
+            };
             let begin = values.len();
-            values.extend(single.iter().map(|unknown| answer[unknown.row.places[0]]));
-            values.extend(mixed.iter().map(|unknown| unknown.row.sum(answer)));
+            values.extend(rows.iter().map(|place| column[*place]));
+            values.extend(mixed_rows.iter().map(|row| row.sum(column)));
             values[begin + j] += own;
         })
     }

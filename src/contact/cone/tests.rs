@@ -360,11 +360,11 @@ fn forces_or_motions_meet_the_conditions_of_statuses() {
             // Earlier solutions are arbitrary.
             for _ in 0..trial * usize::from(trial % 20 > 0) {
                 problem.rest();
-                system.solve(&mut problem, [&other, &statuses][trial % 2]);
+                system.solve(&mut problem, [&other, &statuses][trial % 2], trial % 3 == 0);
             }
             system.begin_step();
             problem.rest();
-            assert!(system.solve(&mut problem, &statuses), "case {case}");
+            assert!(system.solve(&mut problem, &statuses, false), "case {case}");
             problem.respond();
             if trial % 20 == 0 {
                 turned += usize::from(lasts && first != problem.change);

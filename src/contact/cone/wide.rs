@@ -2,14 +2,16 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
+use super::group::LANES;
 use super::modes::find_modes;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd};
 
 /// W = G + L Lᵀ: soil and structure.
 pub(super) struct Wide {
-    /// Columns and rows of the lattice.
+    /// Columns and rows of the lattice, and its columns with others of no element that complete the lanes.
     counts: [usize; 2],
-    /// For each direction of motion and of force, G of all offsets: rows of twice the columns less one.
+    row_length: usize,
+    /// For each direction of motion and of force, G of all offsets: rows of the columns and the completed columns.
     tables: [[Vec<f64>; 3]; 3],
     product: LatticeProduct,
     scratch: LatticeScratch,
@@ -40,9 +42,10 @@ impl Wide {
         };
         let product = LatticeProduct::new(cells, &vec![1.0; count], block)?;
         let counts = [0, 1].map(|axis| cells.iter().fold(0, |most, cell| most.max(cell[axis] + 1)));
-        let width = 2 * counts[0] - 1;
-        let table = || vec![0.0; width * (2 * counts[1] - 1)];
-        let mut tables = [(); 3].map(|()| [(); 3].map(|()| table()));
+        let row_length = counts[0].next_multiple_of(LANES);
+        let width = counts[0] + row_length - 1;
+        let table_length = width * (2 * counts[1] - 1);
+        let mut tables = [(); 3].map(|()| [(); 3].map(|()| vec![0.0; table_length]));
         for (receiver, to) in cells.iter().enumerate() {
             for (source, from) in cells.iter().enumerate() {
                 let [i, j] = [0, 1].map(|axis| counts[axis] - 1 + to[axis] - from[axis]);
@@ -58,6 +61,7 @@ impl Wide {
         let own = |e: usize| [e, count + e, 2 * count + e];
         Some(Self {
             counts,
+            row_length,
             tables,
             scratch: product.scratch(),
             product,
@@ -66,17 +70,17 @@ impl Wide {
                 .flat_map(|e| modes.iter().map(move |mode| own(e).map(|i| mode[i])))
                 .collect(),
             rank: modes.len(),
-            motions: [(); 3].map(|()| vec![0.0; counts[0] * counts[1]]),
+            motions: [(); 3].map(|()| vec![0.0; row_length * counts[1]]),
             amplitudes: vec![0.0; modes.len()],
         })
     }
 
     /// Sets the motions to W r.
     pub(super) fn respond(&mut self, forces: &[f64]) {
-        let Self { product, scratch, motions, counts, amplitudes, modes, rank, .. } = self;
+        let Self { product, scratch, motions, row_length, amplitudes, modes, rank, .. } = self;
         let cells = product.cells();
         product.multiply(forces, scratch, |k, e, value| {
-            motions[k][cells[e][1] * counts[0] + cells[e][0]] = value;
+            motions[k][cells[e][1] * *row_length + cells[e][0]] = value;
         });
         amplitudes.fill(0.0);
         let count = cells.len();
@@ -87,11 +91,22 @@ impl Wide {
         }
     }
 
+    /// Motions along each direction and amplitudes of the modes, which are linear in the forces.
+    pub(super) fn response_mut(&mut self) -> [&mut [f64]; 4] {
+        let [normal, along_x, along_y] = &mut self.motions;
+        [normal, along_x, along_y, &mut self.amplitudes]
+    }
+
+    /// Number of the motions and amplitudes.
+    pub(super) fn response_count(&self) -> usize {
+        3 * self.motions[0].len() + self.amplitudes.len()
+    }
+
     /// Motion of an element with the force `change`.
     #[inline(always)]
     pub(super) fn motion(&self, e: usize, change: [f64; 3]) -> [f64; 3] {
         let [i, j] = self.product.cells()[e];
-        let place = j * self.counts[0] + i;
+        let place = j * self.row_length + i;
         let mut motion = [0.0; 3];
         for k in 0..3 {
             motion[k] = self.motions[k][place] + self.layers[e][k] * change[k];
@@ -107,29 +122,22 @@ impl Wide {
     /// Adds the motion of all elements by a force on one.
     #[inline(always)]
     pub(super) fn push<S: Simd>(&mut self, simd: S, e: usize, force: [f64; 3]) {
-        let ([columns, rows], [i, j]) = (self.counts, self.product.cells()[e]);
-        let width = 2 * columns - 1;
-        for (motions, tables) in self.motions.iter_mut().zip(&self.tables) {
+        let [columns, rows] = self.counts;
+        let [i, j] = self.product.cells()[e];
+        let length = self.row_length;
+        let width = columns + length - 1;
+        let wide = force.map(|force| simd.splat_f64s(force));
+        for (motions, [a, b, c]) in self.motions.iter_mut().zip(&self.tables) {
             for row in 0..rows {
                 let begin = (rows - 1 + row - j) * width + columns - 1 - i;
-                let (sums, tail) = S::as_mut_simd_f64s(&mut motions[row * columns..][..columns]);
-                let [a, b, c] = tables;
-                let (a, a_tail) = S::as_simd_f64s(&a[begin..begin + columns]);
-                let (b, b_tail) = S::as_simd_f64s(&b[begin..begin + columns]);
-                let (c, c_tail) = S::as_simd_f64s(&c[begin..begin + columns]);
-                let wide = [
-                    simd.splat_f64s(force[0]),
-                    simd.splat_f64s(force[1]),
-                    simd.splat_f64s(force[2]),
-                ];
+                let (sums, _) = S::as_mut_simd_f64s(&mut motions[row * length..][..length]);
+                let (a, _) = S::as_simd_f64s(&a[begin..begin + length]);
+                let (b, _) = S::as_simd_f64s(&b[begin..begin + length]);
+                let (c, _) = S::as_simd_f64s(&c[begin..begin + length]);
                 for (sum, ((a, b), c)) in sums.iter_mut().zip(a.iter().zip(b).zip(c)) {
                     let first = simd.mul_add_e_f64s(*a, wide[0], *sum);
                     let second = simd.mul_add_e_f64s(*b, wide[1], first);
                     *sum = simd.mul_add_e_f64s(*c, wide[2], second);
-                }
-                for (sum, ((a, b), c)) in tail.iter_mut().zip(a_tail.iter().zip(b_tail).zip(c_tail))
-                {
-                    *sum += a * force[0] + b * force[1] + c * force[2];
                 }
             }
         }

@@ -1,0 +1,190 @@
+//! Anderson acceleration of sweeps: the next one begins with a combination of the results of the last ones.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | x, g | forces before and after a sweep |
+//! | f = g − x | change by the sweep |
+//! | d = f_j − f | difference between the change by an earlier sweep j and the present one |
+//! | γ | weights that minimise \|f + Σ γ_j d_j\| |
+//!
+//! The next x is g + Σ γ_j (g_j − g) (Walker & Ni 2011, SIAM J. Numer. Anal. 49, 1715, eq. 2.1). While no element
+//! changes its mode, that is GMRES with the sweep as its preconditioner.
+
+use crate::linalg::dot;
+
+/// Number of earlier sweeps that are combined: their inner products take less time than a sweep.
+const MAX_STORED_SWEEPS: usize = 8;
+/// Smallest pivot of the normal equations, relative to their diagonal; below it an earlier sweep adds nothing.
+const MIN_RELATIVE_PIVOT: f64 = 1e-13;
+
+/// The last sweeps, and scratch of their combination.
+pub(super) struct Acceleration {
+    /// Change f by each stored sweep, and its results: forces g and the motions by them.
+    changes: [Vec<f64>; MAX_STORED_SWEEPS],
+    results: [Vec<f64>; MAX_STORED_SWEEPS],
+    /// Number of sweeps since the restart.
+    sweep_count: usize,
+    /// f and the results of the present sweep.
+    change: Vec<f64>,
+    result: Vec<f64>,
+    /// Differences d, newest sweep first.
+    differences: [Vec<f64>; MAX_STORED_SWEEPS],
+}
+
+impl Acceleration {
+    /// Allocates for `force_count` forces and `motion_count` motions.
+    pub(super) fn new(force_count: usize, motion_count: usize) -> Self {
+        let forces = || [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count]);
+        Self {
+            changes: forces(),
+            results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count + motion_count]),
+            sweep_count: 0,
+            change: vec![0.0; force_count],
+            result: vec![0.0; force_count + motion_count],
+            differences: forces(),
+        }
+    }
+
+    /// Number of motions among the results of a sweep.
+    pub(super) fn motion_count(&self) -> usize {
+        self.result.len() - self.change.len()
+    }
+
+    /// Discards the stored sweeps.
+    pub(super) fn restart(&mut self) {
+        self.sweep_count = 0;
+    }
+
+    /// Stores the forces before a sweep.
+    pub(super) fn begin_sweep(&mut self, forces: &[f64]) {
+        self.change.copy_from_slice(forces);
+    }
+
+    /// Overwrites the results of a sweep with their combination with those of earlier sweeps.
+    ///
+    /// The first slice of `results` are the forces; the others are motions, linear in the forces.
+    pub(super) fn end_sweep(&mut self, results: &mut [&mut [f64]]) {
+        let mut begin = 0;
+        for part in &*results {
+            self.result[begin..begin + part.len()].copy_from_slice(part);
+            begin += part.len();
+        }
+        for (change, force) in self.change.iter_mut().zip(&self.result) {
+            *change = force - *change;
+        }
+        let weights = self.weights();
+        let mut begin = 0;
+        for part in results {
+            for (age, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                let earlier = &self.results[self.slot(age)][begin..begin + part.len()];
+                let present = &self.result[begin..begin + part.len()];
+                for ((value, earlier), present) in part.iter_mut().zip(earlier).zip(present) {
+                    *value += weight * (earlier - present);
+                }
+            }
+            begin += part.len();
+        }
+        let slot = self.sweep_count % MAX_STORED_SWEEPS;
+        self.changes[slot].copy_from_slice(&self.change);
+        self.results[slot].copy_from_slice(&self.result);
+        self.sweep_count += 1;
+    }
+
+    /// Position of the sweep that is `age` older than the last stored one.
+    fn slot(&self, age: usize) -> usize {
+        (self.sweep_count - 1 - age) % MAX_STORED_SWEEPS
+    }
+
+    /// Weights γ of the earlier sweeps, newest first; zero for those that add nothing.
+    fn weights(&mut self) -> [f64; MAX_STORED_SWEEPS] {
+        let count = self.sweep_count.min(MAX_STORED_SWEEPS);
+        for age in 0..count {
+            let earlier = &self.changes[self.slot(age)];
+            let difference = &mut self.differences[age];
+            for ((difference, earlier), present) in
+                difference.iter_mut().zip(earlier).zip(&self.change)
+            {
+                *difference = earlier - present;
+            }
+        }
+        // Cholesky factors of the normal equations, row by row; a zero pivot leaves its sweep out.
+        let mut factor = [[0.0; MAX_STORED_SWEEPS]; MAX_STORED_SWEEPS];
+        let mut weights = [0.0; MAX_STORED_SWEEPS];
+        for row in 0..count {
+            let difference = &self.differences[row];
+            let mut right_hand_side = -dot(difference, &self.change);
+            for column in 0..row {
+                let mut product = dot(difference, &self.differences[column]);
+                for k in 0..column {
+                    product -= factor[row][k] * factor[column][k];
+                }
+                let pivot = factor[column][column];
+                factor[row][column] = if pivot > 0.0 { product / pivot } else { 0.0 };
+                right_hand_side -= factor[row][column] * weights[column];
+            }
+            let diagonal = dot(difference, difference);
+            let square: f64 = factor[row][..row].iter().map(|entry| entry * entry).sum();
+            if diagonal - square > MIN_RELATIVE_PIVOT * diagonal {
+                factor[row][row] = (diagonal - square).sqrt();
+                weights[row] = right_hand_side / factor[row][row];
+            }
+        }
+        for row in (0..count).rev() {
+            if factor[row][row] > 0.0 {
+                for below in row + 1..count {
+                    weights[row] -= factor[below][row] * weights[below];
+                }
+                weights[row] /= factor[row][row];
+            }
+        }
+        weights
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Number of forces, and the matrix M of sweeps x ← M x + b; its largest eigenvalue is 1.3.
+    const COUNT: usize = 6;
+    const EIGENVALUES: [f64; COUNT] = [1.3, 0.95, 0.8, 0.5, -0.4, 0.1];
+
+    /// Result of a sweep: forces, then a motion that is their sum and 2.
+    fn sweep(forces: &[f64], vectors: &[[f64; COUNT]; COUNT]) -> Vec<f64> {
+        let mut result = vec![1.0; COUNT];
+        for (vector, eigenvalue) in vectors.iter().zip(EIGENVALUES) {
+            let amplitude = eigenvalue * dot(vector, forces);
+            for (value, entry) in result.iter_mut().zip(vector) {
+                *value += amplitude * entry;
+            }
+        }
+        result.push(result.iter().sum::<f64>() + 2.0);
+        result
+    }
+
+    #[test]
+    fn a_linear_problem_is_solved_by_as_many_sweeps_as_forces_though_plain_sweeps_diverge() {
+        // Orthonormal cosines.
+        let vectors: [[f64; COUNT]; COUNT] = std::array::from_fn(|k| {
+            std::array::from_fn(|i| {
+                let angle = std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / COUNT as f64;
+                let norm = if k == 0 { COUNT as f64 } else { 0.5 * COUNT as f64 };
+                angle.cos() / norm.sqrt()
+            })
+        });
+        let mut acceleration = Acceleration::new(COUNT, 1);
+        let mut forces = vec![0.0; COUNT];
+        for _ in 0..=COUNT {
+            acceleration.begin_sweep(&forces);
+            let mut result = sweep(&forces, &vectors);
+            let (after, motion) = result.split_at_mut(COUNT);
+            acceleration.end_sweep(&mut [after, motion]);
+            // A combination whose weights sum to one keeps what is linear.
+            assert!((motion[0] - 2.0 - after.iter().sum::<f64>()).abs() < 1e-8);
+            forces.copy_from_slice(after);
+        }
+        for (before, after) in forces.iter().zip(sweep(&forces, &vectors)) {
+            assert!((before - after).abs() < 1e-9, "{before} {after}");
+        }
+    }
+}

@@ -1,0 +1,27 @@
+//! A tower that rocks and slides on a mat in which each cell moves most others.
+
+use basemat::Simulation;
+use basemat::bem::ElasticGround;
+use basemat::interface::Coulomb;
+use basemat::motion::{Triaxial, el_centro_1940};
+use basemat::soil::Soil;
+use basemat::structure::RigidBody;
+
+/// In steps in which much of the base lands, Newton's method starts far from the directions of slip.
+///
+/// Iterations that do not end early take up to 194 systems in a step.
+#[test]
+fn steps_in_which_many_cells_land_take_few_iterations() {
+    let soil = Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap();
+    let tower = RigidBody::cuboid([8.0, 6.0, 12.0], 500.0).unwrap();
+    let ground = ElasticGround::under(soil, &tower, 16).unwrap();
+    let across = el_centro_1940().scaled(0.6).unwrap();
+    let motion = Triaxial { x: Some(el_centro_1940()), y: Some(across), up: None };
+    let simulation = Simulation::builder(0.01).structure(tower).ground(ground);
+    let simulation = simulation.interface(Coulomb::new(0.5).unwrap()).motion(motion);
+    let mut simulation = simulation.expected_steps(340).build().unwrap();
+    let mut largest = 0;
+    let run = simulation.run(340, |state| largest = largest.max(state.trials)).unwrap();
+    assert!(largest < 150, "{largest}");
+    assert!(run.energy_error < 1e-9, "{:e}", run.energy_error);
+}
