@@ -9,6 +9,7 @@ use basemat::{Observer, Result, Simulation};
 
 use super::scene::{STEP, run, shaken};
 use basemat_problems::block_on_springs::block;
+use basemat_problems::wrapped::BareGround;
 
 const STIFFNESS: [f64; 2] = [4.0e7, 2.0e7];
 /// Velocity at the start, m/s.
@@ -79,40 +80,6 @@ impl Ground for Springs {
     }
 }
 
-/// A ground of one's own with a bed as its only part.
-struct WithBed(SpringGround);
-
-impl Ground for WithBed {
-    fn elements(&self) -> &[ContactElement] {
-        self.0.elements()
-    }
-
-    fn prepare(
-        &mut self,
-        time_step: f64,
-        steps: Option<usize>,
-        observer: &mut Observer<'_>,
-    ) -> Result<()> {
-        self.0.prepare(time_step, steps, observer)
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.step_compliance(matrix)
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        self.0.history(displacement)
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        self.0.commit(traction);
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.static_compliance(matrix)
-    }
-}
-
 /// A bed with dashpots that relax in `relaxation` seconds.
 fn relaxing(relaxation: f64) -> SpringGround {
     let stiffness = each_stiffness();
@@ -147,7 +114,7 @@ fn springs_of_one_s_own_are_the_spring_ground_s() {
     assert_eq!(own.state().displacement(), expected.state().displacement());
     let damped = bed().with_dashpots(1e-2 * STIFFNESS[0], 1e-2 * STIFFNESS[1]).unwrap();
     let (_, expected) = run(scene().ground(damped));
-    let (_, own) = run(scene().ground(WithBed(relaxing(1e-2))));
+    let (_, own) = run(scene().ground(BareGround(relaxing(1e-2))));
     assert_eq!(own.state().displacement(), expected.state().displacement());
 }
 
@@ -210,9 +177,9 @@ fn a_run_warns_of_the_form_of_first_order_alone() {
     let implicit = || relaxing(0.0).with_theta(1.0).unwrap();
     assert!(!warns(Box::new(implicit())));
     assert!(!warns(Box::new(Box::new(implicit()) as Box<dyn Ground>)));
-    assert!(warns(Box::new(WithBed(implicit()))));
+    assert!(warns(Box::new(BareGround(implicit()))));
     // In a step of twice the relaxation time a bed forgets its displacement, as springs of the wrong form do.
     for steps in [0.0, 1e-3, 0.1, 0.3, 0.45, 0.5, 0.55, 1.0, 10.0, 64.0, 1e3] {
-        assert!(!warns(Box::new(WithBed(relaxing(steps * STEP)))), "{steps}");
+        assert!(!warns(Box::new(BareGround(relaxing(steps * STEP)))), "{steps}");
     }
 }
