@@ -2,7 +2,10 @@
 //! SCENE: a bonded block that starts upwards on springs; the shaken block of the other tests.
 //! REFERENCE: the oscillator's motion and energy in closed form; `SpringGround`.
 
-use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround, Strip};
 use basemat::coupled::{Mistake, Warning};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::{Observer, Result, Simulation};
@@ -29,11 +32,14 @@ struct Springs {
     elements: Vec<ContactElement>,
     multiple: f64,
     displacement: Vec<f64>,
+    /// Calls of `description`.
+    descriptions: Arc<AtomicUsize>,
 }
 
 impl Springs {
     fn new(multiple: f64) -> Self {
-        Self { elements: elements(), multiple, displacement: vec![0.0; 8] }
+        let descriptions = Arc::default();
+        Self { elements: elements(), multiple, displacement: vec![0.0; 8], descriptions }
     }
 
     fn fill(matrix: &mut [f64], multiple: f64) {
@@ -77,6 +83,11 @@ impl Ground for Springs {
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         Self::fill(matrix, 1.0);
         Ok(())
+    }
+
+    fn description(&self) -> GroundDescription {
+        self.descriptions.fetch_add(1, Ordering::Relaxed);
+        GroundDescription::default()
     }
 }
 
@@ -181,5 +192,18 @@ fn a_run_warns_of_the_form_of_first_order_alone() {
     // In a step of twice the relaxation time a bed forgets its displacement, as springs of the wrong form do.
     for steps in [0.0, 1e-3, 0.1, 0.3, 0.45, 0.5, 0.55, 1.0, 10.0, 64.0, 1e3] {
         assert!(!warns(Box::new(BareGround(relaxing(steps * STEP)))), "{steps}");
+    }
+}
+
+/// A base that is held does not stand on its ground.
+#[test]
+fn a_build_describes_a_ground_once() {
+    for (is_held, count) in [(false, 1), (true, 0)] {
+        let ground = Springs::new(2.0);
+        let descriptions = Arc::clone(&ground.descriptions);
+        let builder = Simulation::builder(STEP).structure(block()).ground(ground).interface(Bonded);
+        let builder = if is_held { builder.on_fixed_base() } else { builder };
+        builder.build().unwrap();
+        assert_eq!(descriptions.load(Ordering::Relaxed), count, "held {is_held}");
     }
 }
