@@ -39,7 +39,7 @@ fn the_search_finds_a_solution_of_brute_force() {
         let [_, bearing] = problem.bounds[0];
         let law = Yielding::new(bearing, problem.friction).unwrap();
         let laws = [law; COUNT].map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
-        let (modes, has_others) = problem.assert_found(laws, &MODES);
+        let (modes, has_others) = problem.assert_found(laws, [&MODES; COUNT]);
         seen.extend(modes);
         several += usize::from(has_others);
     }

@@ -160,12 +160,12 @@ impl EnumeratedContact {
         })
     }
 
-    /// All solutions with modes of a list.
-    fn solutions(&self, modes: &[Mode]) -> Vec<Vec<ContactState>> {
+    /// All solutions with these modes of each element.
+    fn solutions(&self, modes: [&[Mode]; COUNT]) -> Vec<Vec<ContactState>> {
         let mut solutions = Vec::new();
-        for one in modes {
-            for two in modes {
-                for three in modes {
+        for one in modes[0] {
+            for two in modes[1] {
+                for three in modes[2] {
                     let Some(states) = self.solve(&[*one, *two, *three]) else { continue };
                     if self.violation(&states) < ROUNDING {
                         solutions.push(states);
@@ -191,11 +191,11 @@ impl EnumeratedContact {
 
     /// Modes that the contact search finds under these laws, and whether the problem has other solutions.
     ///
-    /// Panics unless what the search finds is among all solutions with the `modes`.
+    /// Panics unless what the search finds is among all solutions with the `modes` of each element.
     pub fn assert_found(
         &self,
         laws: [Box<dyn InterfaceLaw>; COUNT],
-        modes: &[Mode],
+        modes: [&[Mode]; COUNT],
     ) -> (Vec<Mode>, bool) {
         let solutions = self.solutions(modes);
         assert!(!solutions.is_empty(), "brute force has none");
