@@ -141,6 +141,8 @@ pub trait Ground: Any + Send {
     }
 
     /// Soil and history of the ground, for warnings and pages; nothing by default.
+    ///
+    /// `build` takes all but the history from one call before [`Ground::prepare`].
     fn description(&self) -> GroundDescription {
         GroundDescription::default()
     }

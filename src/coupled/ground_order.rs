@@ -2,7 +2,7 @@
 
 use std::any::Any;
 
-use crate::bem::{Ground, SpringGround, WeightsGround};
+use crate::bem::{Ground, GroundDescription, SpringGround, WeightsGround};
 use crate::error::{Result, unobserved};
 use crate::geometry::ContactLayout;
 
@@ -27,10 +27,11 @@ const PAST_DISPLACEMENT_RATIO: f64 = -0.25;
 /// If the ground cannot be prepared for the time step.
 pub(crate) fn is_first_order(
     ground: &mut (dyn Ground + 'static),
+    description: &GroundDescription,
     time_step: f64,
     layout: ContactLayout,
 ) -> Result<bool> {
-    if is_of_the_crate(ground) || ground.description().shear_wave_speed.is_some() {
+    if is_of_the_crate(ground) || description.shear_wave_speed.is_some() {
         return Ok(false);
     }
     let in_step = uniform_response(ground, time_step, layout)?;

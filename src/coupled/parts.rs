@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::bem::{Ground, free_field};
+use crate::bem::{Ground, GroundDescription, free_field};
 use crate::contact::ContactSearch;
 use crate::coupled::base::held::held;
 use crate::coupled::coordinates::Coordinates;
@@ -131,6 +131,8 @@ pub(crate) struct Parts {
     pub(crate) structure: Box<dyn Structure>,
     /// The ground, prepared for steps.
     pub(crate) ground: Box<dyn Ground>,
+    /// Soil of the ground, as it was before the preparation.
+    pub(crate) description: GroundDescription,
     /// The builder; its structure and ground have moved to the fields above.
     pub(crate) given: SimulationBuilder,
     pub(crate) elements: Patch,
@@ -189,14 +191,18 @@ impl Parts {
         let [x, y] = elements.center();
         let moment_center = [finite("moment center", given.moment_center.unwrap_or(x))?, y];
         // Before the ground is prepared, which can take long.
-        let start_motion = start_motion(ground.as_ref(), given.motion.as_ref(), &elements)?;
-        let first_order_ground = !given.held && is_first_order(ground.as_mut(), time_step, layout)?;
+        let description = ground.description();
+        let motion = given.motion.as_ref();
+        let start_motion = start_motion(ground.as_ref(), &description, motion, &elements)?;
+        let first_order_ground =
+            !given.held && is_first_order(ground.as_mut(), &description, time_step, layout)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
         let soil = Arc::new(instantaneous_operator(ground.as_ref(), &elements)?);
         Ok(Self {
             structure,
             ground,
+            description,
             given,
             elements,
             coefficients,
@@ -209,13 +215,18 @@ impl Parts {
 }
 
 /// Displacement of the free field at t = 0.
-fn start_motion(ground: &dyn Ground, motion: &dyn FreeField, elements: &Patch) -> Result<Vec<f64>> {
+fn start_motion(
+    ground: &dyn Ground,
+    description: &GroundDescription,
+    motion: &dyn FreeField,
+    elements: &Patch,
+) -> Result<Vec<f64>> {
     let mut displacement = vec![0.0; elements.layout().len()];
     let mut impulse = displacement.clone();
     let known = free_field(ground, motion, elements, 0.0, [&mut displacement, &mut impulse]);
     if elements.has_walls() {
-        let own = ground.description().identity;
-        let fits = motion.soils().zip(own).is_none_or(|(soils, own)| *soils == own[..]);
+        let soils = motion.soils().zip(description.identity.as_ref());
+        let fits = soils.is_none_or(|(of_motion, of_ground)| *of_motion == of_ground[..]);
         let needed = "one that is known at the walls of this ground: a `TrenchMotion` made for it";
         require_part("free field", known && fits, needed)?;
     }

@@ -98,7 +98,7 @@ impl Scene {
         let context = Context {
             probes: std::mem::take(&mut given.probes),
             elements: elements.clone(),
-            pressure_depths: parts.ground.description().depth_of_pressure_at_rest,
+            pressure_depths: std::mem::take(&mut parts.description.depth_of_pressure_at_rest),
             friction: std::mem::take(&mut given.safety_friction),
             footings: footings.collect(),
         };

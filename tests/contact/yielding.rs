@@ -14,128 +14,12 @@ use basemat::motion::el_centro_1940;
 use basemat::structure::{DofCombination, RigidBlock};
 use basemat::{Simulation, Soil};
 
-use basemat_problems::dense::solve;
+use basemat_problems::enumerated_contact::{COUNT, EnumeratedContact, Ranges};
 use basemat_problems::random::Random;
 
-/// A contact problem of three elements in units of its own, and its law's parameters.
-struct Problem {
-    delassus: Vec<f64>,
-    free_jump: Vec<f64>,
-    pressed: Vec<f64>,
-    indentation: Vec<f64>,
-    slip: Vec<f64>,
-    bearing: f64,
-    friction: f64,
-}
-
-const COUNT: usize = 3;
-const SIZE: usize = 2 * COUNT;
-
-impl Problem {
-    fn random(random: &mut Random) -> Self {
-        let mut numbers = |low: f64, high: f64, count: usize| -> Vec<f64> {
-            (0..count).map(|_| random.within(low, high)).collect()
-        };
-        let root = numbers(-1.0, 1.0, SIZE * SIZE);
-        let delassus = (0..SIZE * SIZE)
-            .map(|k| {
-                let (i, j) = (k / SIZE, k % SIZE);
-                let product: f64 = (0..SIZE).map(|m| root[i * SIZE + m] * root[j * SIZE + m]).sum();
-                product + if i == j { 0.2 } else { 0.0 }
-            })
-            .collect();
-        let free_jump = numbers(-3.0, 2.0, SIZE);
-        let pressed = numbers(0.0, 1.0, COUNT);
-        let indentation = numbers(0.0, 0.5, COUNT);
-        let slip = numbers(-0.3, 0.3, COUNT);
-        let bearing = random.within(0.8, 2.0);
-        let friction = random.pick(&[0.0, 0.2, 0.5, f64::INFINITY]);
-        Self { delassus, free_jump, pressed, indentation, slip, bearing, friction }
-    }
-
-    /// Conditions of the modes as rows over (gap, slip, pressure, shear) and a right-hand side.
-    fn rows(&self, e: usize, mode: Mode) -> Option<[([f64; 4], f64); 2]> {
-        let gap = ([1.0, 0.0, 0.0, 0.0], -self.indentation[e]);
-        let bears = ([0.0, 0.0, 1.0, 0.0], self.bearing);
-        let stick = ([0.0, 1.0, 0.0, 0.0], self.slip[e]);
-        let slides = |sign: f64| ([0.0, 0.0, -self.friction, sign], 0.0);
-        let endless = self.friction.is_infinite();
-        Some(match mode {
-            Mode::Open => [([0.0, 0.0, 1.0, 0.0], 0.0), ([0.0, 0.0, 0.0, 1.0], 0.0)],
-            Mode::Stick => [gap, stick],
-            Mode::Yield => [bears, stick],
-            // Infinite friction slides without pressure alone.
-            Mode::SlipLeft | Mode::SlipRight if endless => [gap, ([0.0, 0.0, 1.0, 0.0], 0.0)],
-            _ if endless => return None,
-            Mode::SlipRight => [gap, slides(1.0)],
-            Mode::SlipLeft => [gap, slides(-1.0)],
-            Mode::YieldRight => [bears, slides(1.0)],
-            Mode::YieldLeft => [bears, slides(-1.0)],
-            other => panic!("{other:?}"),
-        })
-    }
-
-    /// Total tractions and jumps of a choice of modes.
-    fn solve(&self, modes: &[Mode]) -> Option<Vec<ContactState>> {
-        let mut matrix = vec![vec![0.0; SIZE]; SIZE];
-        let mut rhs = vec![0.0; SIZE];
-        for (e, &mode) in modes.iter().enumerate() {
-            for (k, ([g, s, p, t], value)) in self.rows(e, mode)?.into_iter().enumerate() {
-                // gap = j_n + W τ, slip = −(j_t + W τ), p = p₀ + τ_n, shear = τ_t.
-                let row = 2 * e + k;
-                rhs[row] = value - g * self.free_jump[e] + s * self.free_jump[COUNT + e]
-                    - p * self.pressed[e];
-                for j in 0..SIZE {
-                    matrix[row][j] +=
-                        g * self.delassus[e * SIZE + j] - s * self.delassus[(COUNT + e) * SIZE + j];
-                }
-                matrix[row][e] += p;
-                matrix[row][COUNT + e] += t;
-            }
-        }
-        let traction = solve(&matrix, &rhs);
-        traction.iter().all(|t| t.is_finite()).then(|| self.states(&traction))
-    }
-
-    fn states(&self, traction: &[f64]) -> Vec<ContactState> {
-        let jump = |i: usize| -> f64 {
-            let row = &self.delassus[i * SIZE..(i + 1) * SIZE];
-            self.free_jump[i] + row.iter().zip(traction).map(|(w, t)| w * t).sum::<f64>()
-        };
-        (0..COUNT)
-            .map(|e| ContactState {
-                gap: jump(e),
-                slip: -jump(COUNT + e),
-                pressure: self.pressed[e] + traction[e],
-                shear: traction[COUNT + e],
-                ..ContactState::default()
-            })
-            .collect()
-    }
-
-    /// By how much the states miss the law, written down as complementarity conditions.
-    fn violation(&self, states: &[ContactState]) -> f64 {
-        states.iter().enumerate().fold(0.0_f64, |worst, (e, state)| {
-            let (p, q) = (state.pressure, self.bearing);
-            let g = state.gap + self.indentation[e];
-            // p in [0, q], g ≥ 0 below q, g ≤ 0 above 0.
-            let normal = (-p).max(p - q).max(g.max(0.0).min(p)).max((-g).max(0.0).min(q - p));
-            // Infinite friction has its limit as p → 0, too: any shear.
-            let endless = self.friction.is_infinite();
-            let limit = if endless { f64::INFINITY } else { self.friction * p };
-            let advance = state.slip - self.slip[e];
-            let cone = state.shear.abs() - limit;
-            let room = if limit.is_infinite() { p.abs() } else { (-cone).max(0.0) };
-            let sticks = advance.abs().min(room);
-            let against = if self.friction > 0.0 {
-                (-advance * state.shear.signum()).max(0.0).min(state.shear.abs())
-            } else {
-                0.0
-            };
-            let touches = if g > 1e-9 { 0.0 } else { sticks.max(against) };
-            worst.max(normal).max(cone).max(touches)
-        })
-    }
+fn random_problem(random: &mut Random) -> EnumeratedContact {
+    let ranges = Ranges { free_jump: [-3.0, 2.0], pressed: [0.0, 1.0], moved: [0.0, 0.5] };
+    EnumeratedContact::random(random, ranges, |random| vec![[0.0, random.within(0.8, 2.0)]; COUNT])
 }
 
 #[test]
@@ -151,46 +35,13 @@ fn the_search_finds_a_solution_of_brute_force() {
     ];
     let mut random = Random(7);
     let (mut seen, mut several) = (std::collections::BTreeSet::new(), 0);
-    for problem in (0..300).map(|_| Problem::random(&mut random)) {
-        let mut solutions: Vec<Vec<ContactState>> = Vec::new();
-        for code in 0..7 * 7 * 7 {
-            let modes: Vec<Mode> = (0..COUNT).map(|e| MODES[code / [1, 7, 49][e] % 7]).collect();
-            let Some(states) = problem.solve(&modes) else { continue };
-            if problem.violation(&states) < 1e-9 {
-                solutions.push(states);
-            }
-        }
-        assert!(!solutions.is_empty(), "brute force has none");
-        let law = Yielding::new(problem.bearing, problem.friction).unwrap();
-        let starts: Vec<_> = (0..COUNT)
-            .map(|e| {
-                let state = ContactState {
-                    gap: -problem.indentation[e],
-                    slip: problem.slip[e],
-                    pressure: problem.pressed[e],
-                    ..ContactState::default()
-                };
-                let mut start = PreviousContact::new(state, law.modes()[0], 1.0);
-                start.state_variables = &problem.indentation[e..=e];
-                start
-            })
-            .collect();
-        let mut traction = problem.pressed.clone();
-        traction.resize(SIZE, 0.0);
-        let mut contact = ContactProblem::new(problem.delassus.clone(), vec![Box::new(law)])
-            .unwrap()
-            .with_static_tractions(traction)
-            .unwrap();
-        let start = contact.start(&starts).unwrap();
-        let found = contact.solve(&problem.free_jump, &start).unwrap();
-        seen.extend(found.modes.iter().copied());
-        let near = |states: &Vec<ContactState>| {
-            states.iter().zip(found.states).all(|(a, b)| {
-                (a.pressure - b.pressure).abs() < 1e-8 && (a.shear - b.shear).abs() < 1e-8
-            })
-        };
-        assert!(solutions.iter().any(near), "{:?} {:?}", found.modes, found.states);
-        several += usize::from(!solutions.iter().all(near));
+    for problem in (0..300).map(|_| random_problem(&mut random)) {
+        let [_, bearing] = problem.bounds[0];
+        let law = Yielding::new(bearing, problem.friction).unwrap();
+        let laws = [law; COUNT].map(|law| -> Box<dyn InterfaceLaw> { Box::new(law) });
+        let (modes, has_others) = problem.assert_found(laws, [&MODES; COUNT]);
+        seen.extend(modes);
+        several += usize::from(has_others);
     }
     assert_eq!(seen.len(), 7, "{seen:?}");
     println!("several solutions in {several} of 300");

@@ -5,6 +5,7 @@ use basemat::fem::{BeamSection, Direction, Material};
 use basemat::io::{GmshPart, GmshSpaceMesh};
 use basemat::structure::{CraigBampton, FemModel, Structure};
 use basemat_problems::dense::{eigenpairs, product, stiffness};
+use basemat_problems::directions::IN_SPACE;
 use basemat_problems::random::Random;
 
 use super::blueprint::{Blueprint, Piece};
@@ -16,15 +17,6 @@ use super::view::PLAIN;
 
 /// Rounding of a force, of the sum of its parts' magnitudes.
 const ROUNDING: f64 = 1e-12;
-
-const ALL: [Direction; 6] = [
-    Direction::X,
-    Direction::Y,
-    Direction::Z,
-    Direction::RotationX,
-    Direction::RotationY,
-    Direction::RotationZ,
-];
 
 /// Largest force by a motion, of the sum of magnitudes from which it is computed.
 fn force(structure: &dyn Structure, motion: &[f64]) -> f64 {
@@ -123,7 +115,7 @@ fn models_in_space_turn_freely() {
             }
         };
         let middle = [random.within(-5.0, 5.0), random.within(-5.0, 5.0), 0.0];
-        for direction in ALL.into_iter().filter(|own| !plan.p_delta || upright(*own)) {
+        for direction in IN_SPACE.into_iter().filter(|own| !plan.p_delta || upright(*own)) {
             let value = force(&model, &model.rigid_motion(direction, middle));
             tally.within(&format!("{number}: {direction:?} {name}"), value, ROUNDING);
         }
@@ -231,7 +223,7 @@ fn meshes_from_gmsh_turn_freely() {
         let base = file.cells(2, "base").unwrap();
         let model = FemModel::on_faces(file.mesh(&parts).unwrap(), &base).unwrap();
         let model = if p_delta { model.with_p_delta(9.81).unwrap() } else { model };
-        for direction in ALL.into_iter().filter(|own| !p_delta || upright(*own)) {
+        for direction in IN_SPACE.into_iter().filter(|own| !p_delta || upright(*own)) {
             let value = force(&model, &model.rigid_motion(direction, [1.0, -2.0, 0.5]));
             tally.within(&format!("{direction:?}, P–Δ {p_delta}"), value, ROUNDING);
         }

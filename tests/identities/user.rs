@@ -1,32 +1,17 @@
 //! Parts as a user writes them: they hand on what a trait needs, and hide the library's types.
 
-use basemat::bem::{self, ContactElement, GroundDescription};
+use basemat::Result;
+use basemat::bem::{self, GroundDescription};
 use basemat::fem::{self, Direction, ElementFace, MassKind};
-use basemat::interface::{
-    Condition, ContactScene, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
-};
-use basemat::structure::{self, Base, NonlinearForce, Triplets};
-use basemat::{Observer, Result};
+use basemat::interface::{ContactScene, ContactState, InterfaceLaw, Mode, PreviousContact};
+use basemat::structure::{self, NonlinearForce, Triplets};
+use basemat_problems::{ground_from, law_from, needed_from};
 
 /// A structure with the matrices of another one.
 pub(crate) struct Structure(pub(crate) Box<dyn structure::Structure>);
 
 impl structure::Structure for Structure {
-    fn dofs(&self) -> usize {
-        self.0.dofs()
-    }
-
-    fn base(&self) -> Base {
-        self.0.base()
-    }
-
-    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.mass(matrix)
-    }
-
-    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
-        self.0.stiffness(matrix)
-    }
+    needed_from!(0);
 
     fn damping(&self, matrix: &mut Triplets) -> Result<()> {
         self.0.damping(matrix)
@@ -45,34 +30,7 @@ impl structure::Structure for Structure {
 pub(crate) struct Ground(pub(crate) Box<dyn bem::Ground>);
 
 impl bem::Ground for Ground {
-    fn elements(&self) -> &[ContactElement] {
-        self.0.elements()
-    }
-
-    fn prepare(
-        &mut self,
-        time_step: f64,
-        steps: Option<usize>,
-        observer: &mut Observer<'_>,
-    ) -> Result<()> {
-        self.0.prepare(time_step, steps, observer)
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.step_compliance(matrix)
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        self.0.history(displacement)
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        self.0.commit(traction);
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.static_compliance(matrix)
-    }
+    ground_from!(0);
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         self.0.finer_compliance()
@@ -88,27 +46,7 @@ impl bem::Ground for Ground {
 pub(crate) struct Law(pub(crate) Box<dyn InterfaceLaw>);
 
 impl InterfaceLaw for Law {
-    fn modes(&self) -> &[Mode] {
-        self.0.modes()
-    }
-
-    fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        self.0.conditions(mode, start)
-    }
-
-    fn next_mode(
-        &self,
-        mode: Mode,
-        start: &PreviousContact,
-        trial: &ContactState,
-        tolerance: Tolerance,
-    ) -> Mode {
-        self.0.next_mode(mode, start, trial, tolerance)
-    }
-
-    fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        self.0.limits(start)
-    }
+    law_from!(0);
 
     fn compliance(&self, mode: Mode, start: &PreviousContact) -> [f64; 2] {
         self.0.compliance(mode, start)

@@ -2,13 +2,17 @@
 //! SCENE: a bonded block that starts upwards on springs; the shaken block of the other tests.
 //! REFERENCE: the oscillator's motion and energy in closed form; `SpringGround`.
 
-use basemat::bem::{ContactElement, Ground, SpringGround, Strip};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround, Strip};
 use basemat::coupled::{Mistake, Warning};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::{Observer, Result, Simulation};
 
 use super::scene::{STEP, run, shaken};
 use basemat_problems::block_on_springs::block;
+use basemat_problems::wrapped::BareGround;
 
 const STIFFNESS: [f64; 2] = [4.0e7, 2.0e7];
 /// Velocity at the start, m/s.
@@ -28,11 +32,14 @@ struct Springs {
     elements: Vec<ContactElement>,
     multiple: f64,
     displacement: Vec<f64>,
+    /// Calls of `description`.
+    descriptions: Arc<AtomicUsize>,
 }
 
 impl Springs {
     fn new(multiple: f64) -> Self {
-        Self { elements: elements(), multiple, displacement: vec![0.0; 8] }
+        let descriptions = Arc::default();
+        Self { elements: elements(), multiple, displacement: vec![0.0; 8], descriptions }
     }
 
     fn fill(matrix: &mut [f64], multiple: f64) {
@@ -77,39 +84,10 @@ impl Ground for Springs {
         Self::fill(matrix, 1.0);
         Ok(())
     }
-}
 
-/// A ground of one's own with a bed as its only part.
-struct WithBed(SpringGround);
-
-impl Ground for WithBed {
-    fn elements(&self) -> &[ContactElement] {
-        self.0.elements()
-    }
-
-    fn prepare(
-        &mut self,
-        time_step: f64,
-        steps: Option<usize>,
-        observer: &mut Observer<'_>,
-    ) -> Result<()> {
-        self.0.prepare(time_step, steps, observer)
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.step_compliance(matrix)
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        self.0.history(displacement)
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        self.0.commit(traction);
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.static_compliance(matrix)
+    fn description(&self) -> GroundDescription {
+        self.descriptions.fetch_add(1, Ordering::Relaxed);
+        GroundDescription::default()
     }
 }
 
@@ -147,7 +125,7 @@ fn springs_of_one_s_own_are_the_spring_ground_s() {
     assert_eq!(own.state().displacement(), expected.state().displacement());
     let damped = bed().with_dashpots(1e-2 * STIFFNESS[0], 1e-2 * STIFFNESS[1]).unwrap();
     let (_, expected) = run(scene().ground(damped));
-    let (_, own) = run(scene().ground(WithBed(relaxing(1e-2))));
+    let (_, own) = run(scene().ground(BareGround(relaxing(1e-2))));
     assert_eq!(own.state().displacement(), expected.state().displacement());
 }
 
@@ -210,9 +188,22 @@ fn a_run_warns_of_the_form_of_first_order_alone() {
     let implicit = || relaxing(0.0).with_theta(1.0).unwrap();
     assert!(!warns(Box::new(implicit())));
     assert!(!warns(Box::new(Box::new(implicit()) as Box<dyn Ground>)));
-    assert!(warns(Box::new(WithBed(implicit()))));
+    assert!(warns(Box::new(BareGround(implicit()))));
     // In a step of twice the relaxation time a bed forgets its displacement, as springs of the wrong form do.
     for steps in [0.0, 1e-3, 0.1, 0.3, 0.45, 0.5, 0.55, 1.0, 10.0, 64.0, 1e3] {
-        assert!(!warns(Box::new(WithBed(relaxing(steps * STEP)))), "{steps}");
+        assert!(!warns(Box::new(BareGround(relaxing(steps * STEP)))), "{steps}");
+    }
+}
+
+/// A base that is held does not stand on its ground.
+#[test]
+fn a_build_describes_a_ground_once() {
+    for (is_held, count) in [(false, 1), (true, 0)] {
+        let ground = Springs::new(2.0);
+        let descriptions = Arc::clone(&ground.descriptions);
+        let builder = Simulation::builder(STEP).structure(block()).ground(ground).interface(Bonded);
+        let builder = if is_held { builder.on_fixed_base() } else { builder };
+        builder.build().unwrap();
+        assert_eq!(descriptions.load(Ordering::Relaxed), count, "held {is_held}");
     }
 }

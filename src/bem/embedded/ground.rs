@@ -29,6 +29,10 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 /// number of stages follows [`Stages::for_profile`]. A half-plane's static compliance is determined up to two rigid
 /// translations.
 ///
+/// The mesh is as fine as the contact elements, and resolves waves as long as these. Short steps on long elements excite
+/// shorter waves. With two elements of the base, one of each wall, and steps in which shear waves cross a tenth of half
+/// the width, the step compliance changes by 1 to 5 % with the mesh.
+///
 /// ```
 /// use basemat::bem::embedded::{Trench, TrenchGround};
 /// use basemat::bem::layered::StripContact;

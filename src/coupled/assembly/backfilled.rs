@@ -83,17 +83,17 @@ pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec
     let mut traction = vec![0.0; layout.len()];
     let GroundDescription {
         pressure_at_rest: pressures, depth_of_pressure_at_rest: depths, ..
-    } = parts.ground.description();
+    } = &parts.description;
     if !pressures.is_empty() {
         same_length("pressures at rest of the ground", pressures.len(), parts.elements.len())?;
-        for pressure in &pressures {
+        for pressure in pressures {
             not_negative("pressure at rest of the ground", *pressure)?;
         }
     }
     if !depths.is_empty() {
         let quantity = "depths of the pressure at rest of the ground";
         same_length(quantity, depths.len(), parts.elements.len())?;
-        all_finite(quantity, &depths)?;
+        all_finite(quantity, depths)?;
     }
     let (floor, each) = (elements.floor(), elements.len() / parts.elements.len());
     let pressures = pressures.iter().flat_map(|own| std::iter::repeat_n(own, each));

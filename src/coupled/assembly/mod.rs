@@ -344,7 +344,7 @@ impl SimulationBuilder {
             Stepped::choose(&parts, &assembled, reduction, &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
 
-        let Parts { mut structure, ground, given, first_order_ground, .. } = parts;
+        let Parts { mut structure, ground, description, given, first_order_ground, .. } = parts;
         let mut solver = Solver::new(&scene, operators, given.search);
         let mut state = State::at_rest(&scene)?;
         let compliant = scene.is_compliant(&state.start)?;
@@ -355,14 +355,15 @@ impl SimulationBuilder {
         state.energy_balance =
             books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
         let mut warnings =
-            Warning::of_scene(&scene, ground.as_ref(), given.motion.as_ref(), held.period);
+            Warning::of_scene(&scene, &description, given.motion.as_ref(), held.period);
         warnings.extend(first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
         let weight = Weight::new(given.gravity, &assembled);
-        Warning::add_mistakes(&mut warnings, &scene, ground.as_ref(), structure.as_ref(), &weight);
+        let soils = &description.soils;
+        Warning::add_mistakes(&mut warnings, &scene, soils, structure.as_ref(), &weight);
         warnings.extend(Warning::of_tears(tears(&structure.base())?));
         warnings.extend(coarse);
         let pressures_above =
-            wall_pressure::pressures_above(&scene, ground.as_ref(), given.gravity);
+            wall_pressure::pressures_above(&scene, &description.mass_above, given.gravity);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
         // Last, since stiffnesses too far apart for double precision look like a mechanism.
         held.is_firm?;

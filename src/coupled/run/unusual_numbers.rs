@@ -2,7 +2,6 @@
 
 use std::f64::consts::TAU;
 
-use crate::bem::{Ground, GroundDescription};
 use crate::coupled::base::influence::UP;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::run::GroundMotion;
@@ -12,7 +11,6 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::run::warning_text::within;
 use crate::coupled::scene::Scene;
 use crate::coupled::statics::strength::{bond_at_rest, friction_at_rest};
-use crate::geometry::ContactElement;
 use crate::interface::LawForm;
 use crate::motion::{FreeField, Record, STANDARD_GRAVITY};
 use crate::soil::Soil;
@@ -100,10 +98,12 @@ fn drift(record: &Record) -> Option<f64> {
 
 impl Warning {
     /// Adds warnings of numbers and of a structure that are probably mistakes, to the `warnings` of its scene.
+    ///
+    /// `soils`: of the ground, from the surface down.
     pub(crate) fn add_mistakes(
         warnings: &mut Vec<Self>,
         scene: &Scene,
-        ground: &dyn Ground,
+        soils: &[Soil],
         structure: &dyn Structure,
         weight: &Weight,
     ) {
@@ -113,7 +113,7 @@ impl Warning {
         let is_to_scale = !warnings.iter().any(is_unusual);
         warnings.extend(Self::of_units(is_to_scale, scene, weight, &description));
         if is_to_scale {
-            warnings.extend(Self::of_weight(weight, ground));
+            warnings.extend(Self::of_weight(weight, soils, scene.base.elements().has_walls()));
         }
         warnings.extend(Self::of_triangles(description.triangle_sides));
         warnings.extend(Self::of_faces_off_ground(description.faces_off_ground));
@@ -166,16 +166,14 @@ impl Warning {
     }
 
     /// Warnings of a weight that its soil cannot carry, and of masses that differ with their direction.
-    fn of_weight(weight: &Weight, ground: &dyn Ground) -> Vec<Self> {
+    fn of_weight(weight: &Weight, soils: &[Soil], has_walls: bool) -> Vec<Self> {
         let &Weight { gravity, pressure, ref masses } = weight;
         let mut warnings = Vec::new();
         if gravity <= 0.0 {
             return warnings;
         }
-        let GroundDescription { soils, .. } = ground.description();
         let moduli = soils.iter().map(Soil::shear_modulus);
         // A base below the surface may stand on any of the soils.
-        let has_walls = ContactElement::any_wall(ground.elements().iter());
         let modulus = if has_walls { moduli.reduce(f64::max) } else { moduli.take(1).next() };
         let soft = modulus.filter(|modulus| pressure > MAX_PRESSURE_RATIO * modulus);
         warnings.extend(soft.map(|shear_modulus| {
@@ -234,16 +232,11 @@ impl Warning {
         motion: &dyn FreeField,
     ) -> Vec<Self> {
         let mut warnings = Vec::new();
-        let Some(time_step) = ground_motion.time_step else {
-            if acceleration > MAX_GROUND_ACCELERATION {
-                warnings.push(Self::Mistake(Mistake::UnusualMotion { acceleration }));
-            }
-            return warnings;
-        };
         let acceleration = acceleration.max(ground_motion.peak);
         if acceleration > MAX_GROUND_ACCELERATION {
             warnings.push(Self::Mistake(Mistake::UnusualMotion { acceleration }));
         }
+        let Some(time_step) = ground_motion.time_step else { return warnings };
         if within(WEAK_ACCELERATIONS, ground_motion.peak) {
             warnings
                 .push(Self::Mistake(Mistake::UnusualMotion { acceleration: ground_motion.peak }));

@@ -1,6 +1,5 @@
 //! Pressure of walls on soil without a passive limit.
 
-use crate::bem::Ground;
 use crate::coupled::Warning;
 use crate::coupled::run::envelope::ElementEnvelope;
 use crate::coupled::scene::Scene;
@@ -15,11 +14,11 @@ const EXCESS_LIMIT: f64 = 0.1;
 
 /// Pressure of the soil above the middle of each element, Pa; empty without walls or weight.
 ///
-/// Infinite for the base, and for elements whose law has a largest pressure.
-pub(crate) fn pressures_above(scene: &Scene, ground: &dyn Ground, gravity: f64) -> Vec<f64> {
-    let masses = ground.description().mass_above;
-    let elements = ground.elements();
-    if masses.len() != elements.len() || gravity == 0.0 || !ContactElement::any_wall(elements) {
+/// `masses`: mean mass of the soil above each element, kg/m². Infinite for the base, and for elements whose law has a
+/// largest pressure.
+pub(crate) fn pressures_above(scene: &Scene, masses: &[f64], gravity: f64) -> Vec<f64> {
+    let elements = scene.base.elements();
+    if masses.len() != elements.len() || gravity == 0.0 || !elements.has_walls() {
         return Vec::new();
     }
     let pressure = |(element, mass): (usize, &f64)| {

@@ -1,6 +1,6 @@
 //! Conditions of warnings: limits, and the warnings of a scene, a motion and a run.
 
-use crate::bem::{Ground, GroundDescription};
+use crate::bem::GroundDescription;
 use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Quantity, Run, unusual_numbers};
@@ -48,15 +48,17 @@ impl Warning {
     /// Smallest friction at which mirror images of scenes in plan were found to differ.
     const HIGH_FRICTION: f64 = 3.0;
 
-    /// Warnings of a scene before its first step; `period`: of the structure on a fixed base, s.
+    /// Warnings of a scene before its first step.
+    ///
+    /// `description`: of the ground; `period`: of the structure on a fixed base, s.
     pub(crate) fn of_scene(
         scene: &Scene,
-        ground: &dyn Ground,
+        description: &GroundDescription,
         motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let GroundDescription { soils, sampled_cells, outline_error, .. } = ground.description();
-        let mut warnings: Vec<_> = Self::of_soils(&soils).collect();
+        let &GroundDescription { ref soils, sampled_cells, outline_error, .. } = description;
+        let mut warnings: Vec<_> = Self::of_soils(soils).collect();
         // A model not to scale has its own warning.
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
             warnings.push(Self::Mistake(Mistake::LongPeriod { period }));

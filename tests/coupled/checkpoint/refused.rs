@@ -2,7 +2,7 @@
 //! SCENE: one thing of the scene changed at a time; grounds and structures without `save`.
 //! REFERENCE: typed errors, and a simulation that is unchanged.
 
-use basemat::bem::{ContactElement, Ground, SpringGround};
+use basemat::bem::SpringGround;
 use basemat::coupled::CheckpointError;
 use basemat::coupled::{Change, GravityStage, Load, SimulationBuilder};
 use basemat::history::HistoryMethod;
@@ -11,10 +11,11 @@ use basemat::motion::{AtRest, FreeFieldFn, el_centro_1940};
 use basemat::structure::{
     ModalDamping, NonlinearForce, RigidBlock, Structure, StructureGroup, Triplets, WithSprings,
 };
-use basemat::{Error, Observer, Result};
+use basemat::{Error, Result};
 
 use super::{half_plane, refusal, spring_bed};
 use basemat_problems::scenes::{Rider, SI, block, friction, scene};
+use basemat_problems::wrapped::BareGround;
 use basemat_problems::{needed_from, own_force};
 
 #[test]
@@ -137,44 +138,10 @@ fn what_decides_a_run_is_compared() {
     }
 }
 
-/// A ground that says nothing of checkpoints.
-struct Silent(SpringGround);
-
-impl Ground for Silent {
-    fn elements(&self) -> &[ContactElement] {
-        self.0.elements()
-    }
-
-    fn prepare(
-        &mut self,
-        time_step: f64,
-        steps: Option<usize>,
-        observer: &mut Observer<'_>,
-    ) -> Result<()> {
-        self.0.prepare(time_step, steps, observer)
-    }
-
-    fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.step_compliance(matrix)
-    }
-
-    fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        self.0.history(displacement)
-    }
-
-    fn commit(&mut self, traction: &[f64]) {
-        self.0.commit(traction);
-    }
-
-    fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        self.0.static_compliance(matrix)
-    }
-}
-
 #[test]
 fn grounds_that_cannot_be_saved_say_so() {
     let base = || scene(SI, 0.6).interface(friction(0.3)).structure(block(SI));
-    let mut silent = base().ground(Silent(spring_bed())).build().unwrap();
+    let mut silent = base().ground(BareGround(spring_bed())).build().unwrap();
     silent.run(5, |_| {}).unwrap();
     let unsupported = Error::Checkpoint(CheckpointError::Unsupported { part: "ground" });
     assert_eq!(silent.checkpoint().unwrap_err(), unsupported);

@@ -24,6 +24,8 @@ pub mod columns;
 pub mod contact_problems;
 pub mod containment;
 pub mod dense;
+pub mod directions;
+pub mod enumerated_contact;
 pub mod faults;
 pub mod flexible_scenes;
 pub mod headline;

@@ -3,15 +3,7 @@
 use basemat::fem::{Direction, Element, ElementFace, MassKind};
 
 use super::dense::dot;
-
-const IN_SPACE: [Direction; 6] = [
-    Direction::X,
-    Direction::Y,
-    Direction::Z,
-    Direction::RotationX,
-    Direction::RotationY,
-    Direction::RotationZ,
-];
+use super::directions::IN_SPACE;
 
 /// Nodes with the stiffness k (I − Q Qᵀ), where the columns of Q are an orthonormal basis of the rigid motions.
 pub struct StiffElement {

@@ -1,5 +1,7 @@
-//! Wrappers of a structure: one that forwards the least, one that pulls it; and of a law: one with another rule for modes.
+//! Wrappers of a structure: one that forwards the least, one that pulls it; of a ground: one that forwards the least; and
+//! of a law: one with another rule for modes.
 
+use basemat::bem::Ground;
 use basemat::interface::{
     Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
 };
@@ -70,6 +72,48 @@ impl<S: Structure, F: Fn(f64) -> f64 + Send + 'static> Structure for Pulled<S, F
         }
         Ok(())
     }
+}
+
+/// Required methods of a ground, forwarded to a field.
+#[macro_export]
+macro_rules! ground_from {
+    ($field:tt) => {
+        fn elements(&self) -> &[basemat::bem::ContactElement] {
+            self.$field.elements()
+        }
+
+        fn prepare(
+            &mut self,
+            time_step: f64,
+            steps: Option<usize>,
+            observer: &mut basemat::Observer<'_>,
+        ) -> basemat::Result<()> {
+            self.$field.prepare(time_step, steps, observer)
+        }
+
+        fn step_compliance(&self, matrix: &mut [f64]) -> basemat::Result<()> {
+            self.$field.step_compliance(matrix)
+        }
+
+        fn history(&mut self, displacement: &mut [f64]) -> basemat::Result<()> {
+            self.$field.history(displacement)
+        }
+
+        fn commit(&mut self, traction: &[f64]) {
+            self.$field.commit(traction);
+        }
+
+        fn static_compliance(&self, matrix: &mut [f64]) -> basemat::Result<()> {
+            self.$field.static_compliance(matrix)
+        }
+    };
+}
+
+/// A ground of which nothing but what every ground must say is left.
+pub struct BareGround<G>(pub G);
+
+impl<G: Ground> Ground for BareGround<G> {
+    ground_from!(0);
 }
 
 /// Methods that every interface law needs, as a field has them.

@@ -2,19 +2,12 @@
 //! SCENE: a rigid slab of linked nodes on inclined bars.
 //! REFERENCE: second derivatives of the potential of bars and rigid body by finite differences.
 
-use basemat::fem::{Direction, Element, LumpedMass, Mesh, Truss};
+use basemat::fem::{Element, LumpedMass, Mesh, Truss};
 use basemat::structure::FemModel;
 use basemat_problems::dense::stiffness;
+use basemat_problems::directions::IN_SPACE;
 
 const GRAVITY: f64 = 9.81;
-const DIRECTIONS: [Direction; 6] = [
-    Direction::X,
-    Direction::Y,
-    Direction::Z,
-    Direction::RotationX,
-    Direction::RotationY,
-    Direction::RotationZ,
-];
 
 /// Potential of a rigid slab with masses on inclined bars, beyond first order, at displacements and a rotation vector of
 /// its leader.
@@ -101,7 +94,7 @@ fn linked_nodes_move_by_finite_rotations() {
         bars.push((foot, arms[k], 1e8 / length, forces.next().unwrap()));
     }
     let potential = slab_potential(&bars, &masses);
-    let dofs = DIRECTIONS.map(|own| model.dof(leader, own).unwrap());
+    let dofs = IN_SPACE.map(|own| model.dof(leader, own).unwrap());
     let found = stiffness(&model);
     // Equilibrium.
     for i in 0..6 {

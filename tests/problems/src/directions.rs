@@ -1,0 +1,13 @@
+//! The directions in which a node moves.
+
+use basemat::fem::Direction;
+
+/// All directions of a node in space: along the axes, then about them.
+pub const IN_SPACE: [Direction; 6] = [
+    Direction::X,
+    Direction::Y,
+    Direction::Z,
+    Direction::RotationX,
+    Direction::RotationY,
+    Direction::RotationZ,
+];
