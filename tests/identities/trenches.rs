@@ -56,6 +56,8 @@ fn record(random: &mut Random, time: f64) -> Result<(Record, f64)> {
 /// The middle of the filled surface moves as the free surface.
 #[test]
 fn own_soil_fills_a_trench_without_a_trace() {
+    // Convolution weights come in blocks of 128 lags first.
+    const STEPS: usize = 120;
     let mut tally = Tally::new("trench: filled with its own soil");
     let mut random = Random(131);
     for number in 0..scenes(1, 40) {
@@ -94,22 +96,21 @@ fn own_soil_fills_a_trench_without_a_trace() {
             };
             let surface = motion.clone();
             let (filled, top) = fill(half, depth, &soil, [8, 6])?;
-            let step = 0.05 / rate;
+            let step = 8.0 / rate / STEPS as f64;
             let rows = [Direction::X, Direction::Y].map(|direction| filled.row(top, direction));
             let [along, up] = rows;
-            let steps = 160;
             let mut simulation = Simulation::builder(step)
                 .gravity(0.0)
                 .ground(ground)
                 .structure(filled)
                 .interface(Bonded)
                 .motion(motion)
-                .expected_steps(steps)
+                .expected_steps(STEPS)
                 .probe(Probe::absolute_displacement("along", along?))
                 .probe(Probe::absolute_displacement("up", up?))
                 .build()?;
             let [mut largest, mut apart] = [0.0_f64; 2];
-            for _ in 0..steps {
+            for _ in 0..STEPS {
                 let state = simulation.step()?;
                 let wanted = surface.displacement(0.0, state.time);
                 for (found, wanted) in state.probes.iter().zip(wanted) {
@@ -134,7 +135,7 @@ fn own_soil_fills_a_trench_without_a_trace() {
 fn a_trench_without_depth_is_a_strip() {
     let mut tally = Tally::new("trench: without depth");
     let mut random = Random(132);
-    for number in 0..scenes(3, 30) {
+    for number in 0..scenes(2, 30) {
         let half = random.log_within(1.0, 5.0);
         let poisson = random.within(0.1, 0.4);
         let soil = Soil::from_shear_wave_speed(200.0, poisson, 1900.0).unwrap();
