@@ -46,7 +46,7 @@ pub(crate) struct Blueprint {
     pub(crate) p_delta: bool,
 }
 
-const POISSON: f64 = 0.2;
+pub(crate) const POISSON: f64 = 0.2;
 
 impl Blueprint {
     /// A model without points; forces in the plane are per metre.
@@ -110,6 +110,11 @@ impl Blueprint {
         for piece in view.ordered(self.pieces.clone()) {
             self.add_piece(&mut mesh, piece, view)?;
         }
+        self.completed(mesh, view)
+    }
+
+    /// The model of a mesh, with link, damping and P–Δ.
+    pub(crate) fn completed(&self, mesh: Mesh, view: &View) -> Result<FemModel> {
         let frame = &view.frame;
         let mut model = FemModel::on_base(mesh)?;
         if let Some((leader, followers)) = &self.link {
@@ -128,8 +133,14 @@ impl Blueprint {
         Ok(model)
     }
 
+    /// Section of a beam in space of this side.
+    pub(crate) fn section(side: f64) -> Result<BeamSection> {
+        let moment = side.powi(4) / 12.0;
+        BeamSection::new(side * side, [moment, 1.7 * moment], 1.6 * moment)
+    }
+
     /// Adds the element of a piece as a view writes it.
-    fn add_piece(&self, mesh: &mut Mesh, piece: Piece, view: &View) -> Result<usize> {
+    pub(crate) fn add_piece(&self, mesh: &mut Mesh, piece: Piece, view: &View) -> Result<usize> {
         let frame = &view.frame;
         let (length, pressure) = (frame.length, frame.pressure());
         let material =
@@ -171,9 +182,7 @@ impl Blueprint {
                 add(mesh, Beam::new(fixed(at(&ends)), young, depth, moment, density)?, view)
             }
             Piece::SpaceBeam(ends, side, plane) => {
-                let side = side * length;
-                let moment = side.powi(4) / 12.0;
-                let section = BeamSection::new(side * side, [moment, 1.7 * moment], 1.6 * moment)?;
+                let section = Self::section(side * length)?;
                 add(
                     mesh,
                     SpaceBeam::new(fixed(at(&ends)), material, section, view.vector(plane))?,

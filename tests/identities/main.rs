@@ -8,6 +8,8 @@
 mod beds;
 mod blueprint;
 mod compare;
+mod full_plane;
+mod gmsh;
 mod grounds;
 mod models;
 mod numbers;
@@ -23,6 +25,7 @@ mod structures;
 mod table;
 mod tally;
 mod trenches;
+mod turned;
 mod user;
 mod view;
 mod views;

@@ -134,6 +134,19 @@ impl Body {
         matches!(self, Self::Hysteretic | Self::Sprung)
     }
 
+    /// Whether it has finite elements that Gmsh meshes.
+    pub(crate) fn has_a_gmsh_mesh(self) -> bool {
+        matches!(
+            self,
+            Self::Quads
+                | Self::Quads8
+                | Self::Shells
+                | Self::SlenderFrame
+                | Self::Bricks
+                | Self::Linked
+        )
+    }
+
     /// Whether its damping or P–Δ couples the modes of the structure without ground.
     fn couples_modes(self) -> bool {
         match self {

@@ -9,6 +9,7 @@ use basemat::structure::{
 use basemat_problems::scenes::GRAVITY;
 
 use super::blueprint::Blueprint;
+use super::gmsh;
 use super::models;
 use super::numbers::Numbers;
 use super::parts::{Body, Choice, Space};
@@ -169,7 +170,7 @@ fn matrices(numbers: &Numbers, view: &View) -> Result<Made> {
 }
 
 fn of_blueprint(plan: &Blueprint, node: usize, view: &View) -> Result<Made> {
-    let model = plan.model(view)?;
+    let model = if view.read_from_gmsh { gmsh::model(plan)? } else { plan.model(view)? };
     let rows = plan.rows(&model, node, view)?;
     Ok(made(model, rows))
 }

@@ -15,10 +15,18 @@ pub(crate) struct View {
     pub(crate) renumbered: bool,
     /// Finite elements behind the trait that a user implements.
     pub(crate) by_user: bool,
+    /// The mesh written as a Gmsh file and read again; in SI units and as the scene stands only.
+    pub(crate) read_from_gmsh: bool,
 }
 
-pub(crate) const PLAIN: View =
-    View { frame: SI, turns: 0, shift: [0.0; 2], renumbered: false, by_user: false };
+pub(crate) const PLAIN: View = View {
+    frame: SI,
+    turns: 0,
+    shift: [0.0; 2],
+    renumbered: false,
+    by_user: false,
+    read_from_gmsh: false,
+};
 
 impl View {
     /// A vector `[x, y, z]` of the scene, in its own unit, along the axes of the view.

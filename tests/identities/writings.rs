@@ -1,4 +1,5 @@
-//! A scene in modal or reduced coordinates, and with parts that a user writes, is the scene in physical coordinates.
+//! A scene in modal or reduced coordinates, with parts that a user writes, and with a mesh from a Gmsh file, is the scene
+//! in physical coordinates.
 
 use super::compare::{same, usual};
 use super::parts::{Choice, Coordinate, Space, covering};
@@ -18,6 +19,11 @@ fn check(space: Space, row: &'static str, count: usize) {
         tally.pair(&choice.words());
         let by_user = ("parts of a user", &View { by_user: true, ..PLAIN }, Writing::ByUser);
         same(&physical, &response, by_user, LIMIT, &mut tally);
+        if physical.body.has_a_gmsh_mesh() {
+            tally.pair(&["Gmsh", physical.body.word()]);
+            let read = ("mesh from Gmsh", &View { read_from_gmsh: true, ..PLAIN }, Writing::Usual);
+            same(&physical, &response, read, LIMIT, &mut tally);
+        }
         if other != Coordinate::Physical {
             let limit = if other == Coordinate::Reduced { REDUCED_LIMIT } else { LIMIT };
             let writing = (other.word(), &PLAIN, Writing::In(other));
