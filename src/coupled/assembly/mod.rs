@@ -317,7 +317,8 @@ impl SimulationBuilder {
     ///   damping, or a stiffness that is negative with the base held;
     /// * [`crate::Error::Item`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
     ///   not exist or a name that occurs twice;
-    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0,
+    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0, or buckles on its
+    ///   ground (P–Δ), without gravity and without a static state too;
     ///   [`crate::Error::Preload`] if no equilibrium was found for another reason;
     /// * [`crate::Error::CoarseBase`] for a flexible base on so few contact elements that twice as many change its
     ///   static shape by more than 30 %;
