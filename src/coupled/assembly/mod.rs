@@ -11,6 +11,7 @@
 mod at_rest;
 mod backfilled;
 mod flexible_base;
+mod growing_weight;
 mod held_responses;
 mod initial_motion;
 mod krylov;

@@ -1,10 +1,14 @@
 //! Stages of the static state: weight, and then the loads at t = 0.
 
+use std::cell::Cell;
+
+use super::growing_weight::state_under_growing_weight;
 use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::statics::buckling::has_p_delta;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::stability::cause;
 use crate::coupled::statics::static_state::StaticState;
-use crate::error::{Error, LawError, Result};
+use crate::error::{Error, LawError, Result, StabilityError};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, PreviousContacts,
     Tolerance, law_of,
@@ -50,8 +54,11 @@ pub(super) fn placed(
         *mode = law_of(placing, e).modes()[0];
     }
     let place = Standing { frictionless: by_limits, ..*stage };
-    let found = settle(&place, placing, first.clone(), state, weight);
-    let (mut state, start) = found.map_err(|e| cause(&place, placing, weight, e))?;
+    let found = settle(&place, placing, first.clone(), state.clone(), weight);
+    let (mut state, start) = found.or_else(|error| {
+        let error = cause(&place, placing, weight, error);
+        state_under_growing_weight(&place, placing, (&first, state), weight, error)
+    })?;
     if is_smooth {
         check_placed(laws, &state, &start)?;
     }
@@ -104,11 +111,14 @@ fn under_growing_load(
     let begin = PreviousContacts::new(laws, &placed)?;
     let total =
         |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
+    let reached = Cell::new(0.0);
     let path = |increments: usize| -> Result<StaticState> {
         let (mut state, mut start) = (state.clone(), begin.clone());
+        reached.set(0.0);
         for k in 1..=increments {
-            let load = total(k as f64 / increments as f64);
-            (state, start) = settle(stage, laws, start, state, &load)?;
+            let share = k as f64 / increments as f64;
+            (state, start) = settle(stage, laws, start, state, &total(share))?;
+            reached.set(share);
         }
         state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
         Ok(state)
@@ -120,8 +130,20 @@ fn under_growing_load(
     };
     match path(1) {
         Ok(state) if !takes_a_path(&state) => Ok(state),
-        _ => path(INCREMENTS).map_err(|e| cause(stage, laws, &total(1.0), e)),
+        _ => path(INCREMENTS).map_err(|error| {
+            let error = cause(stage, laws, &total(1.0), error);
+            named_by_loads(stage, reached.get(), error)
+        }),
     }
+}
+
+/// The reason of `error`, if no other is known: a structure with P–Δ falls over beyond the share `reached` of its loads.
+fn named_by_loads(stage: &Standing<'_>, reached: f64, error: Error) -> Error {
+    if matches!(error, Error::Preload { .. }) && has_p_delta(stage.structure) {
+        let cause = StabilityError::Toppling { factor: reached, by_loads: true };
+        return Error::Stability(Box::new(cause));
+    }
+    error
 }
 
 /// Error for a static state, found without friction, that the law of a closed element cannot hold.
@@ -171,7 +193,7 @@ fn check_placed(
 /// Equilibrium under `load`, starting from `start` and `state`; returns the final state.
 ///
 /// With state variables it is repeated until these are constant.
-fn settle(
+pub(super) fn settle(
     stage: &Standing<'_>,
     laws: &[Box<dyn InterfaceLaw>],
     mut start: PreviousContacts,

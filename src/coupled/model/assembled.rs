@@ -134,6 +134,11 @@ impl Assembled {
     }
 
     /// Mass, damping, stiffness, to be kept.
+    /// The same structure with another stiffness beside its nonlinear force.
+    pub(crate) fn with_stiffness(&self, stiffness: SparseMatrix) -> Self {
+        Self { stiffness: Arc::new(stiffness), at_rest: None, ..self.on(self.base.clone()) }
+    }
+
     pub(crate) fn shared(&self) -> [Arc<SparseMatrix>; 3] {
         [&self.mass, &self.damping, &self.stiffness].map(Arc::clone)
     }
