@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::static_stages::settle;
+use super::settled::settle;
 use crate::coupled::model::load_factor::LoadedStiffness;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;

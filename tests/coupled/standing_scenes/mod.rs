@@ -16,9 +16,8 @@ use basemat::structure::{Bilinear, RigidBlock, ShearBuilding, Storey};
 use basemat::{Error, Simulation};
 
 use reference::{Followed, Reference};
-use structures::{Drawn, draw};
+use structures::{Drawn, GRAVITY, draw};
 
-const GRAVITY: f64 = 9.81;
 const SCENES: usize = 150;
 
 #[derive(Debug, Default)]

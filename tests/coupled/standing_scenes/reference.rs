@@ -6,7 +6,7 @@ use basemat_problems::dense::{
     Matrix, collect, dot, eigenvalues, inverse, mass, multiply, solve, stiffness,
 };
 
-use super::GRAVITY;
+use super::structures::GRAVITY;
 
 /// Increments in which the weight is followed.
 const INCREMENTS: usize = 100;

@@ -6,7 +6,7 @@ use basemat::fem::{Beam, BeamSection, Direction, LumpedMass, Material, Mesh, Spa
 use basemat::structure::{FemModel, RigidBlock, Structure};
 use basemat_problems::random::Random;
 
-use super::GRAVITY;
+pub(super) const GRAVITY: f64 = 9.81;
 
 /// A mast in the plane on a rigid base: flexible, with a mass on its top beside its axis.
 fn mast(random: &mut Random, offset: f64) -> FemModel {
