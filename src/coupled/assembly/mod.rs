@@ -16,6 +16,8 @@ mod held_responses;
 mod initial_motion;
 mod krylov;
 mod many_forces;
+mod p_delta_damping;
+mod settled;
 mod static_stages;
 mod step_response;
 mod stepped;
