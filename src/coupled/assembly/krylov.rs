@@ -168,24 +168,29 @@ impl<'a> Reduction<'a> {
         finite(NAME, tolerance)?;
         require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
-        if self.rows.counts[1] >= MANY {
+        if self.has_many_forces() {
             return self.modes_of_many(tolerance, matrices);
         }
         self.modes_of_few(tolerance, matrices)
+    }
+
+    /// Whether vibration modes and static responses replace shifts.
+    pub(super) fn has_many_forces(&self) -> bool {
+        self.rows.counts[1] >= MANY
     }
 
     /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
     pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3], rounding: f64) -> Subspace<'m> {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
         let mut space = Subspace::new(matrices, translations, rounding);
+        if let Some(proportional) = self.without_p_delta {
+            space = space.with_proportional_damping(proportional);
+        }
         space.extend(self.held.rotations.clone(), LEAST_NEW);
         space
     }
 
     /// Ritz modes for few forces: powers of several shifts.
-        if let Some(proportional) = self.without_p_delta {
-            space = space.with_proportional_damping(proportional);
-        }
     fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
         let (mut space, lowest) = (self.rigid(matrices, 0.0), self.held.lowest);
         space.extend(self.motions.clone(), LEAST_NEW);
