@@ -339,6 +339,8 @@ fn is_without_equilibrium(error: &Error) -> bool {
                 | StabilityError::Twisting { .. }
                 | StabilityError::Overturning { .. }
                 | StabilityError::BearingFailure { .. }
+                | StabilityError::Buckling { .. }
+                | StabilityError::Toppling { .. }
                 // The resultant passes beside the middles of the outermost elements.
                 | StabilityError::Beyond { .. }
                 | StabilityError::BondBreaks { .. }

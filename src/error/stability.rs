@@ -85,14 +85,32 @@ pub enum StabilityError {
         /// edge.
         ratio: f64,
     },
-    /// The weight makes it fall over or buckle (P–Δ), or brings it to the verge of that.
+    /// The weight makes it fall over or buckle (P–Δ), even with its base bonded to the ground.
+    ///
+    /// Also for an upright structure, whose static state is then an unstable equilibrium.
     #[error(
-        "it falls over or buckles under its weight (P–Δ), or nearly so: the smallest load factor is {factor:.4}, \
-         with its base bonded to the ground"
+        "it falls over or buckles under its weight (P–Δ): the load factor is {factor:.4}, with its base bonded to the \
+         ground where it touches it"
     )]
     Buckling {
-        /// Multiple of the forces at rest at which it does, with its base bonded to the ground.
+        /// Multiple of the forces at rest at which it does, below 1.
         factor: f64,
+    },
+    /// It leans by its weight or loads and by its P–Δ, lifts its base off, and falls over.
+    ///
+    /// With its base bonded to the ground it would stand.
+    #[error(
+        "it leans, lifts its base off and falls over (P–Δ): it stands under {factor:.3} times {} at most, although it would \
+         stand with its base bonded to the ground",
+        if *by_loads { "its loads at t = 0 in addition to its weight" } else { "its weight" }
+    )]
+    Toppling {
+        /// Largest multiple of the weight, or of the loads, under which an equilibrium was found.
+        ///
+        /// The equilibrium is followed from no weight in increments down to 1/64, and under loads in tenths.
+        factor: f64,
+        /// Whether the factor applies to the loads that come on after the weight.
+        by_loads: bool,
     },
     /// The weight exceeds the bearing pressure of the interface.
     #[error(

@@ -194,7 +194,8 @@ pub trait Structure: Any + Send {
     /// Adds the part of the stiffness that comes from the forces at rest (P–Δ), n × n, to `matrix`. Default: none.
     ///
     /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure
-    /// buckles.
+    /// buckles, and `build` refuses a structure that buckles on its ground
+    /// ([`StabilityError::Buckling`](crate::coupled::StabilityError::Buckling)), even one that is upright.
     ///
     /// # Errors
     /// Any; `build` returns it.

@@ -22,6 +22,7 @@ mod push_over;
 mod reduced;
 mod runs;
 mod soil_column;
+mod standing_scenes;
 mod static_loads;
 mod sweep;
 mod travel;

@@ -10,6 +10,7 @@ use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::parts::Parts;
+use crate::coupled::statics::buckling::{self, Grounded};
 use crate::coupled::statics::compliance::Compliance;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
@@ -21,7 +22,8 @@ use crate::structure::nonlinear_state;
 /// The state under weight and the loads at t = 0; trivial without gravity.
 ///
 /// Commits the structure's internal variables to it. `shared` receives the compliance of a linear structure, or of the
-/// condensed one. Where this one has no static state, it becomes `None`: the whole structure decides.
+/// condensed one. Where this one has no static state, it becomes `None`: the whole structure decides. A structure with P–Δ
+/// that buckles on its ground is an error, whatever the stage: without weight or unloaded it would fall in the run.
 pub(crate) fn solve(
     parts: &mut Parts,
     assembled: &Assembled,
@@ -29,8 +31,10 @@ pub(crate) fn solve(
     shared: &RefCell<Option<Compliance>>,
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
+    let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
+    let mut soil = Vec::new();
     if parts.given.is_static() {
-        let soil = compliance(parts)?;
+        soil = compliance(parts)?;
         let [own, weight, load] = loads(parts, assembled)?;
         let (laws, on_soil) = (&parts.given.laws, (&soil[..], shared));
         let on_base = condensed.as_ref().and_then(|condensed| {
@@ -47,6 +51,17 @@ pub(crate) fn solve(
         let whole = || under_loads(parts, assembled, on_soil, laws, [&weight, &load]);
         state = on_base.map_or_else(whole, Ok)?;
         state.load = own;
+    } else if has_p_delta {
+        soil = compliance(parts)?;
+    }
+    // A fixed base was held before, and stood.
+    if has_p_delta && !holds(parts.ground.as_ref()) {
+        let (structure, laws) = (parts.structure.as_ref(), &parts.given.laws);
+        let grounded = Grounded { assembled, structure, soil: &soil, laws };
+        let on_base = condensed.as_ref().map(|condensed| &condensed.assembled);
+        buckling::check(grounded, on_base, &state)?;
+    }
+    if parts.given.is_static() {
         if let Some(force) = parts.structure.nonlinear_mut() {
             force.commit(&state.displacement);
         }

@@ -27,6 +27,7 @@ use crate::coupled::statics::compliance::Floating;
 use crate::error::{Error, Result, finite, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseFactor, SparseMatrix};
+use crate::structure::combination;
 
 /// Ratio of a shift to the previous one.
 const RATIO: f64 = 4.0;
@@ -68,6 +69,8 @@ pub(crate) struct Reduction<'a> {
     pub(super) held: HeldResponses,
     /// Factored K + εM, until it is used.
     pub(super) floating: Cell<Option<Rc<Floating>>>,
+    /// β and α of a damping in proportion to mass and to the stiffness without P–Δ.
+    pub(super) without_p_delta: Option<[f64; 2]>,
     /// Steps of the run.
     steps: usize,
     /// Rows of the probes that are not zero.
@@ -138,7 +141,25 @@ impl<'a> Reduction<'a> {
             }
         }
         let floating = Cell::new(floating);
-        Ok(Self { assembled, coefficients, factored, held, floating, steps, rows, motions })
+        let [mass, damping, stiffness] = assembled.matrices();
+        let is_proportional =
+            damping.is_empty() || combination(damping, [stiffness, mass]).is_some();
+        let without_p_delta = if is_proportional {
+            None
+        } else {
+            assembled.damping_without_p_delta(parts.structure.as_ref())
+        };
+        Ok(Self {
+            assembled,
+            coefficients,
+            factored,
+            held,
+            floating,
+            without_p_delta,
+            steps,
+            rows,
+            motions,
+        })
     }
 
     /// The Ritz modes whose responses to forces are within `tolerance`.
@@ -147,16 +168,24 @@ impl<'a> Reduction<'a> {
         finite(NAME, tolerance)?;
         require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
         let matrices = self.matrices()?;
-        if self.rows.counts[1] >= MANY {
+        if self.has_many_forces() {
             return self.modes_of_many(tolerance, matrices);
         }
         self.modes_of_few(tolerance, matrices)
+    }
+
+    /// Whether vibration modes and static responses replace shifts.
+    pub(super) fn has_many_forces(&self) -> bool {
+        self.rows.counts[1] >= MANY
     }
 
     /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
     pub(super) fn rigid<'m>(&self, matrices: [&'m SparseMatrix; 3], rounding: f64) -> Subspace<'m> {
         let translations = self.assembled.influence.translations(self.assembled.dofs());
         let mut space = Subspace::new(matrices, translations, rounding);
+        if let Some(proportional) = self.without_p_delta {
+            space = space.with_proportional_damping(proportional);
+        }
         space.extend(self.held.rotations.clone(), LEAST_NEW);
         space
     }
@@ -168,7 +197,7 @@ impl<'a> Reduction<'a> {
         let rows = &self.rows.all;
         let count = (rows.len() / self.assembled.dofs()).max(1);
         self.floating.take();
-        let effective = (self.factored)()?;
+        let effective = self.effective()?;
         let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(&*effective).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
@@ -181,7 +210,7 @@ impl<'a> Reduction<'a> {
             if !grow(&mut space, &factors, &mut blocks, least) {
                 if least <= LEAST_NEW {
                     let modes = space.ritz()?;
-                    return Ok(space.basis(&modes));
+                    return self.basis(space, &modes, &factors, tolerance);
                 }
                 // Repeats with a lower limit for the directions that were left out.
                 least = LEAST_NEW.max(NEW * least);
@@ -202,7 +231,7 @@ impl<'a> Reduction<'a> {
                 (change, reached) = (by, by * rate);
             }
             if reached <= tolerance || space.count() == self.assembled.dofs() {
-                return Ok(space.basis(&modes));
+                return self.basis(space, &modes, &factors, tolerance);
             }
             let left = i32::try_from(ROUNDS - round).unwrap_or(0);
             if 2 * round >= ROUNDS && reached * rate.powi(left) > tolerance {
@@ -210,7 +239,19 @@ impl<'a> Reduction<'a> {
             }
             last = Some(responses);
         }
-        Err(inaccurate(reached, tolerance, space.count()))
+        let vectors = space.count();
+        let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
+        Err(inaccurate(reached, tolerance, remedy))
+    }
+
+    /// Factored K_eff, with proportional damping if P–Δ alone makes it another.
+    pub(super) fn effective(&self) -> Result<Box<SparseFactor>> {
+        let Some([beta, alpha]) = self.without_p_delta else { return (self.factored)() };
+        let ([mass, _, stiffness], c) = (self.assembled.matrices(), self.coefficients);
+        let [a, d, k] = [c.acceleration[0], c.velocity[0], c.displacement[0]];
+        let terms = [(a + d * alpha, mass), (k + d * beta, stiffness)];
+        let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
+        SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination).map(Box::new)
     }
 
     /// Responses over the steps of the run to forces that grow over `smooth` steps.
@@ -293,8 +334,7 @@ fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
 }
 
 /// Error for reduced coordinates that do not reach a tolerance.
-pub(super) fn inaccurate(reached: f64, tolerance: f64, vectors: usize) -> Error {
+pub(super) fn inaccurate(reached: f64, tolerance: f64, remedy: String) -> Error {
     let quantity = "response of reduced coordinates to tractions";
-    let remedy = format!("with {vectors} vectors; damping in proportion to stiffness helps");
     Error::Accuracy { quantity, reached, tolerance, remedy }
 }

@@ -13,7 +13,7 @@ use crate::coupled::assembly::subspace::{Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::statics::compliance::Floating;
 use crate::error::Result;
-use crate::linalg::{SparseMatrix, lowest_modes};
+use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
 
 /// Growth of the limit of frequency of vibration modes, from a round to the next.
 const GROWTH: f64 = std::f64::consts::SQRT_2;
@@ -81,7 +81,7 @@ impl Reduction<'_> {
                 if round == 0 {
                     newest = add_static_responses(floating, &mut space, block);
                     block = space.inertia(newest, c.acceleration[0]);
-                    effective = Some((self.factored)()?);
+                    effective = Some(self.effective()?);
                 }
             }
             effective = effective.inspect(|factor| factor.solve_many(&mut block));
@@ -96,7 +96,7 @@ impl Reduction<'_> {
                     space.ritz_with((&block, newest), c, (&products, rows), least)?;
                 let by = self.smooth_responses(&modes, &all).difference(last, tolerance);
                 if by <= tolerance {
-                    return Ok(space.basis(fewer));
+                    return self.basis_of_many(space, fewer, effective, own, tolerance);
                 }
                 is_last = change.is_finite() && by * (by / change).clamp(FASTEST, 1.0) <= tolerance;
                 change = by;
@@ -106,12 +106,36 @@ impl Reduction<'_> {
             block = space.inertia(newest, c.acceleration[0]);
             let modes = space.ritz()?;
             if is_last || space.count() == self.assembled.dofs() {
-                return Ok(space.basis(&modes));
+                return self.basis_of_many(space, &modes, effective, own, tolerance);
             }
             products.extend(space.products(products.len() / count, rows));
             last = Some((self.smooth_responses(&modes, &products), modes));
         }
-        Err(inaccurate(change, tolerance, space.count()))
+        let (vectors, forces) = (space.count(), self.rows.counts[1]);
+        let remedy = format!(
+            "with {vectors} vectors; it has {forces} forces, and with more than 99 few powers of the effective stiffness are \
+             tried, by which section forces of stiff structures do not converge below it: ask for 1e-4, leave out such \
+             probes, or take the degrees of freedom"
+        );
+        Err(inaccurate(change, tolerance, remedy))
+    }
+
+    /// The modes in degrees of freedom; `own`: shift of the scheme.
+    fn basis_of_many(
+        &self,
+        space: Subspace<'_>,
+        modes: &Ritz,
+        effective: Option<Box<SparseFactor>>,
+        own: f64,
+        tolerance: f64,
+    ) -> Result<ModalBasis> {
+        if self.without_p_delta.is_none() {
+            return Ok(space.basis(modes));
+        }
+        let floating = self.on_springs(own)?;
+        let factors: Vec<_> =
+            effective.iter().map(|own| &**own).chain([&floating.factor]).collect();
+        self.basis(space, modes, &factors, tolerance)
     }
 
     /// Numbers of the rows of probes.

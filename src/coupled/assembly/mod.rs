@@ -11,10 +11,13 @@
 mod at_rest;
 mod backfilled;
 mod flexible_base;
+mod growing_weight;
 mod held_responses;
 mod initial_motion;
 mod krylov;
 mod many_forces;
+mod p_delta_damping;
+mod settled;
 mod static_stages;
 mod step_response;
 mod stepped;
@@ -317,7 +320,8 @@ impl SimulationBuilder {
     ///   damping, or a stiffness that is negative with the base held;
     /// * [`crate::Error::Item`] and [`crate::Error::DuplicateName`] for a probe of a degree of freedom that does
     ///   not exist or a name that occurs twice;
-    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0,
+    /// * [`crate::Error::Stability`] if the structure cannot stand under weight and the loads at t = 0, or buckles on its
+    ///   ground (P–Δ), without gravity and without a static state too;
     ///   [`crate::Error::Preload`] if no equilibrium was found for another reason;
     /// * [`crate::Error::CoarseBase`] for a flexible base on so few contact elements that twice as many change its
     ///   static shape by more than 30 %;

@@ -1,10 +1,15 @@
 //! Stages of the static state: weight, and then the loads at t = 0.
 
+use std::cell::Cell;
+
+use super::growing_weight::state_under_growing_weight;
+use super::settled::settle;
 use crate::coupled::gravity_stage::GravityStage;
+use crate::coupled::statics::buckling::has_p_delta;
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::stability::cause;
 use crate::coupled::statics::static_state::StaticState;
-use crate::error::{Error, LawError, Result};
+use crate::error::{Error, LawError, Result, StabilityError};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, PreviousContacts,
     Tolerance, law_of,
@@ -13,12 +18,6 @@ use crate::linalg::largest;
 
 /// Number of load increments if elements slide, since friction depends on the path.
 const INCREMENTS: usize = 10;
-
-/// Largest number of passes until state variables of laws are constant.
-const PASSES: usize = 10;
-
-/// Relative change of a state variable in the last pass that counts as rounding.
-const UNSETTLED: f64 = 1e-6;
 
 /// Tolerance of a law's conditions in a static state, relative to the largest pressure and displacement.
 const PLACED: f64 = 1e-6;
@@ -50,8 +49,11 @@ pub(super) fn placed(
         *mode = law_of(placing, e).modes()[0];
     }
     let place = Standing { frictionless: by_limits, ..*stage };
-    let found = settle(&place, placing, first.clone(), state, weight);
-    let (mut state, start) = found.map_err(|e| cause(&place, placing, weight, e))?;
+    let found = settle(&place, placing, first.clone(), state.clone(), weight);
+    let (mut state, start) = found.or_else(|error| {
+        let error = cause(&place, placing, weight, error);
+        state_under_growing_weight(&place, placing, (&first, state), weight, error)
+    })?;
     if is_smooth {
         check_placed(laws, &state, &start)?;
     }
@@ -104,11 +106,14 @@ fn under_growing_load(
     let begin = PreviousContacts::new(laws, &placed)?;
     let total =
         |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
+    let reached = Cell::new(0.0);
     let path = |increments: usize| -> Result<StaticState> {
         let (mut state, mut start) = (state.clone(), begin.clone());
+        reached.set(0.0);
         for k in 1..=increments {
-            let load = total(k as f64 / increments as f64);
-            (state, start) = settle(stage, laws, start, state, &load)?;
+            let share = k as f64 / increments as f64;
+            (state, start) = settle(stage, laws, start, state, &total(share))?;
+            reached.set(share);
         }
         state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
         Ok(state)
@@ -120,8 +125,20 @@ fn under_growing_load(
     };
     match path(1) {
         Ok(state) if !takes_a_path(&state) => Ok(state),
-        _ => path(INCREMENTS).map_err(|e| cause(stage, laws, &total(1.0), e)),
+        _ => path(INCREMENTS).map_err(|error| {
+            let error = cause(stage, laws, &total(1.0), error);
+            named_by_loads(stage, reached.get(), error)
+        }),
     }
+}
+
+/// The reason of `error`, if no other is known: a structure with P–Δ falls over beyond the share `reached` of its loads.
+fn named_by_loads(stage: &Standing<'_>, reached: f64, error: Error) -> Error {
+    if matches!(error, Error::Preload { .. }) && has_p_delta(stage.structure) {
+        let cause = StabilityError::Toppling { factor: reached, by_loads: true };
+        return Error::Stability(Box::new(cause));
+    }
+    error
 }
 
 /// Error for a static state, found without friction, that the law of a closed element cannot hold.
@@ -166,58 +183,4 @@ fn check_placed(
         return Err(Error::Law(LawError { element, mode: at_rest.word(), reason }));
     }
     Ok(())
-}
-
-/// Equilibrium under `load`, starting from `start` and `state`; returns the final state.
-///
-/// With state variables it is repeated until these are constant.
-fn settle(
-    stage: &Standing<'_>,
-    laws: &[Box<dyn InterfaceLaw>],
-    mut start: PreviousContacts,
-    mut state: StaticState,
-    load: &[f64],
-) -> Result<(StaticState, PreviousContacts)> {
-    let mut state_variables = start.state_variables().to_vec();
-    for pass in 1..=PASSES {
-        let contact;
-        (state, contact) = stage.equilibrium(laws, &start, state, load)?;
-        let mut seen = contact.clone();
-        if stage.frictionless {
-            // Laws see a base that sticks at its place.
-            state.modes.iter_mut().for_each(|mode| *mode = mode.sticking());
-            for (e, own) in seen.iter_mut().enumerate() {
-                let ContactState { slip, slip_across, .. } = *start.state(e);
-                (own.slip, own.slip_across) = (slip, slip_across);
-            }
-        }
-        start.update_state_variables(laws, &seen, &state.modes, &mut state_variables)?;
-        let is_settled = state_variables == start.state_variables();
-        if pass == PASSES && !is_settled {
-            check_settled(start.state_variables(), &state_variables)?;
-        }
-        start.advance(&contact, &state.modes, &state_variables);
-        start.slip_rates_mut().for_each(|rate| *rate = 0.0);
-        if is_settled {
-            break;
-        }
-    }
-    Ok((state, start))
-}
-
-/// Error for state variables that change at rest by more than rounding.
-fn check_settled(before: &[f64], now: &[f64]) -> Result<()> {
-    let changes = before.iter().zip(now).map(|(before, now)| {
-        let size = before.abs().max(now.abs());
-        if size > 0.0 { (now - before).abs() / size } else { 0.0 }
-    });
-    let change = changes.fold(0.0, f64::max);
-    if change <= UNSETTLED {
-        return Ok(());
-    }
-    let change = format!("by {:.2} % in the last of {PASSES} passes", 100.0 * change);
-    let reason = format!(
-        "its state variables do not settle under weight and loads at t = 0: they change {change}"
-    );
-    Err(Error::part("interface law", reason))
 }

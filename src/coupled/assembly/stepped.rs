@@ -24,6 +24,9 @@ const STEPS: usize = 4_000;
 
 /// Largest number of degrees of freedom of which all modes may replace Ritz modes that are not accurate.
 const SMALL: usize = 1_000;
+/// The same with many forces, where a tolerance below some 1e-4 is often beyond the Ritz modes: their computation takes
+/// seven seconds.
+const SMALL_OF_MANY_FORCES: usize = 2_500;
 
 /// Needs of [`Coordinates::Modes`].
 const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
@@ -87,8 +90,10 @@ impl Stepped {
                 let (held, floating) = reduction.unwrap_or_default();
                 let responses = (held, floating, &factored as &Factored<'_>);
                 let reduction = Reduction::new(parts, assembled, responses, steps)?;
+                let max_dofs =
+                    if reduction.has_many_forces() { SMALL_OF_MANY_FORCES } else { SMALL };
                 let modes = reduction.modes(tolerance);
-                Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, error))?)
+                Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, max_dofs, error))?)
             }
         };
         let (model, factor) = match chosen {
@@ -111,9 +116,9 @@ enum Chosen {
     Modes(ModalBasis),
 }
 
-/// All modes of a small structure for which fewer do not suffice; otherwise `error`.
-fn instead_of_few(assembled: &Assembled, error: Error) -> Result<ModalBasis> {
-    let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= SMALL;
+/// All modes of a structure of up to `max_dofs` degrees of freedom for which fewer do not suffice; otherwise `error`.
+fn instead_of_few(assembled: &Assembled, max_dofs: usize, error: Error) -> Result<ModalBasis> {
+    let is_small = matches!(error, Error::Accuracy { .. }) && assembled.dofs() <= max_dofs;
     let all = if is_small { vibration_modes(assembled) } else { None };
     all.ok_or(error)
 }

@@ -69,6 +69,16 @@ impl<'a> Subspace<'a> {
         space
     }
 
+    /// The same space with damping βK + αM in place of a damping that couples its modes.
+    pub(crate) fn with_proportional_damping(mut self, proportional: [f64; 2]) -> Self {
+        if self.proportional.is_none() {
+            self.proportional = Some(proportional);
+            self.projected[0] =
+                proportional_damping(&self.projected[1], self.count(), proportional);
+        }
+        self
+    }
+
     /// Number of vectors.
     pub(crate) fn count(&self) -> usize {
         self.rows.count()
@@ -248,6 +258,13 @@ impl<'a> Subspace<'a> {
         let mut shares = vec![0.0; products.len()];
         add_combined_rows(products, &modes.combinations, count, 1.0, &mut shares);
         shares
+    }
+
+    /// The modes of all vectors, a row each.
+    pub(crate) fn mode_rows(&self, modes: &Ritz) -> Vec<f64> {
+        let mut rows = vec![0.0; self.rows.vectors().len()];
+        add_combined_rows(&modes.combinations, self.rows.vectors(), self.order(), 1.0, &mut rows);
+        rows
     }
 
     /// The modes in degrees of freedom; of the first vectors, if some were added later.

@@ -175,6 +175,8 @@ pub(crate) struct ModalBasis {
     pub(crate) stiffness: Vec<f64>,
     /// c.
     pub(crate) damping: Vec<f64>,
+    /// Φᵀ C Φ, row-major, of Ritz modes that the damping couples; otherwise empty.
+    pub(crate) coupled_damping: Vec<f64>,
     /// Φ, row-major: a row per degree of freedom.
     vectors: Vec<f64>,
 }
@@ -184,7 +186,7 @@ impl ModalBasis {
     ///
     /// They include rigid translations with λ = 0.
     pub(crate) fn of(stiffness: Vec<f64>, damping: Vec<f64>, vectors: Vec<f64>) -> Self {
-        Self { stiffness, damping, vectors }
+        Self { stiffness, damping, coupled_damping: Vec::new(), vectors }
     }
 
     /// Weights by mode of a weighted sum of degrees of freedom.

@@ -103,6 +103,12 @@ impl Assembled {
         Some(StructureError::Buckling { factor }.into())
     }
 
+    /// β and α of a damping in proportion to the stiffness without P–Δ, and to the mass; `None` for any other.
+    pub(crate) fn damping_without_p_delta(&self, structure: &dyn Structure) -> Option<[f64; 2]> {
+        let elastic = LoadedStiffness::new(structure, &self.stiffness)?.at(0.0).ok()?;
+        combination(&self.damping, [&elastic, &self.mass])
+    }
+
     /// Error for a damping that is not positive semi-definite, unless it may be.
     ///
     /// `floating`: K + εM, if it is known to be positive definite. Proportional damping then needs no factor.
@@ -126,6 +132,11 @@ impl Assembled {
         let (linear, is_massive, elimination) =
             (self.linear, self.is_massive, self.elimination.clone());
         Self { linear, is_massive, mass, damping, stiffness, at_rest, base, influence, elimination }
+    }
+
+    /// The same structure with another stiffness beside its nonlinear force.
+    pub(crate) fn with_stiffness(&self, stiffness: SparseMatrix) -> Self {
+        Self { stiffness: Arc::new(stiffness), at_rest: None, ..self.on(self.base.clone()) }
     }
 
     /// Number of degrees of freedom.

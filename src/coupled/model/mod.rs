@@ -14,8 +14,8 @@ use crate::coupled::base::influence::Influence;
 use crate::coupled::base::transformation::{ModalBasis, Terms, Transformation};
 use crate::coupled::model::assembled::Assembled;
 use crate::error::Result;
-use crate::linalg::Elimination;
 use crate::linalg::matrix::{Diagonals, Matrix};
+use crate::linalg::{Elimination, SparseMatrix};
 use crate::structure::Structure;
 use std::sync::Arc;
 
@@ -59,15 +59,22 @@ impl Model {
     pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
         let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
         let influence = Arc::new(assembled.influence.converted(convert));
-        let damping = Matrix::Diagonal(modes.damping.clone());
+        let count = modes.count();
+        let damping = if modes.coupled_damping.is_empty() {
+            Matrix::Diagonal(modes.damping.clone())
+        } else {
+            let coupled = modes.coupled_damping.clone();
+            Matrix::Sparse(Arc::new(SparseMatrix::full(count, coupled)))
+        };
         Self {
-            coordinates: modes.count(),
-            mass: Matrix::Diagonal(vec![1.0; modes.count()]),
+            coordinates: count,
+            mass: Matrix::Diagonal(vec![1.0; count]),
             damped: !damping.is_empty(),
             damping,
             stiffness: Matrix::Diagonal(modes.stiffness.clone()),
             influence,
             transformation: Transformation::Modes(Arc::new(modes)),
+            elimination: Elimination::default(),
             ..self
         }
     }

@@ -106,9 +106,12 @@ impl Factor {
         SparseFactor::of(NAME, &matrix, &model.elimination).map(Box::new)
     }
 
-    /// Inverts K_eff of modes.
+    /// Inverts K_eff of modes, or factors it if the damping couples them.
     pub(crate) fn of_modes(model: &Model, coefficients: &SchemeCoefficients) -> Result<Self> {
         let tangent = SparseMatrix::default();
+        if model.diagonals().is_none() {
+            return Self::of_dofs(model, coefficients, &tangent).map(Self::Sparse);
+        }
         let mut inverse = effective_stiffness(model, coefficients, &tangent)?.diagonal();
         for k in &mut inverse {
             *k = 1.0 / *k;

@@ -33,6 +33,16 @@ pub(crate) fn check_signs(
     }
 }
 
+/// A symmetric matrix in which a spring of stiffness `penalty` replaces each Lagrange multiplier of a structure.
+pub(crate) fn with_constraints(
+    matrix: SparseMatrix,
+    [mass, damping, stiffness]: [&SparseMatrix; 3],
+    penalty: f64,
+) -> Result<SparseMatrix> {
+    let multipliers = multipliers(stiffness, [mass, damping]);
+    if multipliers.contains(&true) { constrain(&matrix, &multipliers, penalty) } else { Ok(matrix) }
+}
+
 /// Marks the degrees of freedom that are Lagrange multipliers.
 ///
 /// Multipliers are forces in others' equations, and their own equation is a constraint. Zeros are exact: a

@@ -37,6 +37,12 @@ const ROUNDING: f64 = 1e-6;
 /// Iterations after which only a slow decrease that the condition explains counts as rounding. Even a force below
 /// [`ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
 const LONG: usize = 20;
+/// Iterations on springs that must stay stiff (P–Δ) from one extrapolation to the next.
+const EXTRAPOLATION_INTERVAL: usize = 20;
+/// Smallest ratio of two successive steps from which they are extrapolated; with a smaller one they converge soon.
+const SLOWEST_RATIO: f64 = 0.5;
+/// Smallest squared cosine between two successive steps that are extrapolated.
+const COLLINEAR: f64 = 0.9999;
 
 /// A structure on a soil at rest.
 pub(crate) struct Standing<'a> {
@@ -75,6 +81,7 @@ impl Standing<'_> {
         let measure = Measure::new(assembled, load);
         let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
         let (mut change, mut iterations) = (f64::INFINITY, 0);
+        let mut last_step = Vec::new();
         while iterations < ITERATIONS {
             iterations += 1;
             tangent.refill(structure, &state.displacement)?;
@@ -91,6 +98,7 @@ impl Standing<'_> {
             let Some(displacement) = found else { break };
             let pull = springs.force(assembled, &displacement, &state.displacement);
             let previous = std::mem::replace(&mut change, measure.norm(&pull));
+            let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
             if has_converged([previous, change], iterations, current) {
@@ -112,7 +120,12 @@ impl Standing<'_> {
             if change > rounding.max(SLOW * previous) && springs.soften() {
                 compliance = None;
                 solver.invalidate();
+            } else if springs.stay_stiff() && iterations.is_multiple_of(EXTRAPOLATION_INTERVAL) {
+                // Close to buckling one shape converges slowly.
+                let factor = extrapolation(&assembled.mass, &last_step, &step);
+                state.displacement.iter_mut().zip(&step).for_each(|(u, d)| *u += factor * d);
             }
+            last_step = step;
         }
         // With the initial springs: softened springs leave a matrix of rounding, which has no condition.
         let first = Floating::new(assembled, &tangent.matrix, stiffest);
@@ -232,10 +245,15 @@ struct Springs {
 impl Springs {
     /// Force of the springs between two displacements.
     fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
-        let moved: Vec<f64> = to.iter().zip(from).map(|(a, b)| a - b).collect();
+        let moved = difference(to, from);
         let mut force = vec![0.0; moved.len()];
         assembled.mass.multiply_add(self.stiffness, &moved, &mut force);
         force
+    }
+
+    /// Whether softer springs would not hold the structure.
+    fn stay_stiff(&self) -> bool {
+        self.softest == self.stiffness
     }
 
     /// Softens the springs tenfold; `false` if they are as soft as allowed.
@@ -246,6 +264,26 @@ impl Springs {
         }
         softens
     }
+}
+
+fn difference(to: &[f64], from: &[f64]) -> Vec<f64> {
+    to.iter().zip(from).map(|(a, b)| a - b).collect()
+}
+
+/// Further steps to the limit of a geometric series with these two steps, in multiples of the last one (Aitken 1926).
+///
+/// Zero for steps that are no such series yet, grow, or become small quickly. Contact that opens on the way moves the limit
+/// further away, so that the series does not pass an equilibrium from which the structure falls over.
+fn extrapolation(mass: &SparseMatrix, before: &[f64], last: &[f64]) -> f64 {
+    if before.len() != last.len() {
+        return 0.0;
+    }
+    let squares = [mass.form(before, before), mass.form(last, last)];
+    let product = mass.form(before, last);
+    let ratio = product / squares[0];
+    let is_series = product > 0.0 && product * product > COLLINEAR * squares[0] * squares[1];
+    let is_slow = ratio > SLOWEST_RATIO && ratio < 1.0 - f64::EPSILON.sqrt();
+    if is_series && is_slow { ratio / (1.0 - ratio) } else { 0.0 }
 }
 
 /// Whether the last two forces of the springs, relative to the load, show convergence.

@@ -1,5 +1,6 @@
 //! The static state: equilibrium on the ground, and reasons for its absence.
 
+pub(crate) mod buckling;
 pub(crate) mod compliance;
 pub(crate) mod equilibrium;
 mod loaded_part;

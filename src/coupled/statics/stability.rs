@@ -6,22 +6,16 @@
 //! | r | displacements when the contact nodes follow that motion and all else follows them |
 
 use crate::coupled::base::faces::hull;
-use crate::coupled::model::load_factor::LoadedStiffness;
 use crate::coupled::model::mechanism::{Regular, unresisted};
 use crate::coupled::model::signs::FIRMLY;
+use crate::coupled::statics::buckling::{Grounded, load_factor};
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::loaded_part::LoadedPart;
 use crate::coupled::statics::strength::Strength;
 use crate::error::{Error, StabilityError};
 use crate::geometry::{Edge, middle, resultant, span};
 use crate::interface::{InterfaceLaw, LawForm, law_of};
-use crate::linalg::{Elimination, SparseFactor, SparseMatrix, Triplets, dot};
-use crate::structure::DofCombination;
-
-/// Load factor below which a structure has no equilibrium because it buckles, or is too close to it.
-const VERGE_OF_BUCKLING: f64 = 1.1;
-
-const SOIL: &str = "stiffness matrix on the ground";
+use crate::linalg::{SparseFactor, dot};
 
 /// The cause of `error`, that there is no equilibrium under `load`; `error` itself if it is unknown.
 pub(crate) fn cause(
@@ -34,7 +28,8 @@ pub(crate) fn cause(
     if !matches!(error, Preload { .. } | IllConditioned { .. } | Singular { .. }) {
         return error;
     }
-    let Standing { assembled, structure, .. } = *stage;
+    let Standing { assembled, structure, soil, .. } = *stage;
+    let grounded = Grounded { assembled, structure, soil, laws };
     let at_rest = assembled.at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
     let others = [&*assembled.damping, &assembled.mass];
@@ -42,7 +37,7 @@ pub(crate) fn cause(
     at_rest
         .mechanism()
         .or_else(|| if is_singular { massless() } else { None })
-        .or_else(|| buckling(stage))
+        .or_else(|| load_factor(grounded).map(|factor| StabilityError::Buckling { factor }))
         .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
@@ -90,43 +85,6 @@ fn resultants(
         };
         part.failure()
     })
-}
-
-/// Load factor at which a structure with P–Δ buckles or falls over with its base bonded to the ground.
-///
-/// `None` if it stands, without P–Δ, and for a ground whose static compliance has no inverse.
-fn buckling(stage: &Standing<'_>) -> Option<StabilityError> {
-    let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    let size = base.layout().len();
-    let soil = SparseFactor::of(
-        SOIL,
-        &SparseMatrix::full(size, stage.soil.to_vec()),
-        &Elimination::default(),
-    )
-    .ok()?;
-    // Rows of the inverse: tractions by displacements of the elements.
-    let mut inverse = vec![0.0; size * size];
-    inverse.iter_mut().step_by(size + 1).for_each(|entry| *entry = 1.0);
-    soil.solve_many(&mut inverse);
-    let rows: Vec<DofCombination> = (0..size).map(|i| base.mean_row(i)).collect();
-    let mut on_ground = Triplets::new(assembled.dofs());
-    for (j, column) in inverse.chunks_exact(size).enumerate() {
-        for (i, traction) in column.iter().enumerate() {
-            let stiffness = base.area(i) * traction;
-            for &(dof, weight) in &rows[i] {
-                let terms = rows[j].iter();
-                on_ground.extend(terms.map(|(other, by)| (dof, *other, weight * stiffness * by)));
-            }
-        }
-    }
-    let on_ground = SparseMatrix::new(SOIL, &on_ground).ok()?;
-    let stands = |stiffness: &SparseMatrix| {
-        let sum = [(1.0, stiffness), (1.0, &on_ground)];
-        let sum = SparseMatrix::sum(SOIL, assembled.dofs(), &sum);
-        sum.and_then(|sum| SparseFactor::positive_definite(SOIL, &sum)).is_ok()
-    };
-    let loaded = LoadedStiffness::new(stage.structure, assembled.stiffness_at_rest())?;
-    loaded.factor(VERGE_OF_BUCKLING, stands).map(|factor| StabilityError::Buckling { factor })
 }
 
 /// Work of a load on the displacements that these forces cause.

@@ -93,6 +93,14 @@ pub(crate) fn bond_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Option<f64>
     strengths.into_iter().filter(|strength| *strength > 0.0).reduce(f64::min)
 }
 
+/// Elastic opening and slip per traction of a law on an element that has not moved so far, m/Pa.
+pub(crate) fn compliance_at_rest(law: &dyn InterfaceLaw) -> [f64; 2] {
+    let start = PreviousContact::new(ContactState::default(), Mode::Stick, 1.0);
+    let state_variables = start.first_state_variables(law);
+    let compliance = law.compliance(Mode::Stick, &start.with_state_variables(&state_variables));
+    compliance.map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 })
+}
+
 /// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
 /// before.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {

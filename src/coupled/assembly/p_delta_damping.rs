@@ -1,0 +1,60 @@
+//! Reduced coordinates with damping in proportion to mass and to the stiffness without P–Δ.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | K, G | stiffness with P–Δ, and the part of it that is P–Δ |
+//! | C | damping β(K − G) + αM |
+//! | Φ, ω | Ritz modes of M and K, and their circular frequencies |
+//! | Z | K_eff, or K + σ²M |
+//!
+//! C couples the modes by −βG alone. The space is found, and its tolerance checked, with the damping βK + αM. The forces −βG of
+//! the modes' velocities act on all degrees of freedom. The space therefore receives the responses Z⁻¹βGΦω to them.
+
+use crate::coupled::assembly::krylov::Reduction;
+use crate::coupled::assembly::subspace::{Ritz, Subspace};
+use crate::coupled::base::transformation::ModalBasis;
+use crate::error::Result;
+use crate::linalg::{SparseFactor, SparseMatrix, symmetric_products};
+
+/// Length of responses to the coupling that are left out, relative to the mode and to the root of the tolerance.
+///
+/// Forces and probes respond to the square of what is left out.
+const LEFT_OUT: f64 = 0.1;
+
+impl Reduction<'_> {
+    /// The modes in degrees of freedom, with responses to the coupling by damping; `factors`: of Z.
+    pub(super) fn basis(
+        &self,
+        mut space: Subspace<'_>,
+        modes: &Ritz,
+        factors: &[&SparseFactor],
+        tolerance: f64,
+    ) -> Result<ModalBasis> {
+        let Some([beta, alpha]) = self.without_p_delta else { return Ok(space.basis(modes)) };
+        let [mass, damping, stiffness] = self.assembled.matrices();
+        let order = mass.order();
+        let terms = [(1.0, damping), (-beta, stiffness), (-alpha, mass)];
+        let coupling = SparseMatrix::sum("damping matrix of P–Δ", order, &terms)?;
+        // The space may have grown since.
+        let modes = space.ritz()?;
+        // A step follows no faster motion.
+        let c = self.coefficients;
+        let fastest = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
+        let mut forces = coupling.times(&space.mode_rows(&modes));
+        for (force, square) in forces.chunks_exact_mut(order).zip(&modes.stiffness) {
+            let frequency = square.max(0.0).sqrt().min(fastest);
+            force.iter_mut().for_each(|value| *value *= frequency);
+        }
+        for factor in factors {
+            let mut block = forces.clone();
+            factor.solve_many(&mut block);
+            space.extend_by_length(block, LEFT_OUT * tolerance.sqrt());
+        }
+        let modes = space.ritz()?;
+        let rows = space.mode_rows(&modes);
+        let coupled_damping = symmetric_products(&damping.times(&rows), &rows, order);
+        let mut basis = space.basis(&modes);
+        basis.coupled_damping = coupled_damping;
+        Ok(basis)
+    }
+}
