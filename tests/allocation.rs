@@ -118,6 +118,16 @@ fn on_many_cells(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
     Simulation::builder(5e-4).ground(ground).structure(body).interface(law).motion(motion)
 }
 
+/// The same on a bed of many springs, which needs no matrices between its elements.
+fn on_a_bed(law: impl InterfaceLaw + 'static) -> SimulationBuilder {
+    let body = RigidBody::cuboid([4.0, 4.0, 6.0], 1500.0).unwrap();
+    let ground = SpringGround::under(&body, 12, 5e7, 4e7).unwrap();
+    let shake = || Some(el_centro_1940().scaled(2.0).unwrap());
+    let motion = Triaxial { x: shake(), y: shake(), up: None };
+    let ground = ground.with_dashpots(5e5, 5e5).unwrap();
+    Simulation::builder(5e-3).ground(ground).structure(body).interface(law).motion(motion)
+}
+
 #[test]
 fn steps_do_not_allocate() {
     // The counter counts.
@@ -164,6 +174,8 @@ fn steps_do_not_allocate() {
         ("plan, sliding", in_plan(friction(0.3))),
         ("plan, uplift", in_plan(friction(2.0))),
         ("plan, many cells", on_many_cells(friction(0.3))),
+        ("plan, bed", on_a_bed(friction(0.3))),
+        ("plan, bed, uplift", on_a_bed(friction(f64::INFINITY))),
         ("plan, yielding", in_plan(Yielding::new(2.5e5, 0.3).unwrap())),
         ("plan, bonds", in_plan(Cohesive::new(5e4, 5e4, 0.3).unwrap())),
         ("Newton", base().structure(Quadratic(block(SI))).interface(friction(0.3))),

@@ -3,19 +3,22 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::linalg::Thinned;
-use crate::linalg::{dense_multiply_add, transposed_multiply_add};
+use super::on_bed::OnBed;
+use crate::linalg::{Thinned, dense_condition, dense_multiply_add, transposed_multiply_add};
 
 /// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
-const RANK: usize = 64;
+pub(crate) const MAX_STRUCTURE_RANK: usize = 64;
 
-/// W, row-major: the sum of the soil's step compliance G¹ and the compliance of the structure's base.
+/// W: the sum of the soil's step compliance G¹ and the compliance of the structure's base.
+///
+/// As a slice it is all entries, row by row; it is empty on a bed of many springs, whose entries are not stored.
 #[derive(Debug, Clone)]
 pub(crate) struct Delassus {
     values: Vec<f64>,
     /// G¹, if the values are its sum with another part.
     soil: Option<Arc<Thinned>>,
     split: Option<Split>,
+    on_bed: Option<OnBed>,
 }
 
 /// W = G¹ + B C for a mostly zero G¹ and a structure with few degrees of freedom.
@@ -28,7 +31,13 @@ struct Split {
 
 impl From<Vec<f64>> for Delassus {
     fn from(values: Vec<f64>) -> Self {
-        Self { values, soil: None, split: None }
+        Self { values, soil: None, split: None, on_bed: None }
+    }
+}
+
+impl From<OnBed> for Delassus {
+    fn from(on_bed: OnBed) -> Self {
+        Self { on_bed: Some(on_bed), ..Self::from(vec![]) }
     }
 }
 
@@ -41,21 +50,26 @@ impl Deref for Delassus {
 }
 
 impl Delassus {
-    /// Delassus operator `values` = `soil` + B C.
+    /// This operator, whose values are `soil` + B C, for quick products.
     ///
     /// `columns` holds C column by column; `means` multiplies a vector by B.
-    pub(crate) fn new(
-        values: Vec<f64>,
+    pub(crate) fn with_parts(
+        self,
         soil: &Arc<Thinned>,
         columns: &[f64],
         means: impl Fn(&[f64], &mut [f64]),
     ) -> Self {
+        if self.on_bed.is_some() {
+            return self;
+        }
+        let values = self.values;
         let size = values.len().isqrt();
         let rank = columns.len() / size.max(1);
+        let whole = Self { soil: Some(Arc::clone(soil)), ..Self::from(values) };
         // The split needs two thin products and the soil's; it is used only if it reads far fewer values than
         // W has.
-        if rank > RANK || soil.stored() + 2 * columns.len() > values.len() / 4 {
-            return Self { values, soil: Some(Arc::clone(soil)), split: None };
+        if rank > MAX_STRUCTURE_RANK || soil.stored() + 2 * columns.len() > whole.len() / 4 {
+            return whole;
         }
         let mut rows = vec![0.0; columns.len()];
         let (mut unit, mut column) = (vec![0.0; rank], vec![0.0; size]);
@@ -66,7 +80,7 @@ impl Delassus {
             rows.chunks_exact_mut(rank).zip(&column).for_each(|(row, mean)| row[j] = *mean);
         }
         let split = Split { means: rows, columns: columns.to_vec() };
-        Self { values, soil: Some(Arc::clone(soil)), split: Some(split) }
+        Self { split: Some(split), ..whole }
     }
 
     /// Replaces the values by as many others, without allocating.
@@ -80,12 +94,36 @@ impl Delassus {
         self.soil.as_deref()
     }
 
+    /// W on a bed of many springs, whose entries are not stored.
+    pub(crate) fn on_bed(&self) -> Option<&OnBed> {
+        self.on_bed.as_ref()
+    }
+
+    /// Entry on the diagonal of W of this order.
+    pub(crate) fn diagonal(&self, order: usize, place: usize) -> f64 {
+        match &self.on_bed {
+            Some(on_bed) => on_bed.diagonal(place),
+            None => self.values[place * (order + 1)],
+        }
+    }
+
+    /// Condition of W of this order, scaled by its diagonal.
+    pub(crate) fn condition(&self, order: usize) -> f64 {
+        match &self.on_bed {
+            Some(on_bed) => on_bed.condition(),
+            None => dense_condition(&self.values, order),
+        }
+    }
+
     /// jump ← jump + W τ.
     pub(crate) fn multiply_add(&self, traction: &[f64], jump: &mut [f64]) {
+        if let Some(on_bed) = &self.on_bed {
+            return on_bed.multiply_add(traction, jump);
+        }
         let (Some(soil), Some(Split { means, columns })) = (&self.soil, &self.split) else {
             return dense_multiply_add(&self.values, 1.0, traction, jump);
         };
-        let mut answer = [0.0; RANK];
+        let mut answer = [0.0; MAX_STRUCTURE_RANK];
         let answer = &mut answer[..columns.len() / traction.len().max(1)];
         soil.multiply_add(traction, jump);
         transposed_multiply_add(columns, 1.0, traction, answer);
@@ -116,11 +154,11 @@ mod tests {
             }
         }
         let whole = Delassus::from(values.clone());
-        let split =
-            Delassus::new(values, &Arc::new(Thinned::new(soil, size)), &columns, |x, out| {
-                out.fill(0.0);
-                dense_multiply_add(&means, 1.0, x, out);
-            });
+        let soil = Arc::new(Thinned::new(soil, size));
+        let split = Delassus::from(values).with_parts(&soil, &columns, |x, out| {
+            out.fill(0.0);
+            dense_multiply_add(&means, 1.0, x, out);
+        });
         assert!(split.split.is_some());
         let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
         let [mut a, mut b] = [(); 2].map(|()| vec![1.0; size]);

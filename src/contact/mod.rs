@@ -7,12 +7,14 @@ mod cone;
 mod contact_problem;
 mod delassus;
 mod element;
+mod on_bed;
 mod path;
 mod problem;
 mod search;
 
 pub use contact_problem::{ContactProblem, ContactSolution};
-pub(crate) use delassus::Delassus;
+pub(crate) use delassus::{Delassus, MAX_STRUCTURE_RANK};
+pub(crate) use on_bed::{OnBed, StructurePart};
 pub(crate) use problem::{ContactInput, ContactSolver};
 pub(crate) use search::ModeSearch;
 

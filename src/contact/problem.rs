@@ -209,7 +209,7 @@ impl ContactSolver {
         laws: &[Box<dyn InterfaceLaw>],
     ) -> Result<f64, LawError> {
         if self.is_plan() {
-            return Ok(dense_condition(delassus, self.layout.len()));
+            return Ok(delassus.condition(self.layout.len()));
         }
         let input = ContactInput {
             delassus,

@@ -88,7 +88,11 @@ pub(crate) fn conditioning(
     let size = scene.layout().len();
     let c = &scene.coefficients;
     let effective_stiffness = operators.condition(&scene.model, c)?;
-    let ground = dense_condition(&scene.soil, size);
+    let ground = match scene.soil.as_diagonal() {
+        // Scaled by its diagonal.
+        Some(_) => 1.0,
+        None => dense_condition(&scene.soil, size),
+    };
     let delassus = contact.condition_at_rest(
         &operators.delassus,
         &scene.static_state.traction,
@@ -139,10 +143,9 @@ fn cause_of_delassus(
     ground: f64,
 ) -> (&'static str, f64) {
     let size = scene.layout().len();
-    let place = |i: usize| i * (size + 1);
     let against = |i: usize| {
-        let own = scene.soil[place(i)].abs();
-        (operators.delassus[place(i)] - scene.soil[place(i)]).abs() / own
+        let own = scene.soil.diagonal(size, i);
+        (operators.delassus.diagonal(size, i) - own).abs() / own.abs()
     };
     let ratio = (0..size).map(against).fold(0.0, f64::max);
     if ratio >= EXPLAINED * condition.min(SINGULAR) {

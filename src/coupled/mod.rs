@@ -72,6 +72,7 @@
 
 pub(crate) mod assembly;
 pub(crate) mod base;
+mod bed_compliance;
 mod checkpoint;
 mod conditioning;
 mod convergent_step;

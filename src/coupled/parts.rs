@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::bem::{Ground, GroundDescription, free_field};
 use crate::contact::ContactSearch;
 use crate::coupled::base::held::held;
+use crate::coupled::bed_compliance::{self, STEP_COMPLIANCE};
 use crate::coupled::coordinates::Coordinates;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::ground_order::is_first_order;
@@ -16,7 +17,7 @@ use crate::error::{
     Error, Progress, Result, all_finite, finite, memory, not_negative, positive, require,
     require_part, same_length, unobserved,
 };
-use crate::geometry::{Patch, lattice_cells};
+use crate::geometry::{Patch, check_count, lattice_cells};
 use crate::interface::{
     Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
@@ -166,7 +167,12 @@ impl Parts {
             .ground
             .take()
             .ok_or(missing("ground", "give one to the builder with `ground`"))?;
-        let elements = Patch::new(ground.elements().to_vec())?;
+        let elements = Patch::of_any_count(ground.elements().to_vec())?;
+        let components = elements.layout().components();
+        // A bed may be known only once it is prepared.
+        if matches!(ground.diagonal_compliance(), Ok(None)) {
+            check_count(elements.len(), components)?;
+        }
         if given.held {
             given.laws = vec![Box::new(Bonded)];
             (structure, ground) = held(structure, &elements, time_step)?;
@@ -198,7 +204,14 @@ impl Parts {
             !given.held && is_first_order(ground.as_mut(), &description, time_step, layout)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
-        let soil = Arc::new(instantaneous_operator(ground.as_ref(), &elements)?);
+        let soil = match bed_compliance::of_bed(ground.as_ref(), structure.as_ref(), &elements)? {
+            Some(diagonal) => Thinned::of_diagonal(diagonal),
+            None => {
+                check_count(elements.len(), components)?;
+                instantaneous_operator(ground.as_ref(), &elements)?
+            }
+        };
+        let soil = Arc::new(soil);
         Ok(Self {
             structure,
             ground,
@@ -267,13 +280,12 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
 ///
 /// With rows weighted by the elements' areas, its symmetric part must not be negative.
 fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinned> {
-    const NAME: &str = "instantaneous operator of the ground";
     let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
     ground.step_compliance(&mut operator)?;
     elements.refer_inside(&mut operator);
-    all_finite(NAME, &operator)?;
+    all_finite(STEP_COMPLIANCE, &operator)?;
     let area = |i: usize| areas[layout.origin(i)[1]];
     let scale: Vec<f64> = (0..size)
         .map(|i| (area(i) * operator[i * (size + 1)].abs()).sqrt())
@@ -294,7 +306,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinn
         }),
         Some(row) => {
             let diagonal = operator[row * (size + 1)];
-            Err(Error::Indefinite { matrix: NAME, row, diagonal })
+            Err(Error::Indefinite { matrix: STEP_COMPLIANCE, row, diagonal })
         }
     }
 }

@@ -19,8 +19,14 @@ impl Patch {
     /// Elements of a ground.
     ///
     /// Returns an error unless all elements have a size and equally many directions, and none overlap; in the plane
-    /// they must also run from left to right.
+    /// they must also run from left to right. Returns an error for more elements than matrices between all of them allow.
     pub(crate) fn new(elements: Vec<ContactElement>) -> Result<Self> {
+        check_count(elements.len(), elements.first().map_or(PLANE, |own| own.directions().len()))?;
+        Self::of_any_count(elements)
+    }
+
+    /// The same, but in plan for any number of elements.
+    pub(crate) fn of_any_count(elements: Vec<ContactElement>) -> Result<Self> {
         let count = |element: &ContactElement| element.directions().len();
         if elements.windows(2).any(|pair| count(&pair[0]) != count(&pair[1])) {
             return Err(Error::Scene {
@@ -130,16 +136,16 @@ pub(crate) fn check_count(count: usize, components: usize) -> std::result::Resul
     memory::check("contact elements", count, BYTES_PER_PAIR * numbers * numbers)
 }
 
-/// Error unless each element has a size, and there are not too many.
-fn check_sizes(elements: &[ContactElement], components: usize) -> Result<()> {
+/// Error unless there are elements, and each has a size.
+fn check_sizes(elements: &[ContactElement]) -> Result<()> {
     at_least("list of contact elements", elements.len(), 1)?;
-    check_count(elements.len(), components)?;
     elements.iter().try_for_each(ContactElement::check)
 }
 
 /// Error unless the elements are in the plane and have positive length, in order, without overlap.
 pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
-    check_sizes(elements, PLANE)?;
+    check_count(elements.len(), PLANE)?;
+    check_sizes(elements)?;
     if elements.iter().any(|element| element.directions().len() != PLANE) {
         return Err(Error::Scene {
             quantity: "contact elements",
@@ -157,7 +163,7 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
 
 /// Error unless the rectangles have a size and do not overlap.
 fn check_cells(elements: &[ContactElement]) -> Result<()> {
-    check_sizes(elements, SPACE)?;
+    check_sizes(elements)?;
     // Sorted by left ends: an element that begins beyond another's right end cannot overlap it.
     let mut order: Vec<_> = elements.iter().collect();
     order.sort_by(|one, other| one.left().total_cmp(&other.left()));

@@ -8,20 +8,21 @@
 
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
-/// Largest number of solves of the estimator, with A and with Aᵀ.
+/// Largest number of products of the estimator, with B and with Bᵀ.
 const ITERATIONS: usize = 5;
 
-/// Estimate of ‖A⁻¹‖₁ from `solve(b, transposed)`, which overwrites b with A⁻¹ b or A⁻ᵀ b.
+/// Estimate of ‖B‖₁ from `multiply(b, transposed)`, which overwrites b with B b or Bᵀ b; B is the inverse of a matrix, or
+/// the matrix.
 ///
 /// Hager's algorithm with Higham's refinements (Higham 2002, algorithm 15.4; LAPACK's dlacn2): a
-/// lower bound, nearly always within a factor of three. Infinite if a solve is not finite.
-fn inverse_norm(order: usize, solve: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
+/// lower bound, nearly always within a factor of three. Infinite if a product is not finite.
+fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / order as f64; order];
     let mut signs = vec![0.0; order];
     let mut estimate = 0.0_f64;
     let mut place = usize::MAX;
     for iteration in 0..ITERATIONS {
-        solve(&mut x, false);
+        multiply(&mut x, false);
         let norm: f64 = x.iter().map(|x| x.abs()).sum();
         if !norm.is_finite() {
             return f64::INFINITY;
@@ -34,7 +35,7 @@ fn inverse_norm(order: usize, solve: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         estimate = norm;
         signs.iter_mut().zip(&x).for_each(|(s, x)| *s = x.signum());
         x.copy_from_slice(&signs);
-        solve(&mut x, true);
+        multiply(&mut x, true);
         let best = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
         if best == place {
             break;
@@ -49,7 +50,7 @@ fn inverse_norm(order: usize, solve: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
         *x = sign * (1.0 + i as f64 / last);
     }
-    solve(&mut x, false);
+    multiply(&mut x, false);
     let other: f64 = x.iter().map(|x| x.abs()).sum::<f64>() * 2.0 / (3.0 * order as f64);
     if other.is_finite() { estimate.max(other) } else { f64::INFINITY }
 }
@@ -79,8 +80,30 @@ pub(crate) fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if !factor.factor(&scaled, order) {
         return f64::INFINITY;
     }
-    norm * inverse_norm(order, &mut |x, transposed| {
+    norm * one_norm(order, &mut |x, transposed| {
         if transposed { factor.solve_transposed(x) } else { factor.solve(x) }
+    })
+}
+
+/// Condition number of a matrix A with this diagonal, scaled by it, in the 1-norm; both norms are estimates.
+///
+/// `multiply` and `solve` overwrite b with A b and A⁻¹ b, or with Aᵀ b and A⁻ᵀ b if their flag is set.
+pub(crate) fn condition_by_products(
+    diagonal: &[f64],
+    multiply: impl Fn(&mut [f64], bool),
+    mut solve: impl FnMut(&mut [f64], bool),
+) -> f64 {
+    let scales = scales(diagonal.iter().copied());
+    let reciprocals: Vec<f64> = scales.iter().map(|scale| scale.recip()).collect();
+    let norm = one_norm(diagonal.len(), &mut |x, transposed| {
+        scale(x, &reciprocals);
+        multiply(x, transposed);
+        scale(x, &reciprocals);
+    });
+    norm * one_norm(diagonal.len(), &mut |x, transposed| {
+        scale(x, &scales);
+        solve(x, transposed);
+        scale(x, &scales);
     })
 }
 
@@ -93,7 +116,7 @@ pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> 
         columns[column] += value.abs() / (scales[row] * scales[column]);
     }
     let norm = columns.into_iter().fold(0.0, f64::max);
-    norm * inverse_norm(order, &mut |x, transposed| {
+    norm * one_norm(order, &mut |x, transposed| {
         scale(x, &scales);
         if transposed {
             factor.solve_transposed(x);

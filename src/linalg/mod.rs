@@ -20,6 +20,7 @@ pub(crate) mod matrix;
 mod number;
 pub(crate) mod orthonormal;
 mod partition;
+mod pivoted_cholesky;
 mod product;
 mod sparse;
 mod symmetry;
@@ -29,7 +30,7 @@ mod triplets;
 #[cfg(feature = "embedded")]
 pub(crate) use block::Block;
 pub use complex::Complex;
-pub(crate) use condition::{dense_condition, sparse_condition};
+pub(crate) use condition::{condition_by_products, dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
 pub(crate) use elimination::Elimination;
@@ -41,6 +42,7 @@ pub(crate) use lowest_modes::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
 pub(crate) use number::Number;
 pub(crate) use partition::Partition;
+pub(crate) use pivoted_cholesky::pivoted_cholesky;
 pub(crate) use product::{
     Dot, Scalar, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot,
     largest, magnitude, mixed, mixing_weight, row_products, symmetric_products,

@@ -1,4 +1,4 @@
-//! A dense matrix whose products leave out what they can.
+//! A square matrix whose products leave out what they can.
 
 use std::ops::Deref;
 
@@ -7,13 +7,14 @@ use super::{LatticeProduct, LatticeScratch, SparseMatrix, Triplets, dense_multip
 /// Smallest number of elements on a lattice for which products transform along the surface.
 const LATTICE_FROM: usize = 36;
 
-/// A dense square matrix, row-major.
+/// A square matrix: all entries, row by row, or a diagonal.
 ///
 /// If most entries are zero, the others are stored as sparse. Three components of many elements on a lattice are
-/// multiplied by transforms along the surface.
+/// multiplied by transforms along the surface. As a slice it is all entries, of a diagonal matrix the diagonal.
 #[derive(Debug)]
 pub(crate) struct Thinned {
     values: Vec<f64>,
+    is_diagonal: bool,
     entries: Option<SparseMatrix>,
     lattice: Option<LatticeProduct>,
 }
@@ -31,7 +32,35 @@ impl Thinned {
                 SparseMatrix::new("instantaneous operator of the ground", &entries).ok()
             })
             .flatten();
-        Self { values, entries, lattice: None }
+        Self { entries, ..Self::full(values) }
+    }
+
+    /// Matrix of these entries, all of which are multiplied.
+    pub(crate) fn full(values: Vec<f64>) -> Self {
+        Self { values, is_diagonal: false, entries: None, lattice: None }
+    }
+
+    /// Diagonal matrix, of which only the diagonal is stored.
+    pub(crate) fn of_diagonal(diagonal: Vec<f64>) -> Self {
+        Self { is_diagonal: true, ..Self::full(diagonal) }
+    }
+
+    /// The diagonal, if nothing else is stored.
+    pub(crate) fn as_diagonal(&self) -> Option<&[f64]> {
+        self.is_diagonal.then_some(&self.values)
+    }
+
+    /// Entry on the diagonal of this matrix of `order`.
+    pub(crate) fn diagonal(&self, order: usize, place: usize) -> f64 {
+        self.values[if self.is_diagonal { place } else { place * (order + 1) }]
+    }
+
+    /// All entries of this matrix of `order`, row by row.
+    pub(crate) fn filled(&self, order: usize) -> Vec<f64> {
+        let Some(diagonal) = self.as_diagonal() else { return self.values.clone() };
+        let mut all = vec![0.0; order * order];
+        all.iter_mut().step_by(order + 1).zip(diagonal).for_each(|(entry, own)| *entry = *own);
+        all
     }
 
     /// Matrix of three components of elements with these `areas` on `cells` of a lattice, component by component.
@@ -69,6 +98,10 @@ impl Thinned {
 
     /// y ← y + A x.
     pub(crate) fn multiply_add(&self, x: &[f64], y: &mut [f64]) {
+        if let Some(diagonal) = self.as_diagonal() {
+            y.iter_mut().zip(diagonal).zip(x).for_each(|((y, own), x)| *y += own * x);
+            return;
+        }
         match &self.entries {
             Some(entries) => entries.multiply_add(1.0, x, y),
             None => dense_multiply_add(&self.values, 1.0, x, y),

@@ -10,6 +10,7 @@ mod finite_elements;
 mod interaction;
 mod landing;
 mod limits;
+mod many_springs;
 mod march;
 mod mast;
 mod model_pictures;

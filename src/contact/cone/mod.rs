@@ -21,6 +21,8 @@
 mod acceleration;
 mod blocks;
 mod group;
+mod low_rank;
+mod low_rank_system;
 mod modes;
 mod newton;
 mod problem;
@@ -33,8 +35,8 @@ mod system;
 mod tests;
 mod wide;
 
-use super::SearchMethod;
 use super::problem::{ContactInput, ContactSolver};
+use super::{OnBed, SearchMethod};
 use crate::error::{LawError, StepError};
 use crate::geometry::{ContactLayout, SPACE};
 use crate::interface::{Limits, Mode};
@@ -74,8 +76,8 @@ impl Cone {
     pub(super) fn new(areas: &[f64], is_linear: bool) -> Self {
         let count = areas.len();
         Self {
-            problem: Problem::new(count),
-            newton: Newton::new(count),
+            problem: Problem::on_bed(count),
+            newton: Newton::on_bed(count),
             proximal: Proximal::new(count),
             areas: areas.to_vec(),
             layers: vec![[0.0; 2]; count],
@@ -142,7 +144,8 @@ impl Cone {
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
-        if self.problem.blocks.is_none() && self.problem.wide.is_none() {
+        let Problem { blocks, wide, low_rank, .. } = &self.problem;
+        if blocks.is_none() && wide.is_none() && low_rank.is_none() {
             return input.delassus.multiply_add(traction, jump);
         }
         let Self { problem, areas, layers, .. } = self;
@@ -214,6 +217,15 @@ impl Cone {
         if self.generation == Some(generation) {
             return Ok(());
         }
+        self.generation = Some(generation);
+        if let Some(on_bed) = input.delassus.on_bed() {
+            self.take_modes(on_bed);
+            return Ok(());
+        }
+        if self.problem.low_rank.is_some() {
+            let count = self.areas.len();
+            (self.problem, self.newton) = (Problem::new(count), Newton::new(count));
+        }
         let lasts = lasts(self.is_linear, &self.layers, input);
         let Self { problem, areas, layers, .. } = self;
         let (size, count) = (problem.size(), areas.len());
@@ -240,8 +252,21 @@ impl Cone {
         }
         problem.prepare_acceleration();
         self.newton.forget(lasts);
-        self.generation = Some(generation);
         Ok(())
+    }
+
+    /// Takes W of low rank, and adds the layers of the laws.
+    fn take_modes(&mut self, on_bed: &OnBed) {
+        let Self { problem, newton, areas, layers, .. } = self;
+        let count = areas.len();
+        let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
+        let Some(low_rank) = &mut problem.low_rank else {
+            (*problem, *newton) = (Problem::on_bed(count), Newton::on_bed(count));
+            return self.take_modes(on_bed);
+        };
+        low_rank.set(on_bed, areas, layer);
+        newton.reserve(on_bed.rank());
+        problem.find_scales();
     }
 
     /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.

@@ -5,6 +5,7 @@
 
 use std::mem::Discriminant;
 
+use super::low_rank_system::LowRankSystem;
 use super::problem::{Endless, Problem};
 use super::status::{Normal, Status, Tangential};
 use super::system::System;
@@ -26,6 +27,8 @@ const LEAST: f64 = 0.2;
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
     system: System,
+    /// The system on a bed of many springs.
+    low_rank: Option<LowRankSystem>,
     /// Kinds of the statuses and changes of force in the previous iteration.
     kinds: Vec<(Normal, Discriminant<Tangential>)>,
     before: Vec<f64>,
@@ -36,8 +39,27 @@ impl Newton {
         Self {
             statuses: vec![Status::STICK; count],
             system: System::new(count),
+            low_rank: None,
             kinds: Vec::with_capacity(count),
             before: vec![0.0; 3 * count],
+        }
+    }
+
+    /// The method for W of low rank.
+    pub(super) fn on_bed(count: usize) -> Self {
+        Self {
+            statuses: vec![Status::STICK; count],
+            low_rank: Some(LowRankSystem::new(count)),
+            kinds: Vec::with_capacity(count),
+            before: vec![0.0; 3 * count],
+            ..Self::new(0)
+        }
+    }
+
+    /// Allocates for W of this rank, if it is of low rank.
+    pub(super) fn reserve(&mut self, rank: usize) {
+        if let Some(system) = &mut self.low_rank {
+            system.reserve(rank);
         }
     }
 
@@ -222,6 +244,9 @@ impl Newton {
 
     /// Solves the system of the statuses; `false` if it is singular.
     pub(super) fn step(&mut self, problem: &mut Problem) -> bool {
-        self.system.solve(problem, &self.statuses, false)
+        match &mut self.low_rank {
+            Some(system) => system.solve(problem, &self.statuses),
+            None => self.system.solve(problem, &self.statuses, false),
+        }
     }
 }

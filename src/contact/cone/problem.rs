@@ -19,6 +19,7 @@
 use super::acceleration::Acceleration;
 use super::blocks::Blocks;
 use super::group::{Group, LANES};
+use super::low_rank::LowRank;
 use super::newton::MANY_ELEMENTS;
 use super::wide::Wide;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
@@ -116,8 +117,10 @@ pub(super) enum Endless {
 /// W, q and bounds, and the present r and y.
 pub(super) struct Problem {
     pub(super) count: usize,
-    /// Row-major, component by component as in contact vectors.
+    /// Row-major, component by component as in contact vectors; empty if W is of low rank.
     pub(super) w: Vec<f64>,
+    /// W without `added`, on a bed of many springs.
+    pub(super) low_rank: Option<LowRank>,
     /// W without `added`, if there are many elements on a lattice.
     pub(super) blocks: Option<Blocks>,
     /// The same where each element moves most others.
@@ -148,10 +151,16 @@ pub(super) struct Problem {
 
 impl Problem {
     pub(super) fn new(count: usize) -> Self {
+        Self { w: vec![0.0; 9 * count * count], low_rank: None, ..Self::on_bed(count) }
+    }
+
+    /// A problem whose W is of low rank.
+    pub(super) fn on_bed(count: usize) -> Self {
         let zero = || vec![0.0; 3 * count];
         Self {
             count,
-            w: vec![0.0; 9 * count * count],
+            w: vec![],
+            low_rank: Some(LowRank::new(count)),
             blocks: None,
             wide: None,
             acceleration: None,
@@ -182,6 +191,11 @@ impl Problem {
 
     /// Block of W between the components of an element.
     fn block(&self, e: usize) -> [[f64; 3]; 3] {
+        if let Some(low_rank) = &self.low_rank {
+            let mut block = low_rank.block(e);
+            (0..3).for_each(|k| block[k][k] += self.added);
+            return block;
+        }
         let places = self.places(e);
         places.map(|i| places.map(|j| self.w[i * self.size() + j]))
     }
@@ -246,7 +260,10 @@ impl Problem {
             blocks.respond(&self.change);
             return self.read_blocks();
         }
-        let Self { w, q, change, y, wide, added, count, .. } = self;
+        let Self { w, q, change, y, wide, low_rank, added, count, .. } = self;
+        if let Some(low_rank) = low_rank {
+            return low_rank.respond(change, q, *added, y);
+        }
         let Some(wide) = wide else {
             y.copy_from_slice(q);
             return dense_multiply_add(w, 1.0, change, y);

@@ -32,7 +32,7 @@ impl Proximal {
         self.q.copy_from_slice(&problem.q);
         self.center.copy_from_slice(&problem.change);
         for i in 0..size {
-            self.diagonal[i] = problem.w[i * (size + 1)];
+            self.diagonal[i] = problem.diagonal(i);
         }
         let mean = self.diagonal.iter().sum::<f64>() / size as f64;
         let mut share = SHARE;
@@ -40,7 +40,7 @@ impl Proximal {
         for _ in 0..ITERATIONS {
             let added = share * mean;
             for i in 0..size {
-                problem.w[i * (size + 1)] = self.diagonal[i] + added;
+                problem.set_diagonal(i, self.diagonal[i] + added);
                 problem.q[i] = self.q[i] - added * self.center[i];
             }
             problem.added = added;
@@ -48,7 +48,7 @@ impl Proximal {
             let solved = solve(problem);
             problem.added = 0.0;
             for i in 0..size {
-                problem.w[i * (size + 1)] = self.diagonal[i];
+                problem.set_diagonal(i, self.diagonal[i]);
             }
             problem.q.copy_from_slice(&self.q);
             problem.find_scales();
@@ -65,5 +65,23 @@ impl Proximal {
             }
         }
         found
+    }
+}
+
+impl Problem {
+    /// Entry on the diagonal of W; `added` is not part of it if W is of low rank.
+    fn diagonal(&self, i: usize) -> f64 {
+        match &self.low_rank {
+            Some(_) => self.own[i % self.count][i / self.count][i / self.count],
+            None => self.w[i * (self.size() + 1)],
+        }
+    }
+
+    /// Sets an entry on the diagonal of W, unless it is of low rank: then `added` changes it.
+    fn set_diagonal(&mut self, i: usize, value: f64) {
+        let place = i * (self.size() + 1);
+        if self.low_rank.is_none() {
+            self.w[place] = value;
+        }
     }
 }

@@ -111,7 +111,18 @@ fn search_held(
     start: &mut [f64],
     lasts: bool,
 ) -> (usize, Option<SearchMethod>) {
-    let (mut all, found) = rounds(problem, newton);
+    let mut all = 0;
+    if problem.low_rank.is_some() {
+        // Its iterations take no more time than sweeps, and need no soft structure.
+        let (iterations, found) = newton.solve(problem, false);
+        all += iterations;
+        if found {
+            return (all, Some(SearchMethod::Newton));
+        }
+        problem.change.copy_from_slice(start);
+    }
+    let (iterations, found) = rounds(problem, newton);
+    all += iterations;
     if found.is_some() {
         return (all, found);
     }

@@ -196,7 +196,33 @@ impl Problem {
         if self.wide.is_some() {
             return vectorized(WideSweep { problem: self, least });
         }
+        if self.low_rank.is_some() {
+            return self.relax_by_modes(least);
+        }
         (0..self.count).map(|e| self.relax(e, least)).fold(0.0, larger)
+    }
+
+    /// The same with W of low rank, element by element.
+    fn relax_by_modes(&mut self, least: f64) -> f64 {
+        let Some(mut low_rank) = self.low_rank.take() else { return f64::NAN };
+        let mut most = 0.0;
+        for e in 0..self.count {
+            let places = self.places(e);
+            let (start, change) = (places.map(|i| self.force(i)), places.map(|i| self.change[i]));
+            let mut y = low_rank.motion(e, change);
+            for k in 0..3 {
+                y[k] += self.q[places[k]] + self.added * change[k];
+            }
+            let r = alone(&self.bounds[e], self.rho[e], &self.own[e], start, y, least);
+            let moved = [0, 1, 2].map(|k| r[k] - start[k]);
+            if moved != [0.0; 3] {
+                (0..3).for_each(|k| self.set(places[k], r[k]));
+                low_rank.push(e, moved);
+            }
+            most = larger(most, moved[0].abs() + moved[1].abs() + moved[2].abs());
+        }
+        self.low_rank = Some(low_rank);
+        most
     }
 
     /// Solves an element with the others fixed, to `least` or a part of its change; returns its change, N.

@@ -98,6 +98,22 @@ pub(super) struct System {
     answer: Vec<f64>,
 }
 
+impl Problem {
+    /// Sets the forces that statuses prescribe, to the last bit.
+    pub(super) fn prescribe(&mut self, statuses: &[Status]) {
+        for (e, status) in statuses.iter().enumerate() {
+            let [n, x, y] = self.places(e);
+            if let Some(bound) = status.bound(self.bounds[e].interval) {
+                self.set(n, bound);
+            }
+            if status.tangential == Tangential::Free {
+                self.set(x, 0.0);
+                self.set(y, 0.0);
+            }
+        }
+    }
+}
+
 impl System {
     pub(super) fn new(count: usize) -> Self {
         let size = 3 * count;
@@ -171,17 +187,7 @@ impl System {
             self.held.copy_from_slice(statuses);
         }
         self.correct(problem);
-        // Prescribed forces, to the last bit.
-        for (e, status) in statuses.iter().enumerate() {
-            let [n, x, y] = problem.places(e);
-            if let Some(bound) = status.bound(problem.bounds[e].interval) {
-                problem.set(n, bound);
-            }
-            if status.tangential == Tangential::Free {
-                problem.set(x, 0.0);
-                problem.set(y, 0.0);
-            }
-        }
+        problem.prescribe(statuses);
         problem.change.iter().all(|change| change.is_finite())
     }
 

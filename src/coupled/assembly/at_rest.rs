@@ -6,6 +6,7 @@ use super::backfilled;
 use super::static_stages::{loaded, placed};
 use crate::coupled::base::held::holds;
 use crate::coupled::base::influence::UP;
+use crate::coupled::bed_compliance;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
@@ -16,7 +17,7 @@ use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, finite};
 use crate::interface::InterfaceLaw;
-use crate::linalg::dense_multiply_add;
+use crate::linalg::{Thinned, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
 /// The state under weight and the loads at t = 0; trivial without gravity.
@@ -36,7 +37,7 @@ pub(crate) fn solve(
     if parts.given.is_static() {
         soil = compliance(parts)?;
         let [own, weight, load] = loads(parts, assembled)?;
-        let (laws, on_soil) = (&parts.given.laws, (&soil[..], shared));
+        let (laws, on_soil) = (&parts.given.laws, (&soil, shared));
         let on_base = condensed.as_ref().and_then(|condensed| {
             let loads = condensed.loads.each_ref().map(Vec::as_slice);
             let mut base = under_loads(parts, &condensed.assembled, on_soil, laws, loads).ok()?;
@@ -76,12 +77,19 @@ pub(crate) fn solve(
     Ok(state)
 }
 
-/// Static compliance of the ground, for tractions inside the outline.
-pub(crate) fn compliance(parts: &Parts) -> Result<Vec<f64>> {
+/// Static compliance of the ground, for tractions inside the outline; a diagonal where the step compliance is one.
+pub(crate) fn compliance(parts: &Parts) -> Result<Thinned> {
+    if parts.soil.as_diagonal().is_some()
+        && let Some(own) = parts.ground.diagonal_compliance()?
+    {
+        let quantity = "diagonal static compliance of the ground";
+        let diagonal = bed_compliance::inside(quantity, own.at_rest, &parts.elements)?;
+        return Ok(Thinned::of_diagonal(diagonal));
+    }
     let mut soil = vec![0.0; parts.elements.layout().square()];
     parts.ground.static_compliance(&mut soil)?;
     parts.elements.refer_inside(&mut soil);
-    Ok(soil)
+    Ok(Thinned::full(soil))
 }
 
 /// Weight and loads at t = 0; empty without a static state.
@@ -119,7 +127,7 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
 pub(crate) fn under_loads(
     parts: &Parts,
     assembled: &Assembled,
-    (soil, shared): (&[f64], &RefCell<Option<Compliance>>),
+    (soil, shared): (&Thinned, &RefCell<Option<Compliance>>),
     laws: &[Box<dyn InterfaceLaw>],
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {

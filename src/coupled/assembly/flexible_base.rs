@@ -29,7 +29,7 @@ use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends, in_a_row};
-use crate::linalg::{dot, magnitude};
+use crate::linalg::{Thinned, dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
@@ -81,11 +81,11 @@ fn check_on(
     (assembled, [weight, load]): (&Assembled, &[Vec<f64>; 2]),
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
-    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, Vec<f64>)>,
+    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, Thinned)>,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
     let own_soil = at_rest::compliance(parts)?;
-    let own = (own_soil.as_slice(), shared);
+    let own = (&own_soil, shared);
     let Some(floating) = floating(parts, assembled, own)? else { return Ok(None) };
     // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
     let alone = faces(base).any(|(.., own)| own.len() == 1);
@@ -96,8 +96,8 @@ fn check_on(
     let (mut power, mut difference) = (POWERS[1], None);
     if let Some((finer, soil)) = if alone { halves } else { finer(base) } {
         // If twice the elements leave no such shape, they are enough.
-        let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)));
-        let halved = (soil.as_slice(), &compliance);
+        let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)?));
+        let halved = (&soil, &compliance);
         let next = UnseenShape::softest(assembled, &finer, halved, None);
         power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
@@ -153,14 +153,14 @@ fn floating(
     let springs = springs(assembled, soil)?;
     let Ok(floating) = Floating::new(assembled, &tangent, springs) else { return Ok(None) };
     let floating = Rc::new(floating);
-    shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)));
+    shared.replace(Some(Compliance::new(Rc::clone(&floating), &assembled.base, soil)?));
     Ok(Some(floating))
 }
 
 /// Base on twice the elements, four times in plan, and their static compliance.
 ///
 /// `None` if the compliance is unknown, or too large for a check.
-fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
+fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Thinned)> {
     let patch = base.elements();
     if patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
@@ -171,7 +171,7 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Vec<f64>)> {
         return None;
     }
     finer.refer_inside(&mut soil);
-    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, soil))
+    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, Thinned::full(soil)))
 }
 
 /// The face with the largest difference of its shape between two static states, and the difference.

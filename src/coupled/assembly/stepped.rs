@@ -105,7 +105,7 @@ impl Stepped {
             }
         };
         let base = assembled.base.stepped(&model.transformation);
-        let operators = Operators::new(&model, &base, &parts.soil, factor, tangent);
+        let operators = Operators::new(&model, &base, &parts.soil, factor, tangent)?;
         Ok(Self { model, base, operators })
     }
 }

@@ -6,7 +6,7 @@
 //! | Q | orthonormal rigid motions of these nodes |
 //! | γ | stiffness of the springs |
 
-use crate::bem::Ground;
+use crate::bem::{DiagonalCompliance, Ground};
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
@@ -209,6 +209,11 @@ impl Ground for HeldGround {
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         self.fill(matrix)
+    }
+
+    fn diagonal_compliance(&self) -> Result<Option<DiagonalCompliance>> {
+        let diagonal = vec![self.compliance; self.elements.layout().len()];
+        Ok(Some(DiagonalCompliance { in_step: diagonal.clone(), at_rest: diagonal }))
     }
 
     fn save(&self) -> Result<Vec<f64>> {

@@ -227,6 +227,11 @@ impl PlacedBase {
         self.rows.multiply(u, out);
     }
 
+    /// Component `i` of B u.
+    pub(crate) fn component_mean(&self, i: usize, u: &[f64]) -> f64 {
+        self.rows.sum(i, u)
+    }
+
     /// Displacement `[right, up, away]` of element `e` from contact displacements.
     pub(crate) fn motion_of(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();

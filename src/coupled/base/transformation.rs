@@ -132,6 +132,14 @@ impl Rows {
         }
     }
 
+    /// The sum of a row at coordinates `x`.
+    pub(crate) fn sum(&self, row: usize, x: &[f64]) -> f64 {
+        match self {
+            Self::Sparse(rows) => rows[row].iter().map(|&(j, weight)| weight * x[j]).sum(),
+            Self::Dense(rows) => dot(&rows[row * x.len()..][..x.len()], x),
+        }
+    }
+
     /// Adds factor · rowsᵀ (scale ∘ x) to `force`; `scale` depends on the number of the row.
     pub(crate) fn add_transposed(
         &self,

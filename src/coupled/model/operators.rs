@@ -3,13 +3,14 @@
 use super::Model;
 use std::sync::Arc;
 
-use crate::contact::Delassus;
+use crate::contact::{Delassus, MAX_STRUCTURE_RANK, OnBed, StructurePart};
 use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
+use crate::geometry::check_count;
 use crate::linalg::Thinned;
 use crate::linalg::matrix::Matrix;
-use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
+use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_multiply_add};
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
 pub(crate) struct Operators {
@@ -18,7 +19,7 @@ pub(crate) struct Operators {
     factor: Factor,
     /// Columns of K_eff⁻¹BᵀA, one after the other.
     pub(crate) columns: Vec<f64>,
-    /// W = G¹ + B K_eff⁻¹ BᵀA, row-major.
+    /// W = G¹ + B K_eff⁻¹ BᵀA.
     pub(crate) delassus: Delassus,
 }
 
@@ -33,18 +34,20 @@ pub(crate) const NAME: &str = "effective stiffness matrix";
 
 impl Operators {
     /// Condenses the factored K_eff with this tangent.
+    ///
+    /// Returns an error for more elements than the entries of W allow.
     pub(crate) fn new(
         model: &Model,
         base: &PlacedBase,
         soil: &Arc<Thinned>,
         factor: Factor,
         tangent: SparseMatrix,
-    ) -> Self {
+    ) -> Result<Self> {
         let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, base, soil, model.coordinates);
+        let (columns, delassus) = condense(solve, base, soil, model.coordinates)?;
         let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
-        let delassus = Delassus::new(delassus, soil, &columns, means);
-        Self { tangent, factor, columns, delassus }
+        let delassus = delassus.with_parts(soil, &columns, means);
+        Ok(Self { tangent, factor, columns, delassus })
     }
 
     /// Reciprocals of K_eff in modal coordinates; empty in degrees of freedom.
@@ -137,16 +140,17 @@ impl Factor {
 
 /// Columns of K⁻¹BᵀA and the Delassus operator `soil` + B K⁻¹BᵀA.
 ///
-/// `solve` overwrites many right-hand sides, one after the other.
+/// `solve` overwrites many right-hand sides, one after the other. The entries of the operator are not stored for a soil that
+/// is a diagonal, and a structure that moves it in few ways. Otherwise the function returns an error if they do not fit into
+/// memory.
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &PlacedBase,
-    soil: &[f64],
+    soil: &Thinned,
     dofs: usize,
-) -> (Vec<f64>, Vec<f64>) {
+) -> Result<(Vec<f64>, Delassus)> {
     let size = base.layout().len();
     let mut columns = vec![0.0; size * dofs];
-    let mut delassus = soil.to_vec();
     let mut unit = vec![0.0; size];
     let mut means = vec![0.0; size];
     for (i, column) in columns.chunks_exact_mut(dofs.max(1)).enumerate() {
@@ -155,11 +159,34 @@ pub(crate) fn condense(
         unit[i] = 0.0;
     }
     solve(&mut columns);
+    if let Some(diagonal) = soil.as_diagonal() {
+        if let Some(on_bed) = on_bed(&columns, base, diagonal, dofs) {
+            return Ok((columns, on_bed.into()));
+        }
+        check_count(base.elements().len(), base.layout().components())?;
+    }
+    let mut delassus = soil.filled(size);
     for (i, column) in columns.chunks_exact(dofs.max(1)).enumerate() {
         base.means(column, &mut means);
         for (row, mean) in means.iter().enumerate() {
             delassus[row * size + i] += mean;
         }
     }
-    (columns, delassus)
+    Ok((columns, delassus.into()))
+}
+
+/// The operator for the diagonal of a soil and these columns of K⁻¹BᵀA; `None` if the structure moves it in many ways.
+fn on_bed(columns: &[f64], base: &PlacedBase, soil: &[f64], dofs: usize) -> Option<OnBed> {
+    let column = |i: usize| &columns[i * dofs..][..dofs];
+    let structure = StructurePart {
+        diagonal: (0..soil.len()).map(|i| base.component_mean(i, column(i))).collect(),
+        column: |i: usize, out: &mut [f64]| base.means(column(i), out),
+        product: |traction: &[f64], out: &mut [f64]| {
+            let mut displacement = vec![0.0; dofs];
+            transposed_multiply_add(columns, 1.0, traction, &mut displacement);
+            base.means(&displacement, out);
+        },
+    };
+    let areas = (0..soil.len()).map(|i| base.area(i)).collect();
+    OnBed::new(soil, areas, MAX_STRUCTURE_RANK, structure)
 }

@@ -15,7 +15,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::statics::strength::compliance_at_rest;
 use crate::error::{Error, Result, StabilityError};
 use crate::interface::{InterfaceLaw, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest, row_products};
+use crate::linalg::{SparseFactor, SparseMatrix, Thinned, Triplets, largest, row_products};
 use crate::structure::{Structure, Tangent, stiffest};
 
 const NAME: &str = "stiffness matrix on the ground";
@@ -29,7 +29,7 @@ pub(crate) struct Grounded<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground under all elements.
-    pub(crate) soil: &'a [f64],
+    pub(crate) soil: &'a Thinned,
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
 }
 
@@ -165,13 +165,20 @@ impl<'a> GroundStiffness<'a> {
 fn factored_compliance(grounded: Grounded<'_>, places: &[usize]) -> Option<SparseFactor> {
     let Grounded { assembled, soil, laws, .. } = grounded;
     let (base, layout) = (&assembled.base, assembled.base.layout());
-    let by_force = |i: usize, j: usize| soil[i * layout.len() + j] / base.area(j);
+    let entry = |i: usize, j: usize| match soil.as_diagonal() {
+        Some(diagonal) => diagonal[i],
+        None => soil[i * layout.len() + j],
+    };
+    let by_force = |i: usize, j: usize| entry(i, j) / base.area(j);
     let mut compliance = Triplets::new(places.len());
     for (row, &i) in places.iter().enumerate() {
         let [component, element] = layout.origin(i);
         let of_law = compliance_at_rest(law_of(laws, element))[component.min(1)];
         compliance.add(row, row, of_law / base.area(i));
-        for (column, &j) in places.iter().enumerate() {
+        // All columns, or the one of a diagonal.
+        let columns = if soil.as_diagonal().is_some() { row..row + 1 } else { 0..places.len() };
+        for column in columns {
+            let j = places[column];
             let mean = 0.5 * (by_force(i, j) + by_force(j, i));
             if mean != 0.0 {
                 compliance.add(row, column, mean);

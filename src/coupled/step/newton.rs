@@ -186,7 +186,8 @@ impl Newton {
                 .map_err(StepError::part("tangent of the structure"))?;
             let tangent = tangent.clone();
             linear.operators =
-                Operators::new(model, base, &scene.soil, Factor::Sparse(factor), tangent);
+                Operators::new(model, base, &scene.soil, Factor::Sparse(factor), tangent)
+                    .map_err(StepError::part("tangent of the structure"))?;
             linear.contact.invalidate();
         }
         // K_eff Δu + f(u*) linearised at the guess: f + D weight (Δu − guess).

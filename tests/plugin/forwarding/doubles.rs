@@ -1,7 +1,7 @@
 //! One double for all traits but the structure's.
 
 use basemat::bem::full_plane::{BoundaryKernel, IncidentField, Segment};
-use basemat::bem::{ContactElement, Ground, GroundDescription};
+use basemat::bem::{ContactElement, DiagonalCompliance, Ground, GroundDescription};
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
@@ -195,6 +195,11 @@ impl Ground for Double {
         self.0.asked("static_compliance");
         matrix.fill(3.0 * CORRECT);
         Ok(())
+    }
+
+    fn diagonal_compliance(&self) -> Result<Option<DiagonalCompliance>> {
+        self.0.asked("diagonal_compliance");
+        Ok(Some(DiagonalCompliance { in_step: vec![CORRECT], at_rest: vec![] }))
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {

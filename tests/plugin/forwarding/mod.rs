@@ -87,6 +87,7 @@ fn boxed_grounds() {
         part.commit(&[1.0, 2.0]);
         part.static_compliance(&mut matrix).unwrap();
         assert_eq!(matrix, [3.0 * CORRECT; 4]);
+        assert_eq!(part.diagonal_compliance().unwrap().unwrap().in_step, [CORRECT]);
         assert_eq!(part.finer_compliance(), Ok(Some(vec![CORRECT])));
         assert_eq!(part.description().soils, [doubles::soil()]);
         assert_eq!(part.increment_error_bound(), CORRECT);
