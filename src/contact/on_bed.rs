@@ -188,7 +188,8 @@ mod tests {
             let rows = [k / size, k % size].map(|i| &root[i * rank..][..rank]);
             areas[k % size] * dot(rows[0], rows[1])
         });
-        ([soil, areas], part.collect())
+        let part = part.collect();
+        ([soil, areas], part)
     }
 
     fn on_bed([soil, areas]: &[Vec<f64>; 2], part: &[f64], max_rank: usize) -> Option<OnBed> {

@@ -140,7 +140,8 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(Thinned::new(operator, 2 * count));
     let operators =
-        Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent);
+        Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent)
+            .unwrap();
     (operators.delassus.to_vec(), assembled.base.areas().to_vec())
 }
 
