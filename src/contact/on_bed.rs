@@ -60,7 +60,9 @@ impl OnBed {
         let tolerance = MODE_TOLERANCE * (0..size).map(whole).fold(0.0, f64::max);
         let factors = pivoted_cholesky(diagonal, tolerance, max_rank, |pivot, column| {
             (structure.column)(pivot, column);
-            column.iter_mut().for_each(|value| *value /= areas[pivot]);
+            for value in column {
+                *value /= areas[pivot];
+            }
         })?;
         let rank = factors.len();
         let modes = (0..size).flat_map(|i| factors.iter().map(move |factor| factor[i])).collect();

@@ -204,12 +204,12 @@ impl Parts {
             !given.held && is_first_order(ground.as_mut(), &description, time_step, layout)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
-        let soil = match bed_compliance::of_bed(ground.as_ref(), structure.as_ref(), &elements)? {
-            Some(diagonal) => Thinned::of_diagonal(diagonal),
-            None => {
-                check_count(elements.len(), components)?;
-                instantaneous_operator(ground.as_ref(), &elements)?
-            }
+        let of_bed = bed_compliance::of_bed(ground.as_ref(), structure.as_ref(), &elements)?;
+        let soil = if let Some(diagonal) = of_bed {
+            Thinned::of_diagonal(diagonal)
+        } else {
+            check_count(elements.len(), components)?;
+            instantaneous_operator(ground.as_ref(), &elements)?
         };
         let soil = Arc::new(soil);
         Ok(Self {
