@@ -20,6 +20,7 @@
 
 mod acceleration;
 mod blocks;
+mod bounds;
 mod group;
 mod low_rank;
 mod low_rank_system;
