@@ -5,11 +5,11 @@
 
 use basemat::bem::plan::Plan;
 use basemat::bem::{ContactElement, Ground, GroundDescription, SpringGround};
-use basemat::coupled::{GravityStage, Load};
+use basemat::coupled::{Coordinates, GravityStage, Load};
 use basemat::fem::{Material, Mesh, Shell};
 use basemat::interface::{Bonded, Cohesive, Coulomb, InterfaceLaw, ThinLayer, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
-use basemat::structure::{FemModel, RigidBody};
+use basemat::structure::{Bilinear, FemModel, PlanStorey, RigidBody, StoreyBuilding};
 use basemat::{Error, Observer, Result, Simulation};
 use basemat_problems::flexible_scenes::Sines;
 use basemat_problems::random::Random;
@@ -102,35 +102,76 @@ fn scene(number: u64, is_disclosed: bool) -> Simulation {
     builder.expected_steps(STEPS).build().unwrap()
 }
 
+/// Steps both simulations, on the bed and on the ground with matrices, and compares them; returns the numbers of steps with
+/// uplift and with slip.
+fn compare(name: &str, [mut own, mut whole]: [Simulation; 2], steps: usize) -> [usize; 2] {
+    let [mut opened, mut slid] = [0; 2];
+    let (mut apart, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for _ in 0..steps {
+        let [a, b] = [own.step().unwrap(), whole.step().unwrap()];
+        for (a, b) in a.displacement().iter().zip(b.displacement()) {
+            (apart[0], largest[0]) = (apart[0].max((a - b).abs()), largest[0].max(b.abs()));
+        }
+        for (a, b) in a.contact.iter().zip(&b.contact) {
+            for (a, b) in [(a.pressure, b.pressure), (a.shear, b.shear)] {
+                (apart[1], largest[1]) = (apart[1].max((a - b).abs()), largest[1].max(b.abs()));
+            }
+        }
+        let balance = &a.energy_balance;
+        assert!(balance.residual() < 1e-9, "{name}: {balance}");
+        opened += usize::from(a.uplifted_fraction > 0.0);
+        slid += usize::from(a.contact.iter().any(|own| own.slip != 0.0));
+    }
+    let apart = [0, 1].map(|k| apart[k] / largest[k]);
+    println!("{name}: {apart:?}, {opened} steps with uplift, {slid} with slip");
+    // Steps accept a residual of 1e-11 of the tractions, and a bed without dashpots adds it up.
+    assert!(apart[0] < 1e-10 && apart[1] < 1e-9, "{name}: {apart:?}");
+    // Estimates from below, within a factor of three.
+    let conditions = [own.conditioning().delassus, whole.conditioning().delassus];
+    assert!((0.3..3.0).contains(&(conditions[0] / conditions[1])), "{name}: {conditions:?}");
+    [opened, slid]
+}
+
 #[test]
 fn a_bed_moves_like_the_same_ground_with_matrices() {
-    let (mut opened, mut slid) = (0, 0);
+    let [mut opened, mut slid] = [0; 2];
     for number in 0..SCENES {
-        let [mut own, mut whole] = [true, false].map(|is_disclosed| scene(number, is_disclosed));
-        let (mut apart, mut largest) = ([0.0_f64; 2], [0.0_f64; 2]);
-        for _ in 0..STEPS {
-            let [a, b] = [own.step().unwrap(), whole.step().unwrap()];
-            let pairs = a.displacement().iter().zip(b.displacement());
-            for (a, b) in pairs {
-                (apart[0], largest[0]) = (apart[0].max((a - b).abs()), largest[0].max(b.abs()));
-            }
-            for (a, b) in a.contact.iter().zip(&b.contact) {
-                for (a, b) in [(a.pressure, b.pressure), (a.shear, b.shear)] {
-                    (apart[1], largest[1]) = (apart[1].max((a - b).abs()), largest[1].max(b.abs()));
-                }
-            }
-            let balance = &a.energy_balance;
-            assert!(balance.residual() < 1e-9, "{number}: {balance}");
-            opened += usize::from(a.uplifted_fraction > 0.0);
-            slid += usize::from(a.contact.iter().any(|own| own.slip != 0.0));
-        }
-        let apart = [0, 1].map(|k| apart[k] / largest[k]);
-        println!("{number}: {apart:?}");
-        // Of tractions, steps accept a residual of 1e-11, and a bed without dashpots adds it up.
-        assert!(apart[0] < 1e-10 && apart[1] < 1e-9, "{number}: {apart:?}");
+        let both = [true, false].map(|is_disclosed| scene(number, is_disclosed));
+        let [more_opened, more_slid] = compare(&number.to_string(), both, STEPS);
+        (opened, slid) = (opened + more_opened, slid + more_slid);
     }
-    println!("{opened} steps with uplift, {slid} with slip");
     assert!(opened > 300 && slid > 300, "{opened} {slid}");
+}
+
+/// Storeys on a mat, in degrees of freedom, in modes, and with storeys that yield.
+#[test]
+fn buildings_on_a_bed_move_like_on_the_ground_with_matrices() {
+    let sides = [8.0, 6.0];
+    let storey = PlanStorey::new(3.0, 4.0e4, sides, [6.0e7, 5.0e7, 1.0e9]);
+    let storey = PlanStorey { stiffness_center: [0.5, -0.3], ..storey };
+    let mat = RigidBody::cuboid([sides[0], sides[1], 1.0], 2400.0).unwrap();
+    let building = StoreyBuilding::new(mat, &[storey; 3]).unwrap();
+    let law = Bilinear::new(6.0e7, 2.0e5, 0.1).unwrap();
+    let yielding = building.clone().with_law(0, StoreyBuilding::ALONG, law).unwrap();
+    for (name, structure, coordinates) in [
+        ("degrees of freedom", &building, Coordinates::Physical),
+        ("modes", &building, Coordinates::Modes),
+        ("yielding", &yielding, Coordinates::Physical),
+    ] {
+        let both = [true, false].map(|is_disclosed| {
+            let bed = SpringGround::under(structure, 8, 3e7, 2e7).unwrap();
+            let bed = bed.with_dashpots(4e5, 3e5).unwrap();
+            let shake = |factor: f64| Some(el_centro_1940().scaled(factor).unwrap());
+            let motion = Triaxial { x: shake(2.5), y: shake(-1.5), up: None };
+            let builder = Simulation::builder(0.01).structure(structure.clone()).motion(motion);
+            let builder = builder.interface(Coulomb::new(0.25).unwrap()).coordinates(coordinates);
+            let builder =
+                if is_disclosed { builder.ground(bed) } else { builder.ground(Undisclosed(bed)) };
+            builder.build().unwrap()
+        });
+        let [opened, slid] = compare(name, both, 300);
+        assert!(opened > 20 && slid > 20, "{name}: {opened} {slid}");
+    }
 }
 
 /// A building of 8 m × 8 m × 16 m on 64 × 64 cells.
