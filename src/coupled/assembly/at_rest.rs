@@ -33,7 +33,7 @@ pub(crate) fn solve(
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
-    let mut soil = Vec::new();
+    let mut soil = Thinned::full(Vec::new());
     if parts.given.is_static() {
         soil = compliance(parts)?;
         let [own, weight, load] = loads(parts, assembled)?;
