@@ -90,7 +90,8 @@ fn refusals_of_random_structures_are_right() {
                     }
                     StabilityError::Toppling { factor, by_loads: false } => {
                         counts.topple += 1;
-                        matches!(follows(), Followed::Lost(last) if (last - factor).abs() < 0.04)
+                        // The reference may lose the path earlier: its sets of closed elements in between need not be stable.
+                        matches!(follows(), Followed::Lost(last) if factor > last - 0.04)
                     }
                     _ => false,
                 };
