@@ -3,57 +3,61 @@
 use crate::text::decimal::finite;
 
 /// Minutes in a day.
-const DAY: i64 = 1440;
+const MINUTES_PER_DAY: i64 = 1440;
 
 /// Seconds since the first time of a column of seconds or times of day.
 #[derive(Default)]
 pub(super) struct Clock {
-    /// Minute of the day of the first time, and of the previous time.
-    first: Option<i64>,
-    before: i64,
+    /// Minute of the day of the first time.
+    first_minute: Option<i64>,
+    /// Minute of the day of the previous time.
+    previous_minute: i64,
     /// Minutes of the days that have ended since the first time.
-    days: i64,
+    minutes_of_past_days: i64,
     /// Largest number of decimals of a second so far.
     decimals: usize,
-    exponent: bool,
+    /// Whether a time had an exponent, so that its decimals do not show its last digit.
+    has_exponent: bool,
 }
 
 impl Clock {
     /// The time (s) in a field: `12.5`, `12:00:15.01`, or a date and a time of day.
     pub(super) fn read(&mut self, field: &str) -> Option<f64> {
         let time = finite(field).or_else(|| self.time_of_day(field))?;
-        self.exponent |= field.contains(['e', 'E', 'd', 'D']);
+        self.has_exponent |= field.contains(['e', 'E', 'd', 'D']);
         let decimals = field.rsplit_once('.').map_or(0, |(_, decimals)| decimals.len());
         self.decimals = self.decimals.max(decimals);
         Some(time)
     }
 
+    /// Seconds since the first time, for a time of day.
     fn time_of_day(&mut self, field: &str) -> Option<f64> {
         // The minutes are whole numbers, so that the seconds keep their digits.
         let time = field.rsplit([' ', 'T']).next()?;
-        let (minute, second) = time.rsplit_once(':')?;
-        let (hour, minute) = minute.split_once(':')?;
-        let whole = |text: &str| {
-            let digits =
-                !text.is_empty() && text.len() <= 2 && text.bytes().all(|b| b.is_ascii_digit());
-            if digits { text.parse::<i64>().ok() } else { None }
-        };
+        let (hour_and_minute, second) = time.rsplit_once(':')?;
+        let (hour, minute) = hour_and_minute.split_once(':')?;
         let second = finite(second).filter(|second| (0.0..61.0).contains(second))?;
-        let minute = 60 * whole(hour)? + whole(minute)?;
-        let first = *self.first.get_or_insert(minute);
-        // Midnight.
-        if minute + DAY / 2 < self.before {
-            self.days += DAY;
+        let minute = 60 * two_digits(hour)? + two_digits(minute)?;
+        let first_minute = *self.first_minute.get_or_insert(minute);
+        let passed_midnight = minute + MINUTES_PER_DAY / 2 < self.previous_minute;
+        if passed_midnight {
+            self.minutes_of_past_days += MINUTES_PER_DAY;
         }
-        self.before = minute;
-        Some((minute + self.days - first) as f64 * 60.0 + second)
+        self.previous_minute = minute;
+        Some((minute + self.minutes_of_past_days - first_minute) as f64 * 60.0 + second)
     }
 
     /// Unit of the last digit of the times, s.
     pub(super) fn resolution(&self) -> Option<f64> {
         let decimals = i32::try_from(self.decimals).ok().filter(|&decimals| decimals < 12)?;
-        (!self.exponent).then(|| 10.0_f64.powi(-decimals))
+        (!self.has_exponent).then(|| 10.0_f64.powi(-decimals))
     }
+}
+
+/// A whole number of one or two digits.
+fn two_digits(text: &str) -> Option<i64> {
+    let is_number = matches!(text.len(), 1 | 2) && text.bytes().all(|byte| byte.is_ascii_digit());
+    if is_number { text.parse().ok() } else { None }
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::Record;
 use crate::error::{FileFault, Result};
 
-/// A file format of records; implement it for a format of your own.
+/// A file format of records; implement it for other formats.
 ///
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat),
 /// [`AlongLinesFormat`](super::AlongLinesFormat) (SHAKE), [`PeerFormat`](super::PeerFormat) (`.AT2`),
@@ -21,7 +21,7 @@ pub trait RecordFormat {
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason, or
-    /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
+    /// [`Error::part`](crate::Error::part) for another reason.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
 
     /// Reads all components of a file with their names.

@@ -1,7 +1,7 @@
 //! Free fields that run along the surface.
 
 use super::Record;
-use super::free_field::{FreeField, differenced};
+use super::free_field::{FreeField, difference_velocity};
 #[cfg(feature = "embedded")]
 use crate::error::require_part;
 use crate::error::{Result, finite, require};
@@ -105,9 +105,11 @@ impl FreeField for TravellingWave {
     }
 
     fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
-        let ([cos, sin], [x, y]) = (self.direction, place);
-        let own = [self.origin, cos * y - sin * x];
-        let [along, across, up] = self.field.displacement_at(own, time - self.delay(place));
+        let [cos, sin] = self.direction;
+        let [x, y] = place;
+        let place_in_field = [self.origin, cos * y - sin * x];
+        let [along, across, up] =
+            self.field.displacement_at(place_in_field, time - self.delay(place));
         [cos * along - sin * across, sin * along + cos * across, up]
     }
 
@@ -124,7 +126,7 @@ impl FreeField for TravellingWave {
         if self.direction == [1.0, 0.0] {
             self.field.velocity(self.origin, time - self.delay([x, 0.0]))
         } else {
-            differenced(self, x, time)
+            difference_velocity(self, x, time)
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::ShownIn;
-use crate::text::column::{Cell, column, distinct};
+use crate::text::column::{NumberCell, column, distinct};
 use crate::text::csv::Csv;
 use crate::text::readable_number::{number, of_body, printed};
 use crate::text::table::Table;
@@ -204,7 +204,7 @@ impl Comparison {
             let values = lines.iter().map(|row| (row.value)(run));
             let own = run.probes.iter().take(probes.len());
             let peaks = own.map(|probe| Some(probe.extremes.largest().value));
-            let cells = values.chain(peaks).map(|v| Cell(v.unwrap_or(f64::NAN)).to_string());
+            let cells = values.chain(peaks).map(|v| NumberCell(v.unwrap_or(f64::NAN)).to_string());
             std::iter::once(name.clone()).chain(cells).collect()
         };
         Csv(Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv())

@@ -3,7 +3,7 @@
 use super::{ElementEnvelope, Run, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::motion::SpectralOrdinate;
-use crate::text::column::{Cell, column, line};
+use crate::text::column::{NumberCell, cell_line, column};
 use crate::text::csv::Csv;
 
 /// A heading and lines: each begins with a text, then its numbers.
@@ -14,7 +14,7 @@ fn lines<N: IntoIterator<Item = f64>>(
     let mut text = format!("{heading}\n");
     for (start, numbers) in rows {
         text += &start;
-        text += &line(numbers.into_iter().map(Cell));
+        text += &cell_line(numbers.into_iter().map(NumberCell));
     }
     Csv(text)
 }
@@ -70,8 +70,9 @@ impl TimeSeries {
             let contact = frame.states.iter().zip(frame.modes).enumerate();
             let (ends, numbers) = (&ends, &numbers);
             contact.map(move |(e, (state, mode))| {
-                let places: Vec<_> = ends.iter().map(|(_, of)| Cell(of[e]).to_string()).collect();
-                let start = format!("{},{e},{},{mode},", Cell(frame.time), places.join(","));
+                let places: Vec<_> =
+                    ends.iter().map(|(_, of)| NumberCell(of[e]).to_string()).collect();
+                let start = format!("{},{e},{},{mode},", NumberCell(frame.time), places.join(","));
                 (start, numbers.iter().map(move |(_, value)| value(state)))
             })
         });

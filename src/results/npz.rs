@@ -15,7 +15,7 @@ use super::columns::{CONTACT, MOTION};
 use crate::coupled::EnergyTerm;
 use crate::error::Result;
 use crate::interface::Mode;
-use crate::text::file::{unwritten, write_file};
+use crate::text::file::{write_error, write_file};
 
 /// The archive under construction.
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
@@ -78,7 +78,7 @@ impl TimeSeries {
     /// [`Error::File`](crate::Error::File) if the file cannot be written.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
         let (path, mut bytes) = (path.as_ref(), Vec::new());
-        self.write_npz(&mut bytes).map_err(unwritten(path))?;
+        self.write_npz(&mut bytes).map_err(write_error(path))?;
         write_file(path, bytes)
     }
 
