@@ -3,7 +3,6 @@
 //! The format of Boisvert, Pozo & Remington (NIST IR 5935, 1996), as far as structural matrices need it:
 //! coordinate or array, real or integer, general or symmetric.
 
-use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
@@ -11,7 +10,7 @@ use super::matrix_market_reader::read;
 use crate::error::{FileFault, Result};
 use crate::linalg::SparseMatrix;
 use crate::structure::Triplets;
-use crate::text::file::{replace_file, write_error};
+use crate::text::file::{open_file, replace_file, write_error};
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
@@ -23,11 +22,7 @@ impl Triplets {
     /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read_matrix_market(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let name = path.display().to_string();
-        match File::open(path) {
-            Ok(file) => Self::from_matrix_market(&name, file),
-            Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
-        }
+        Self::from_matrix_market(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.

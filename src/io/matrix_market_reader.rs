@@ -11,7 +11,7 @@ use crate::text::decimal::{excerpt, finite, quoted};
 /// Name of the order of the matrix in errors.
 const ORDER_QUANTITY: &str = "rows of the matrix";
 
-/// What was read from a line, or its fault.
+/// Result of reading a line, or its fault.
 type FieldResult<T> = std::result::Result<T, FileFault>;
 
 /// The first line.
@@ -43,17 +43,17 @@ fn required_data_line(lines: &mut Lines, missing: FileFault) -> LineResult<Strin
 pub(super) fn read(source: &mut dyn Read) -> LineResult<Triplets> {
     let mut lines = Lines::new(source);
     let Some(first) = lines.next()? else { return Err((0, FileFault::missing("header"))) };
-    let header = lines.located(header(&first))?;
+    let header = lines.with_line_number(header(&first))?;
     let size_fields = if header.is_coordinate { 3 } else { 2 };
     let line = required_data_line(&mut lines, wrong_fields(0, size_fields))?;
-    let size = lines.located(whole_numbers(&line, size_fields))?;
+    let size = lines.with_line_number(whole_numbers(&line, size_fields))?;
     let rows = size[0];
     let columns = size[1];
     if rows != columns {
         let found = format!("{rows} x {columns}");
         return Err(lines.fault(FileFault::value("size of the matrix", found, "square")));
     }
-    lines.located(check_size(&header, rows))?;
+    lines.with_line_number(check_size(&header, rows))?;
     let mut matrix = Triplets::new(rows);
     if header.is_coordinate {
         read_coordinates(&mut lines, &header, size[2], &mut matrix)?;
@@ -153,7 +153,8 @@ fn read_coordinates(
 ) -> LineResult<()> {
     for found in 0..needed {
         let line = required_data_line(lines, wrong_entries(found, needed))?;
-        let (row, column, value) = lines.located(coordinate_entry(&line, matrix.order()))?;
+        let (row, column, value) =
+            lines.with_line_number(coordinate_entry(&line, matrix.order()))?;
         if header.is_symmetric && row < column {
             let found = format!("({}, {})", row + 1, column + 1);
             let needed = "on or below the diagonal of a symmetric matrix";
@@ -182,8 +183,8 @@ fn read_array(
     for column in 0..order {
         for row in if header.is_symmetric { column } else { 0 }..order {
             let line = required_data_line(lines, wrong_entries(found, needed))?;
-            let field = lines.located(fields(&line, 1))?[0];
-            let value = lines.located(number(field))?;
+            let field = lines.with_line_number(fields(&line, 1))?[0];
+            let value = lines.with_line_number(number(field))?;
             found += 1;
             if value != 0.0 {
                 add_entry(matrix, header, row, column, value);

@@ -103,6 +103,7 @@ impl AfadHeader {
     }
 }
 
+/// Reads all components.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let AfadHead { header, names, first_row } = read_head(lines)?;
     let step = header.interval.filter(|&step| step > 0.0);
@@ -126,8 +127,8 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     }
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
-        let peak = lines.located(header.peak(&name))?;
-        lines.located(agreement::peak(&samples, peak * factor))?;
+        let peak = lines.with_line_number(header.peak(&name))?;
+        lines.with_line_number(agreement::peak(&samples, peak * factor))?;
         components.push(Series { name, step, samples });
     }
     Ok(components)
@@ -138,7 +139,7 @@ fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
     let mut row = Vec::new();
     while row.is_empty() {
         let Some(line) = lines.next()? else { break };
-        lines.located(push_numbers(&line, &mut row))?;
+        lines.with_line_number(push_numbers(&line, &mut row))?;
     }
     Ok(row)
 }
@@ -157,16 +158,16 @@ fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
     let mut previous_line = String::new();
     while let Some(line) = lines.next()? {
         if let Some((key, value)) = line.split_once(':') {
-            lines.located(header.read(key.trim(), value.trim()))?;
+            lines.with_line_number(header.read(key.trim(), value.trim()))?;
         } else if !line.is_empty() && line.split_whitespace().all(is_like_number) {
             let mut first_row = Vec::new();
-            lines.located(push_numbers(&line, &mut first_row))?;
+            lines.with_line_number(push_numbers(&line, &mut first_row))?;
             let names = titles_of_words(&previous_line);
             if names.is_empty() {
                 break;
             }
             for name in &names {
-                lines.located(check_acceleration(name, SAMPLE_UNIT))?;
+                lines.with_line_number(check_acceleration(name, SAMPLE_UNIT))?;
             }
             return Ok(AfadHead { header, names, first_row });
         }

@@ -108,7 +108,7 @@ fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
             if let Some(word) = first_word(&fields) {
                 return Err(lines.fault(unexpected_header_line(word)));
             }
-            lines.located(header.titles(&(1..=1)).check_acceleration(1, format.unit))?;
+            lines.with_line_number(header.titles(&(1..=1)).check_acceleration(1, format.unit))?;
         }
         let added = series.add(&line, &fields, lines.number);
         added

@@ -26,7 +26,7 @@ impl DataBlock {
         let factor = self.unit.in_metres_per_second_squared();
         let samples = scaled(values, factor);
         if let Some(peak) = self.peak {
-            lines.located(agreement::peak(&samples, peak * factor))?;
+            lines.with_line_number(agreement::peak(&samples, peak * factor))?;
         }
         let next_line = line_after_block(lines, self.points)?;
         Ok((samples, next_line))
@@ -63,8 +63,8 @@ pub(super) fn unit_and_rest<'a>(
 ) -> FaultResult<(AccelerationUnit, &'a str)> {
     let separator = text.find([',', '(', ')']).unwrap_or(text.len());
     let end = text.find("format").unwrap_or(text.len()).min(separator);
-    let (name, rest) = text.split_at(end);
-    let name = name.trim_matches([' ', '\t', '.']);
+    let rest = &text[end..];
+    let name = text[..end].trim_matches([' ', '\t', '.']);
     if is_raw_unit(name) {
         return Err(unprocessed(title, RAW_COUNTS_TEXT));
     }
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn units_are_whole_words() {
         use AccelerationUnit::{Gal, InchPerSecondSquared, StandardGravity};
-        for (text, known) in [
+        for (text, expected) in [
             ("cm/s^2 (4),format=(8f10.5)", Gal),
             ("cm/sec2(04),format=(1e15.6)", Gal),
             ("gal (10)", Gal),
@@ -123,7 +123,7 @@ mod tests {
             ("cms/sec/sec)   (8f10.3)", Gal),
         ] {
             let (found, rest) = unit_and_rest("title", text).unwrap();
-            assert!(found == known && FortranFormat::is_all_of(rest), "{text}");
+            assert!(found == expected && FortranFormat::is_all_of(rest), "{text}");
         }
         for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
             let error = unit_and_rest("title", text).unwrap_err();

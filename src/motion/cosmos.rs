@@ -135,7 +135,7 @@ fn read(
         };
         channel_count += 1;
         if wanted.is_none_or(|wanted| wanted == channel_count) {
-            let block = lines.located(block)?;
+            let block = lines.with_line_number(block)?;
             let (samples, next_line) = block.read(lines)?;
             let name = cosmos_header.channel_name.take();
             let name = name.unwrap_or_else(|| format!("channel {channel_count}"));
@@ -260,10 +260,10 @@ impl CosmosHeader {
 
 /// Reads the values under a title of real header values.
 fn read_reals(lines: &mut Lines, title: &str) -> LineResult<Vec<f64>> {
-    let count = lines.located(block::leading_count(title, "number of header values"))?;
+    let count = lines.with_line_number(block::leading_count(title, "number of header values"))?;
     let format = title.split_once("format").map_or("", |(_, format)| format);
     let format = format.trim_start_matches([' ', '=', ':']);
-    let format = lines.located(block::format_of_title(title, format))?;
+    let format = lines.with_line_number(block::format_of_title(title, format))?;
     read_numbers(lines, count, format)
 }
 

@@ -97,11 +97,12 @@ impl EsmHeader {
     }
 }
 
+/// Reads the component.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let mut header = EsmHeader::default();
     let mut values = Vec::new();
     while let Some(line) = lines.next()? {
-        lines.located(match line.split_once(':') {
+        lines.with_line_number(match line.split_once(':') {
             Some((key, value)) if values.is_empty() => header.read(key.trim(), value.trim()),
             _ => push_numbers(&line, &mut values),
         })?;
@@ -115,6 +116,6 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
         return Err(lines.fault(wrong_count(found, needed)));
     }
     let samples = scaled(values, unit.in_metres_per_second_squared());
-    lines.located(header.check(&samples, step))?;
+    lines.with_line_number(header.check(&samples, step))?;
     Ok(Series { name: header.stream, step, samples })
 }

@@ -6,7 +6,7 @@ use crate::text::decimal::{excerpt, quoted};
 /// Largest number of characters that a message quotes from a file.
 const MAX_QUOTED_CHARACTERS: usize = 60;
 
-/// What was read, or its fault without the number of a line.
+/// Result of reading, or the fault without the number of a line.
 pub(super) type FaultResult<T> = Result<T, FileFault>;
 
 /// A field that is not a finite number.
@@ -73,7 +73,7 @@ pub(super) fn unprocessed(text: &str, kind: &str) -> FileFault {
     )
 }
 
-/// A line whose numbers cannot be understood beside those of other lines.
+/// A line whose numbers cannot be understood beside the numbers of other lines.
 ///
 /// It does not match the columns of the file's Fortran format, which place the decimal points or scale the numbers; or it
 /// does, and previous lines did not.

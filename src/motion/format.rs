@@ -1,11 +1,11 @@
 //! The trait of file formats, and records read by it.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::Record;
-use crate::error::{FileFault, Result};
+use crate::error::Result;
+use crate::text::file::open_file;
 
 /// A file format of records; implement it for other formats.
 ///
@@ -45,8 +45,8 @@ impl Record {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
-        let (name, mut file) = open(path.as_ref())?;
-        format.parse(&name, &mut file)
+        let path = path.as_ref();
+        format.parse(&path.display().to_string(), &mut open_file(path)?)
     }
 
     /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`.
@@ -70,8 +70,8 @@ impl Record {
         path: impl AsRef<Path>,
         format: &dyn RecordFormat,
     ) -> Result<Vec<(String, Self)>> {
-        let (name, mut file) = open(path.as_ref())?;
-        format.parse_all(&name, &mut file)
+        let path = path.as_ref();
+        format.parse_all(&path.display().to_string(), &mut open_file(path)?)
     }
 
     /// Reads a record from any source of bytes; errors call it `name`.
@@ -94,14 +94,5 @@ impl Record {
         format: &dyn RecordFormat,
     ) -> Result<Self> {
         format.parse(name, &mut source)
-    }
-}
-
-/// A file, and its name for errors.
-fn open(path: &Path) -> Result<(String, File)> {
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok((name, file)),
-        Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
     }
 }

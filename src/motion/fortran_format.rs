@@ -55,8 +55,8 @@ impl FortranFormat {
         if !line.is_ascii() {
             return None;
         }
-        let (columns, rest) = line.split_at(end);
-        let fields = self.fields(columns.trim_end())?;
+        let rest = &line[end..];
+        let fields = self.fields(line[..end].trim_end())?;
         if continues_number(rest) && !fields.last().is_some_and(|field| self.ends_in_column(field))
         {
             return None;
@@ -106,7 +106,8 @@ impl FortranFormat {
             None => (0, item.trim()),
         };
         let letter = item.find(|character: char| !character.is_ascii_digit())?;
-        let (repeat, rest) = item.split_at(letter);
+        let repeat = &item[..letter];
+        let rest = &item[letter..];
         let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
         let whole_numbers = rest.starts_with(['I', 'i']);
         let (width, decimals) = width.split_once('.').unwrap_or((width, "0"));
@@ -226,7 +227,7 @@ mod tests {
 
     #[test]
     fn formats_are_found() {
-        for (text, known) in [
+        for (text, expected) in [
             ("4 points, in cm/sec2. (8f10.6)", format_of(0, 8, 10, 6)),
             ("units=cm/s^2 (4),Format=(10F8.5)", format_of(0, 10, 8, 5)),
             ("units=cm/sec2(04),Format=(1E15.6)", format_of(0, 1, 15, 6)),
@@ -247,7 +248,7 @@ mod tests {
             ("8F10.5", None),
             ("", None),
         ] {
-            assert_eq!(FortranFormat::find(text), known, "{text}");
+            assert_eq!(FortranFormat::find(text), expected, "{text}");
         }
     }
 

@@ -264,8 +264,8 @@ pub struct Triaxial {
 
 impl FreeField for Triaxial {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        let [along, _, up] = self.displacement_at([x, 0.0], time);
-        [along, up]
+        let displacement = self.displacement_at([x, 0.0], time);
+        [displacement[0], displacement[2]]
     }
 
     fn displacement_at(&self, _place: [f64; 2], time: f64) -> [f64; 3] {
@@ -340,8 +340,7 @@ impl RickerDisplacement {
     /// This pulse as vertical motion (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
-        let [horizontal, vertical] = self.amplitude;
-        Self { amplitude: [vertical, horizontal], ..self }
+        Self { amplitude: [self.amplitude[1], self.amplitude[0]], ..self }
     }
 }
 

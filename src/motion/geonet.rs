@@ -130,6 +130,7 @@ fn number_after(key: &str, words: &[&str]) -> Option<f64> {
     finite(words.get(index + 1)?)
 }
 
+/// Reads all components.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut components = Vec::new();
     while let Some(first_line) = lines.next()? {
@@ -151,7 +152,7 @@ fn read_component(lines: &mut Lines) -> LineResult<Series> {
         let Some(line) = lines.next()? else {
             return Err(lines.fault(FileFault::missing("header of 16 lines")));
         };
-        lines.located(header.read(&line))?;
+        lines.with_line_number(header.read(&line))?;
     }
     let integers = read_numbers(lines, 40, Some(INTEGER_FORMAT))?;
     let reals = read_numbers(lines, 60, Some(REAL_FORMAT))?;
@@ -162,7 +163,7 @@ fn read_component(lines: &mut Lines) -> LineResult<Series> {
     let unit = required(lines, header.unit.filter(|&unit| unit > 0.0), "unit (mm/s/s)")?;
     let factor = unit * AccelerationUnit::MillimetrePerSecondSquared.in_metres_per_second_squared();
     let samples = scaled(read_numbers(lines, points, Some(REAL_FORMAT))?, factor);
-    lines.located(header.check(&samples, step))?;
+    lines.with_line_number(header.check(&samples, step))?;
     let velocity_count = integers[34];
     let displacement_count = integers[35];
     skip_numbers(lines, velocity_count)?;

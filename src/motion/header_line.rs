@@ -246,7 +246,7 @@ fn states_a_number(text: &str) -> bool {
     finite(text).is_some() || words.any(|word| finite(word).is_some() && !is_channel_number(word))
 }
 
-/// Whether a number may be that of a channel (at most two digits) or an azimuth.
+/// Whether a number may be the number of a channel (at most two digits) or an azimuth.
 fn is_channel_number(word: &str) -> bool {
     let is_azimuth = word.len() == 3 && (word.starts_with('0') || word == "180" || word == "270");
     is_all_digits(word) && (word.len() < 3 || is_azimuth)

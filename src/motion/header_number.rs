@@ -90,10 +90,11 @@ impl HeaderNumber {
 
     /// The value of a text whose unit begins at `position`.
     fn parse_split(self, text: &str, position: usize) -> Option<f64> {
-        let (number, unit) = text.split_at(position);
+        let number = &text[..position];
+        let unit = &text[position..];
         let bare = unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit);
         let name = bare.strip_suffix('.').unwrap_or(bare).to_ascii_lowercase();
-        let (_, units_per_si_unit) = self.units().iter().find(|(unit, _)| *unit == name)?;
+        let units_per_si_unit = self.units().iter().find(|(unit, _)| *unit == name)?.1;
         Some(number_or_fraction(number.trim_end())? / units_per_si_unit)
     }
 }

@@ -14,7 +14,8 @@ impl Record {
         for index in 0..self.len() - 1 {
             let start = self.sample(index);
             let jerk = self.jerk(index);
-            let [a, v] = [start.acceleration, start.velocity];
+            let a = start.acceleration;
+            let v = start.velocity;
             // The velocity has an extreme where the acceleration vanishes.
             for elapsed in self.roots_in_step(a, jerk, 0.0) {
                 velocity = velocity.max(start.after(elapsed, jerk).velocity.abs());

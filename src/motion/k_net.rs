@@ -62,6 +62,7 @@ struct KNetHeader {
     direction: String,
 }
 
+/// Reads the component.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let mut header = KNetHeader::default();
     loop {
@@ -71,7 +72,7 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
         if line.to_ascii_lowercase().starts_with("memo") {
             break;
         }
-        lines.located(header.read(&line))?;
+        lines.with_line_number(header.read(&line))?;
     }
     let frequency = required(lines, header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
     let duration = required(lines, header.duration, "duration (`Duration Time(s)`)")?;
@@ -79,7 +80,7 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
 
     let mut counts = Vec::new();
     while let Some(line) = lines.next()? {
-        lines.located(push_numbers(&line, &mut counts))?;
+        lines.with_line_number(push_numbers(&line, &mut counts))?;
     }
     let found = counts.len();
     let needed = (duration * frequency).round();
@@ -93,7 +94,7 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
     let samples = scaled(counts, scale * gal);
     let peak = header.peak.unwrap_or(0.0) * gal;
-    lines.located(agreement::peak(&samples, peak))?;
+    lines.with_line_number(agreement::peak(&samples, peak))?;
     Ok(Series { name: header.direction, step: 1.0 / frequency, samples })
 }
 

@@ -83,7 +83,7 @@ struct KNetCsvHeader {
 impl KNetCsvHeader {
     /// Stores the values of a line `#Key,value`.
     fn read(&mut self, fields: &[&str]) -> FaultResult<()> {
-        let [key, values @ ..] = fields else { return Ok(()) };
+        let Some((key, values)) = fields.split_first() else { return Ok(()) };
         let value = values.first().copied().unwrap_or("");
         let key = key.trim_start_matches('#').trim_start().to_ascii_lowercase();
         if key.starts_with("sampling freq") {
@@ -109,6 +109,7 @@ impl KNetCsvHeader {
     }
 }
 
+/// Reads all components.
 fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut header = KNetCsvHeader::default();
     let mut clock = Clock::default();
@@ -124,7 +125,7 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
         let time = if line.starts_with('#') { None } else { clock.read(fields[0]) };
         let Some(time) = time else {
             if columns.is_empty() {
-                lines.located(header.read(&fields))?;
+                lines.with_line_number(header.read(&fields))?;
                 continue;
             }
             return Err(lines.fault(not_a_number(fields[0])));
@@ -138,11 +139,11 @@ fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
         }
         times.push(time);
         for (column, field) in columns.iter_mut().zip(&fields[1..]) {
-            let value = lines.located(finite_number(field))?;
+            let value = lines.with_line_number(finite_number(field))?;
             column.push(value * SAMPLE_UNIT.in_metres_per_second_squared());
         }
     }
-    lines.located(components(&header, &times, clock.resolution().unwrap_or(0.0), &columns))
+    lines.with_line_number(components(&header, &times, clock.resolution().unwrap_or(0.0), &columns))
 }
 
 /// The components; an error unless header, times and samples agree.

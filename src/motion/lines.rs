@@ -50,7 +50,7 @@ pub(super) fn push_numbers(line: &str, values: &mut Vec<f64>) -> FaultResult<()>
     Ok(())
 }
 
-/// How numbers without a decimal point were read so far.
+/// Readings of the numbers without a decimal point so far.
 #[derive(Default)]
 struct PointlessNumbers {
     /// Some have the decimals that the format implies.
@@ -110,7 +110,7 @@ pub(super) fn read_numbers(
         let Some(line) = lines.next_indented()? else {
             return Err(lines.fault(wrong_count(values.len(), needed)));
         };
-        lines.located(match format {
+        lines.with_line_number(match format {
             Some(format) => push_columns(&line, format, &mut pointless, &mut values),
             None => push_numbers(&line, &mut values),
         })?;
@@ -334,7 +334,7 @@ pub(super) fn first_word<'a>(fields: &LineFields<'a>) -> Option<&'a str> {
     first.filter(|field| field.contains(char::is_alphabetic) && !is_like_number(field))
 }
 
-/// Fault of a line; if the line starts with a word before all numbers, that of a header line.
+/// Fault of a line; of a header line if it starts with a word before all numbers.
 pub(super) fn line_or_header_fault(
     fault: FileFault,
     fields: &LineFields,

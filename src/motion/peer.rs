@@ -55,6 +55,7 @@ impl RecordFormat for PeerFormat {
     }
 }
 
+/// Reads the component.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let header = read_header(lines)?;
     let factor = SAMPLE_UNIT.in_metres_per_second_squared();
@@ -86,7 +87,7 @@ fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
             None => {}
         }
         if has_word(&line, "NPTS") && has_word(&line, "DT") {
-            let header = lines.located(points_and_step(&line))?;
+            let header = lines.with_line_number(points_and_step(&line))?;
             let header = required(lines, header, quantities)?;
             if is_in_g {
                 return Ok(header);
@@ -253,7 +254,7 @@ mod tests {
 
     #[test]
     fn headers_say_what_the_numbers_are() {
-        for (line, known) in [
+        for (line, expected) in [
             ("ACCELERATION TIME SERIES IN UNITS OF G", Some(true)),
             ("ACCELERATION TIME HISTORY IN UNITS OF G.", Some(true)),
             (
@@ -286,7 +287,7 @@ mod tests {
             ("STUDY OF VELOCITY PULSES", None),
             ("", None),
         ] {
-            assert_eq!(acceleration_in_g(line), known, "{line}");
+            assert_eq!(acceleration_in_g(line), expected, "{line}");
         }
     }
 }

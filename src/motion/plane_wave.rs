@@ -245,20 +245,24 @@ impl Slownesses {
     /// Of a P or an S wave of this speed (m/s), at `angle` (rad) from the vertical.
     fn new(soil: Soil, angle: f64, speed: f64) -> Result<Self> {
         let p = check_angle(angle)?.sin() / speed;
-        let [a, b] = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| {
-            // The incident wave's vertical slowness, without cancellation.
-            let is_incident = c == speed;
-            if is_incident {
-                Complex::real(angle.cos() / speed)
-            } else {
-                Complex::real(c.powi(-2) - p * p).sqrt()
-            }
-        });
+        let a = vertical_slowness(soil.pressure_wave_speed(), p, angle, speed);
+        let b = vertical_slowness(soil.shear_wave_speed(), p, angle, speed);
         let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
         let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
         let zero = RAYLEIGH_ZERO_TOLERANCE * soil.shear_wave_speed().powi(-4);
         require("angle of incidence", angle, rayleigh.abs() > zero, "not the critical angle")?;
         Ok(Self { p, a, b, g, rayleigh })
+    }
+}
+
+/// Vertical slowness of a wave of speed `c` that belongs to an incident wave of this `angle` and `speed`.
+fn vertical_slowness(c: f64, p: f64, angle: f64, speed: f64) -> Complex {
+    let is_incident = c == speed;
+    if is_incident {
+        // Without cancellation.
+        Complex::real(angle.cos() / speed)
+    } else {
+        Complex::real(c.powi(-2) - p * p).sqrt()
     }
 }
 

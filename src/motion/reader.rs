@@ -229,13 +229,16 @@ impl ColumnTable {
                 return Err(lines.fault(unexpected_header_line(word)));
             }
             let read = table.read_values(&fields, format, all);
-            lines.located(read.map_err(|fault| line_or_header_fault(fault, &fields, is_first)))?;
+            lines.with_line_number(
+                read.map_err(|fault| line_or_header_fault(fault, &fields, is_first)),
+            )?;
             if is_first {
                 let titles = header.titles(&(fields.filled_count()..=fields.texts.len()));
-                table.names = lines.located(column_names(format, &titles, &table.chosen))?;
+                table.names =
+                    lines.with_line_number(column_names(format, &titles, &table.chosen))?;
                 table.has_words = titles.name_all_columns();
             }
-            lines.located(table.check_fields(&fields, format, all))?;
+            lines.with_line_number(table.check_fields(&fields, format, all))?;
             table.lines.push(lines.number);
         }
         Ok(table)

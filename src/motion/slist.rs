@@ -110,7 +110,7 @@ fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec
             next_line = lines.next()?;
             continue;
         }
-        let header = lines.located(SlistHeader::read(&line, expected))?;
+        let header = lines.with_line_number(SlistHeader::read(&line, expected))?;
         if all_series.iter().any(|series| series.name == header.name) {
             let found = format!("second piece of {}", quoted(&header.name));
             let needed = "series without gaps: one piece of each";
@@ -119,7 +119,7 @@ fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec
         let mut values = Vec::new();
         next_line = lines.next()?;
         while let Some(line) = next_line.take_if(|line| !line.starts_with("TIMESERIES")) {
-            lines.located(push_numbers(&line, &mut values))?;
+            lines.with_line_number(push_numbers(&line, &mut values))?;
             next_line = lines.next()?;
         }
         if values.len() != header.samples {

@@ -51,6 +51,7 @@ const MAX_SAMPLING_RATE: f64 = 1e5;
 /// Indices, from 0, of the times of maximum and minimum in the reals; the values follow the times.
 const EXTREME_TIME_INDICES: [usize; 2] = [28, 30];
 
+/// Reads the component.
 fn read(lines: &mut Lines) -> LineResult<Series> {
     let name = read_text(lines)?;
     let integers = read_numbers(lines, 48, Some(INTEGER_FORMAT))?;
@@ -75,7 +76,7 @@ fn read(lines: &mut Lines) -> LineResult<Series> {
         if let Some(time) = stated_real(&reals, index)
             && let Some(value) = stated_real(&reals, index + 1)
         {
-            lines.located(agreement::extreme(&samples, step, time, value * gal))?;
+            lines.with_line_number(agreement::extreme(&samples, step, time, value * gal))?;
         }
     }
     Ok(Series { name, step, samples })

@@ -171,7 +171,8 @@ fn is_multiple(text: &str) -> bool {
         }
     }
     lower.char_indices().skip(1).any(|(position, _)| {
-        let (head, tail) = lower.split_at(position);
+        let head = &lower[..position];
+        let tail = &lower[position..];
         // `50g` is the level of a centrifuge.
         let is_small = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
         let has_factor_before = is_small || is_factor(head, &[]);

@@ -17,8 +17,16 @@ use crate::results::{DeformedShape, TimeSeries};
 const PICTURE_WIDTH: f64 = 940.0;
 /// Height of the picture, pixels.
 const PICTURE_HEIGHT: f64 = 640.0;
-/// Box of the structure, pixels: left, top, right, bottom.
-const STRUCTURE_BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
+/// A rectangle of the picture, pixels.
+struct PixelBox {
+    left: f64,
+    top: f64,
+    right: f64,
+    bottom: f64,
+}
+
+/// Rectangle of the structure.
+const STRUCTURE_BOX: PixelBox = PixelBox { left: 40.0, top: 60.0, right: 690.0, bottom: 520.0 };
 /// Largest number of frames: browsers cannot play larger files smoothly.
 const MAX_FRAMES: usize = 600;
 /// Largest number of texts of the clock.
@@ -86,7 +94,7 @@ pub fn animation(
                 time_series,
                 screen.scale,
                 |place| screen.place(place),
-                STRUCTURE_BOX[3],
+                STRUCTURE_BOX.bottom,
                 frames.len(),
                 &duration,
             );
@@ -118,7 +126,7 @@ impl Screen {
         all.extend(others);
         let bounds = bounds(&all);
         let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
-        let [left, top, right, bottom] = STRUCTURE_BOX;
+        let PixelBox { left, top, right, bottom } = STRUCTURE_BOX;
         let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
         let left = left + 0.5 * (right - left - scale * sides[0]);
         Self { scale, left, bottom, origin: bounds.map(|[low, _]| low) }
@@ -170,8 +178,9 @@ impl Screen {
         let mut path = String::new();
         for corners in cells {
             for (k, &corner) in corners.iter().enumerate() {
-                let [x, y] = self.place(places[corner]);
-                let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
+                let place = self.place(places[corner]);
+                let command = if k == 0 { 'M' } else { 'L' };
+                let _ = write!(path, "{command}{:.1} {:.1}", place[0], place[1]);
             }
             if corners.len() > 2 {
                 path.push('Z');
@@ -182,7 +191,7 @@ impl Screen {
 
     /// The soil and its surface, with the outline of a trench.
     fn ground(&self, trench: Option<[[f64; 2]; 4]>) -> String {
-        let [left, _, right, bottom] = STRUCTURE_BOX;
+        let PixelBox { left, right, bottom, .. } = STRUCTURE_BOX;
         let surface = self.place([0.0; 2])[1];
         let mut trench_path = String::new();
         for [x, y] in trench.iter().flatten().map(|corner| self.place(*corner)) {
@@ -259,8 +268,8 @@ struct Floor {
     margin: f64,
 }
 
-/// Box of the plan at the side, pixels: left, top, right, bottom.
-const PLAN_BOX: [f64; 4] = [KEY_LEFT, 440.0, 915.0, 585.0];
+/// Rectangle of the plan at the side.
+const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, bottom: 585.0 };
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
@@ -302,16 +311,17 @@ impl Floor {
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",
-            PLAN_BOX[0],
-            PLAN_BOX[1] - 8.0
+            PLAN_BOX.left,
+            PLAN_BOX.top - 8.0
         );
-        let [width, depth] = self.ends.map(|[low, high]| high - low);
-        let [box_left, box_top, box_right, box_bottom] = PLAN_BOX;
-        let scale = ((box_right - box_left) / width).min((box_bottom - box_top) / depth);
+        let sides = self.ends.map(|[low, high]| high - low);
+        let scale = ((PLAN_BOX.right - PLAN_BOX.left) / sides[0])
+            .min((PLAN_BOX.bottom - PLAN_BOX.top) / sides[1]);
         for (e, element) in time_series.elements().iter().enumerate() {
             let corners = Self { ends: element.ends(), margin: 0.0 }.corners(0.0);
-            let in_plan = corners
-                .map(|[x, _, y]| [box_left + scale * (x - left), box_top + scale * (back - y)]);
+            let in_plan = corners.map(|[x, _, y]| {
+                [PLAN_BOX.left + scale * (x - left), PLAN_BOX.top + scale * (back - y)]
+            });
             let colors: Vec<String> =
                 states.by_frame.iter().map(|frame| hex(frame[e].color())).collect();
             let change = changes("fill", &colors, duration);

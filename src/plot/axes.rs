@@ -145,9 +145,9 @@ pub(super) fn chart<'a, 'b>(
     y: &ChartAxis,
     has_grid: bool,
 ) -> Drawing<Chart<'a, 'b>> {
-    let (width, height) = area.dim_in_pixel();
-    let x = x.layout(remaining_pixels(width, SPACE_LEFT + SPACE_RIGHT), false);
-    let y = y.layout(remaining_pixels(height, SPACE_ABOVE + SPACE_BELOW), true);
+    let pixels = area.dim_in_pixel();
+    let x = x.layout(remaining_pixels(pixels.0, SPACE_LEFT + SPACE_RIGHT), false);
+    let y = y.layout(remaining_pixels(pixels.1, SPACE_ABOVE + SPACE_BELOW), true);
     let mut chart = ChartBuilder::on(area)
         .margin_left(OUTER_MARGIN)
         .margin_right(SPACE_RIGHT)

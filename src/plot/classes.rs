@@ -28,11 +28,11 @@ pub(super) struct Classes {
 impl Classes {
     /// Classes from the lowest value, at most zero, to the highest value, at least zero.
     pub(super) fn between(ends: [f64; 2]) -> Self {
-        let [low, high] = ends.map(|end| if is_drawable(end) { end } else { 0.0 });
-        let largest = high.max(-low);
+        let ends = ends.map(|end| if is_drawable(end) { end } else { 0.0 });
+        let largest = ends[1].max(-ends[0]);
         let step = rounded_step(if largest > 0.0 { largest } else { 1.0 } / CLASS_COUNT);
-        let below = (-low / step).ceil().max(0.0);
-        let above = (high / step).ceil().max(0.0);
+        let below = (-ends[0] / step).ceil().max(0.0);
+        let above = (ends[1] / step).ceil().max(0.0);
         // Zero has a class if nothing else has one.
         Self { step, below, above: if below > 0.0 { above } else { above.max(1.0) } }
     }

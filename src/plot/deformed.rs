@@ -139,9 +139,8 @@ impl Elevation {
 /// The elevations of the shapes, side by side, at one scale.
 fn elevations(shapes: &[NamedShape], up: usize, chart_size: [f64; 2]) -> Vec<Elevation> {
     let views = StructureView::elevations(up);
-    let [total_width, height] = chart_size;
     let space_between = f64::from(SPACE_LEFT + SPACE_RIGHT) * (views.len() - 1) as f64;
-    let size = [(total_width - space_between) / views.len() as f64, height];
+    let size = [(chart_size[0] - space_between) / views.len() as f64, chart_size[1]];
     let mut elevations = Vec::new();
     for &view in views {
         let shapes: Vec<Vec<[f64; 2]>> =
@@ -171,7 +170,8 @@ fn draw_elevation(
     time_series: &TimeSeries,
     elevation: &Elevation,
 ) -> Drawing<()> {
-    let [x, y] = &elevation.ranges;
+    let x = &elevation.ranges[0];
+    let y = &elevation.ranges[1];
     let horizontal = if elevation.view == StructureView::AlongX { "y, m" } else { "x, m" };
     let vertical = ["x, m", "y, m", "z, m"][time_series.up()];
     let x_axis = ChartAxis::linear(x.clone(), horizontal);
@@ -234,9 +234,8 @@ fn shapes_at(
 
 /// Ranges of both axes at one scale, in an area of [width, height] pixels.
 fn ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
-    let [x_scale, y_scale] =
-        [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / size[k]);
-    let metres_per_pixel = x_scale.max(y_scale);
+    let scales = [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / size[k]);
+    let metres_per_pixel = scales[0].max(scales[1]);
     [0, 1].map(|k| {
         let middle = middle(bounds[k]);
         let half = 0.5 * metres_per_pixel * size[k];

@@ -90,9 +90,9 @@ pub(super) fn base(
 fn mark(element: &ContactElement, width: f64) -> [[f64; 2]; 4] {
     let half = 0.5 * element.length();
     [[-half, 0.0], [half, 0.0], [half, width], [-half, width]].map(|[along, into]| {
-        let [x, _, z] = element.center();
-        let [dx, _, dz] = element.vector([into, along, 0.0]);
-        [x + dx, z + dz]
+        let center = element.center();
+        let from_center = element.vector([into, along, 0.0]);
+        [center[0] + from_center[0], center[2] + from_center[2]]
     })
 }
 

@@ -54,18 +54,17 @@ pub(super) struct Arrow {
 
 impl Arrow {
     fn path(&self) -> PathElement<(f64, f64)> {
-        let [x, y] = self.middle;
-        let [dx, dy] = self.direction;
-        let length = ARROW_LENGTH_RATIO * self.shorter_side;
-        let head = ARROW_HEAD_RATIO * self.shorter_side;
+        let Self { middle: [x, y], direction: [dx, dy], shorter_side } = *self;
+        let length = ARROW_LENGTH_RATIO * shorter_side;
+        let head = ARROW_HEAD_RATIO * shorter_side;
         let foot = (x - length * dx, y - length * dy);
         let tip = (x + length * dx, y + length * dy);
         let back = head * 0.87;
-        let [left, right] = [0.5, -0.5].map(|side| {
+        let barbs = [0.5, -0.5].map(|side| {
             let aside = side * head;
             (tip.0 - back * dx - aside * dy, tip.1 - back * dy + aside * dx)
         });
-        PathElement::new(vec![foot, tip, left, tip, right], BLACK.stroke_width(1))
+        PathElement::new(vec![foot, tip, barbs[0], tip, barbs[1]], BLACK.stroke_width(1))
     }
 }
 
@@ -153,12 +152,12 @@ pub(super) fn draw(title: &str, cells: &[PlanCell], key: &[(String, KeySample)])
     let width = x_ends[1] - x_ends[0];
     let height = y_ends[1] - y_ends[0];
     let margin = FRAME_RATIO * width.max(height);
-    let [chart_width, chart_height] = sheet.chart_size();
+    let chart_size = sheet.chart_size();
     let metres_per_pixel = 0.0_f64
-        .max((width + 2.0 * margin) / chart_width)
-        .max((height + 2.0 * margin) / chart_height);
-    let x = range_around(middle(x_ends), 0.5 * metres_per_pixel * chart_width);
-    let y = range_around(middle(y_ends), 0.5 * metres_per_pixel * chart_height);
+        .max((width + 2.0 * margin) / chart_size[0])
+        .max((height + 2.0 * margin) / chart_size[1]);
+    let x = range_around(middle(x_ends), 0.5 * metres_per_pixel * chart_size[0]);
+    let y = range_around(middle(y_ends), 0.5 * metres_per_pixel * chart_size[1]);
     sheet.picture(|area| {
         let x_axis = ChartAxis::linear(x, "x, m");
         let y_axis = ChartAxis::linear(y, "y, m");

@@ -68,8 +68,7 @@ fn shell_corners(mesh: &Mesh, index: usize) -> Result<Vec<(f64, f64)>> {
     };
     let mut corners = Vec::new();
     for &node in shell.corners() {
-        let [x, y, _] = mesh.nodes()[node];
-        corners.push((x, y));
+        corners.push((mesh.nodes()[node][0], mesh.nodes()[node][1]));
     }
     Ok(corners)
 }

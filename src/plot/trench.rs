@@ -8,7 +8,7 @@ pub(super) fn outline(elements: &[ContactElement]) -> Option<[[f64; 2]; 4]> {
     if !ContactElement::any_wall(elements) {
         return None;
     }
-    let [left, right] = far_ends(elements.iter().map(|element| element.ends()[0]));
-    let [bottom, top] = far_ends(elements.iter().map(ContactElement::heights));
-    Some([[left, top], [left, bottom], [right, bottom], [right, top]])
+    let x = far_ends(elements.iter().map(|element| element.ends()[0]));
+    let z = far_ends(elements.iter().map(ContactElement::heights));
+    Some([[x[0], z[1]], [x[0], z[0]], [x[1], z[0]], [x[1], z[1]]])
 }

@@ -199,9 +199,11 @@ fn table_row(
     if cells.len() + 2 != needed {
         return Err(FileFault::count("cells", cells.len() + 2, needed.to_string()));
     }
-    let (parameters, results) = cells.split_at(grid.parameters.len());
-    let (results, warnings) = results.split_at(columns.names.len());
-    let warnings = warnings.concat();
+    let results_begin = grid.parameters.len();
+    let results_end = results_begin + columns.names.len();
+    let parameters = &cells[..results_begin];
+    let results = &cells[results_begin..results_end];
+    let warnings = cells[results_end..].concat();
     let is_in_digits = case_text.bytes().all(|byte| byte.is_ascii_digit());
     let case = case_text.parse().ok().filter(|&case| is_in_digits && wanted(case));
     let case = case.ok_or_else(|| {

@@ -50,7 +50,7 @@ impl Sweep<'_> {
         Ok(CaseTable { grid: self.grid.clone(), columns: Columns::of_results(columns), rows })
     }
 
-    /// The columns' names; an error if one is empty, reserved or that of another column.
+    /// The columns' names; an error if one is empty, reserved or occurs twice.
     pub(super) fn checked_columns<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
         let columns: Vec<String> = columns.iter().map(|name| name.as_ref().to_owned()).collect();
         let parameters = self.grid.parameters.iter().map(Parameter::name);

@@ -14,7 +14,7 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The byte with which DOS ends a file.
 const DOS_END_OF_FILE: u8 = 0x1a;
 
-/// What was read from lines, or the number of a line and its fault.
+/// Result of reading lines, or the number of a line and its fault.
 pub(crate) type LineResult<T> = Result<T, (usize, FileFault)>;
 
 /// The lines of a text, read one by one.
@@ -106,7 +106,7 @@ impl<R: Read> Lines<R> {
     }
 
     /// Adds the number of the present line to the fault of a result.
-    pub(crate) fn located<T>(&self, result: Result<T, FileFault>) -> LineResult<T> {
+    pub(crate) fn with_line_number<T>(&self, result: Result<T, FileFault>) -> LineResult<T> {
         result.map_err(|fault| self.fault(fault))
     }
 

@@ -1,5 +1,6 @@
 //! Writes files completely, or leaves them unchanged.
 
+use std::fs::File;
 use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::Write;
 use std::path::Path;
@@ -9,6 +10,12 @@ use crate::error::{Error, FileFault, Result};
 /// Makes the error for a file that cannot be written.
 pub(crate) fn write_error(path: &Path) -> impl Fn(std::io::Error) -> Error {
     move |error| FileFault::Unwritable(error.kind()).of(path.display().to_string(), 0)
+}
+
+/// Opens a file to be read.
+pub(crate) fn open_file(path: &Path) -> Result<File> {
+    File::open(path)
+        .map_err(|error| FileFault::Unreadable(error.kind()).of(path.display().to_string(), 0))
 }
 
 /// Replaces a file by one with this content; if that fails, the file is unchanged.
@@ -34,7 +41,7 @@ pub(crate) fn replace_file(path: &Path, content: &[u8]) -> std::io::Result<()> {
 
 /// Writes a new file; when this returns, its content is on the disk.
 fn write_and_sync(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let mut file = std::fs::File::create(path)?;
+    let mut file = File::create(path)?;
     file.write_all(content)?;
     file.sync_all()
 }

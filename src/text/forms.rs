@@ -1,4 +1,4 @@
-//! How values are stored in serde's formats.
+//! Forms in which values are stored in serde's formats.
 
 /// Implements `Deserialize` through a constructor, which checks the values.
 ///

@@ -177,9 +177,8 @@ mod tests {
     #[test]
     fn wide_tables_break_into_blocks() {
         let widths = [3, 4, 40, 30, 15, 98, 200, 1];
-        let [heading, first_row, second_row] =
-            ["é", "1", "2"].map(|sign| widths.map(|width| sign.repeat(width)).to_vec());
-        let rows = vec![first_row, second_row];
+        let heading = widths.map(|width| "é".repeat(width)).to_vec();
+        let rows = ["1", "2"].map(|sign| widths.map(|width| sign.repeat(width)).to_vec()).to_vec();
         let text = Table { heading, repeated: 2, rows }.text();
         let max_characters = text.lines().map(|line| line.chars().count()).max();
         // Cells of 98 and 200 characters are cut to the room left by the names.

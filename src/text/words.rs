@@ -5,7 +5,7 @@ use crate::text::decimal::{excerpt, finite};
 
 /// Implements `Display`, `FromStr` and the list `ALL` for an enum without fields.
 ///
-/// The macro lists each variant and its word; the visibility before the type is that of `ALL`. The error for another
+/// The macro lists each variant and its word; the visibility before the type applies to `ALL`. The error for another
 /// spelling states the right one.
 macro_rules! words {
     ($all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {

@@ -1,14 +1,12 @@
 //! A `.msh` file, version 2.2 or 4.1, as text or binary (Gmsh reference manual, "MSH file format").
 
-use std::fs::File;
 use std::io::Read;
-use std::path::Path;
 
 use super::fields::{LineResult, MshFields};
 use super::kind::AcceptedKinds;
 use super::raw::{FileMesh, given_twice};
 use super::{version2, version4};
-use crate::error::{Error, FileFault};
+use crate::error::FileFault;
 use crate::text::decimal::excerpt;
 
 /// Version of the format.
@@ -16,15 +14,6 @@ use crate::text::decimal::excerpt;
 enum Version {
     Two,
     Four,
-}
-
-/// The file at `path` and its name.
-pub(super) fn open(path: &Path) -> Result<(String, File), Error> {
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok((name, file)),
-        Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
-    }
 }
 
 /// Reads a file whose elements are of the `accepted` kinds.

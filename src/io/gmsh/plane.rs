@@ -11,6 +11,7 @@ use super::parse;
 use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
+use crate::text::file::open_file;
 
 /// A mesh of quadrilaterals as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -2 -format msh41`).
 ///
@@ -60,8 +61,8 @@ impl GmshMesh {
     /// # Errors
     /// [`Error::File`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let (name, file) = parse::open(path.as_ref())?;
-        Self::from_reader(&name, file)
+        let path = path.as_ref();
+        Self::from_reader(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
@@ -75,8 +76,7 @@ impl GmshMesh {
         let numbered = cell::number(&file_mesh, |cell| cell.kind.dimension() == 2)
             .map_err(|(line, fault)| fault.of(name, line))?;
         let size = numbered.points.iter().fold(0.0_f64, |size, point| {
-            let [x, y, _] = point.values;
-            size.max(x.abs()).max(y.abs())
+            size.max(point.values[0].abs()).max(point.values[1].abs())
         });
         for point in &numbered.points {
             let z = point.values[2];

@@ -11,6 +11,7 @@ use super::parse;
 use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
+use crate::text::file::open_file;
 
 /// Part of a structure that a physical group stands for, for [`GmshSpaceMesh`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -100,8 +101,8 @@ impl GmshSpaceMesh {
     /// # Errors
     /// [`Error::File`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let (name, file) = parse::open(path.as_ref())?;
-        Self::from_reader(&name, file)
+        let path = path.as_ref();
+        Self::from_reader(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
