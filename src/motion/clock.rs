@@ -1,5 +1,8 @@
-//! Times of day in a column of times.
+//! Columns of times: times of day, and the common time step.
 
+use super::fault::unequal_time_step;
+use crate::error::FileFault;
+use crate::text::bounded_line::LineResult;
 use crate::text::decimal::finite;
 
 /// Minutes in a day.
@@ -58,6 +61,110 @@ impl Clock {
 fn two_digits(text: &str) -> Option<i64> {
     let is_number = matches!(text.len(), 1 | 2) && text.bytes().all(|byte| byte.is_ascii_digit());
     if is_number { text.parse().ok() } else { None }
+}
+
+/// Largest difference of a sample from equal steps, relative to the step.
+///
+/// Wide enough for times printed with two digits of the step.
+const STEP_TOLERANCE: f64 = 0.01;
+/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
+const MIN_ROUNDED_STEP_DIGITS: f64 = 3.0;
+/// Relative tolerance of a comparison with the unit of the last digit.
+const DIGIT_COMPARISON_TOLERANCE: f64 = 1e-6;
+
+/// Times of the lines of a file.
+#[derive(Default)]
+pub(super) struct TimeColumn {
+    /// Times, s.
+    times: Vec<f64>,
+    /// Reads the times.
+    pub(super) clock: Clock,
+}
+
+impl TimeColumn {
+    pub(super) fn push(&mut self, time: f64) {
+        self.times.push(time);
+    }
+
+    /// The common time step of the lines, from their times.
+    ///
+    /// `lines`: numbers of the lines in the file.
+    pub(super) fn equal_step(&self, lines: &[usize]) -> LineResult<f64> {
+        let times = &self.times;
+        let first_step = times[1] - times[0];
+        let last = times.len() - 1;
+        let mean_step = (times[last] - times[0]) / last as f64;
+        for k in 1..=last {
+            let step = times[k] - times[k - 1];
+            // The difference of huge times may be infinite.
+            if !(step > 0.0 && step < f64::INFINITY) {
+                let fault = wrong_step(step, "above zero".into());
+                let is_repeated = step == 0.0;
+                return Err(if is_repeated {
+                    (lines[k], self.unequal_steps(mean_step, fault))
+                } else {
+                    (lines[k], fault)
+                });
+            }
+            if (step - first_step).abs() > STEP_TOLERANCE * first_step {
+                let needed = format!("{} s, as before", rounded_decimal(first_step));
+                return Err((lines[k], self.unequal_steps(mean_step, wrong_step(step, needed))));
+            }
+        }
+        if times.iter().enumerate().all(|(k, &time)| time == k as f64 * first_step) {
+            return Ok(first_step);
+        }
+        // Steps that drift slowly pass the test above.
+        for (k, &time) in times.iter().enumerate() {
+            let expected = times[0] + k as f64 * mean_step;
+            if (time - expected).abs() > STEP_TOLERANCE * mean_step {
+                let fault = unequal_time_step(rounded_decimal(time), rounded_decimal(expected));
+                return Err((lines[k], self.unequal_steps(mean_step, fault)));
+            }
+        }
+        Ok(rounded_decimal(mean_step))
+    }
+
+    /// Error for a step that differs from the others: `fault`, unless rounding of the times explains it.
+    fn unequal_steps(&self, mean_step: f64, fault: FileFault) -> FileFault {
+        self.rounded_times(mean_step).unwrap_or(fault)
+    }
+
+    /// The error for times that are equally spaced up to rounding; `None` if they are not.
+    fn rounded_times(&self, mean_step: f64) -> Option<FileFault> {
+        let resolution = self.clock.resolution()?;
+        let tolerance = (1.0 + DIGIT_COMPARISON_TOLERANCE) * resolution;
+        let mut min_step = f64::MAX;
+        let mut max_step = 0.0_f64;
+        for pair in self.times.windows(2) {
+            min_step = min_step.min(pair[1] - pair[0]);
+            max_step = max_step.max(pair[1] - pair[0]);
+        }
+        // Two times in one unit of the last digit, or several units in each step.
+        let has_equal_times = mean_step > 0.0 && min_step == 0.0 && resolution < 1.0;
+        let has_coarse_steps = mean_step > MIN_ROUNDED_STEP_DIGITS * resolution;
+        if !(has_equal_times || has_coarse_steps) || max_step - min_step > tolerance {
+            return None;
+        }
+        for (k, time) in self.times.iter().enumerate() {
+            if (time - self.times[0] - k as f64 * mean_step).abs() > tolerance {
+                return None;
+            }
+        }
+        let needed = format!("given (`time_step`): times rounded to {resolution} s do not tell it");
+        let found = format!("near {} s", rounded_decimal(mean_step));
+        Some(FileFault::value("time step", found, needed))
+    }
+}
+
+/// Fault of a time step (s).
+fn wrong_step(found: f64, needed: String) -> FileFault {
+    FileFault::value("time step", format!("{} s", rounded_decimal(found)), needed)
+}
+
+/// `value` rounded to twelve digits, since differences of printed decimals are decimals.
+fn rounded_decimal(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

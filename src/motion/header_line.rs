@@ -81,8 +81,22 @@ impl ColumnTitles {
         self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
     }
 
+    /// Names of columns of accelerations; an error if a title names a unit other than `expected`.
+    pub(super) fn acceleration_names(
+        &self,
+        columns: &[usize],
+        expected: AccelerationUnit,
+    ) -> FaultResult<Vec<String>> {
+        let mut names = Vec::new();
+        for &column in columns {
+            self.check_acceleration(column, expected)?;
+            names.push(self.name(column).map_or_else(|| format!("column {column}"), str::to_owned));
+        }
+        Ok(names)
+    }
+
     /// The name of a column: its last title that is more than a unit.
-    pub(super) fn name(&self, column: usize) -> Option<&str> {
+    fn name(&self, column: usize) -> Option<&str> {
         let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));
         titles.find(|title| !is_unit_alone(title))
     }

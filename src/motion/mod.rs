@@ -14,11 +14,10 @@
 // * `header_number`: a quantity of a header with its unit; `unit_name`: names of units of acceleration;
 // * `column_title` and `header_line`: titles of columns, and the units that they name;
 // * `agreement`: number of samples, duration and peak that a file states twice;
-// * `block`: the titles of COSMOS and CSMIP that describe a block of numbers; `clock`: times of day;
+// * `block`: the titles of COSMOS and CSMIP that describe a block of numbers; `clock`: columns of times;
 // * `fault`: errors that several formats have.
 //
 // `reader` and `along_lines` read tables and series without a header; `number_table` distinguishes these two.
-
 mod afad;
 mod agreement;
 mod along_lines;

@@ -4,11 +4,9 @@
 
 use std::io::Read;
 
-use super::clock::Clock;
-use super::fault::{
-    FaultResult, may_be_one_series, unequal_columns, unequal_time_step, unexpected_header_line,
-};
-use super::header_line::{ColumnTitles, HeaderLines};
+use super::clock::TimeColumn;
+use super::fault::{FaultResult, may_be_one_series, unequal_columns, unexpected_header_line};
+use super::header_line::HeaderLines;
 use super::lines::{
     LineFields, LineResult, Lines, Series, first_word, has_spreadsheet_error, is_header,
     line_or_header_fault, select_component, to_record, to_records, wrong_count,
@@ -16,15 +14,6 @@ use super::lines::{
 use super::number_table::NumberTable;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
-
-/// Largest difference of a sample from equal steps, relative to the step.
-///
-/// Wide enough for times printed with two digits of the step.
-const STEP_TOLERANCE: f64 = 0.01;
-/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
-const MIN_ROUNDED_STEP_DIGITS: f64 = 3.0;
-/// Relative tolerance of a comparison with the unit of the last digit.
-const DIGIT_COMPARISON_TOLERANCE: f64 = 1e-6;
 
 /// Layout of a record in a text file: its columns and its unit.
 ///
@@ -155,7 +144,7 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Vec<S
             }
             step
         }
-        None => table.equal_step()?,
+        None => table.times.equal_step(&table.lines)?,
     };
     let columns = table.names.into_iter().zip(table.columns);
     Ok(columns.map(|(name, samples)| Series { name, step, samples }).collect())
@@ -166,9 +155,7 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Vec<S
 struct ColumnTable {
     /// Number of each line in the file.
     lines: Vec<usize>,
-    /// Times of the lines, s.
-    times: Vec<f64>,
-    clock: Clock,
+    times: TimeColumn,
     /// Numbers of the columns of accelerations, counted from 1.
     chosen: Vec<usize>,
     /// Names of the chosen columns.
@@ -234,8 +221,11 @@ impl ColumnTable {
             )?;
             if is_first {
                 let titles = header.titles(&(fields.filled_count()..=fields.texts.len()));
-                table.names =
-                    lines.with_line_number(column_names(format, &titles, &table.chosen))?;
+                if format.time_step.is_none() {
+                    lines.with_line_number(titles.check_time(format.time_column))?;
+                }
+                let names = titles.acceleration_names(&table.chosen, format.unit);
+                table.names = lines.with_line_number(names)?;
                 table.has_words = titles.name_all_columns();
             }
             lines.with_line_number(table.check_fields(&fields, format, all))?;
@@ -258,7 +248,8 @@ impl ColumnTable {
             self.columns = vec![Vec::new(); self.chosen.len()];
         }
         if format.time_step.is_none() {
-            self.times.push(fields.time(format.time_column, &mut self.clock)?);
+            let time = fields.time(format.time_column, &mut self.times.clock)?;
+            self.times.push(time);
         }
         if !all && format.acceleration_column.is_none() && filled > 1 {
             let needed = "1 (name the column of the acceleration, or read the values along the lines: \
@@ -299,74 +290,6 @@ impl ColumnTable {
         }
         Ok(())
     }
-
-    /// The common time step of the lines, from their times.
-    fn equal_step(&self) -> LineResult<f64> {
-        let times = &self.times;
-        let first_step = times[1] - times[0];
-        let last = times.len() - 1;
-        let mean_step = (times[last] - times[0]) / last as f64;
-        for k in 1..=last {
-            let step = times[k] - times[k - 1];
-            // The difference of huge times may be infinite.
-            if !(step > 0.0 && step < f64::INFINITY) {
-                let fault = wrong_step(step, "above zero".into());
-                let is_repeated = step == 0.0;
-                return Err(if is_repeated {
-                    self.unequal_steps(k, mean_step, fault)
-                } else {
-                    (self.lines[k], fault)
-                });
-            }
-            if (step - first_step).abs() > STEP_TOLERANCE * first_step {
-                let needed = format!("{} s, as before", rounded_decimal(first_step));
-                return Err(self.unequal_steps(k, mean_step, wrong_step(step, needed)));
-            }
-        }
-        if times.iter().enumerate().all(|(k, &time)| time == k as f64 * first_step) {
-            return Ok(first_step);
-        }
-        // Steps that drift slowly pass the test above.
-        for (k, &time) in times.iter().enumerate() {
-            let expected = times[0] + k as f64 * mean_step;
-            if (time - expected).abs() > STEP_TOLERANCE * mean_step {
-                let fault = unequal_time_step(rounded_decimal(time), rounded_decimal(expected));
-                return Err(self.unequal_steps(k, mean_step, fault));
-            }
-        }
-        Ok(rounded_decimal(mean_step))
-    }
-
-    /// Error for a step that differs from the others: `fault`, unless rounding of the times explains it.
-    fn unequal_steps(&self, k: usize, mean_step: f64, fault: FileFault) -> (usize, FileFault) {
-        (self.lines[k], self.rounded_times(mean_step).unwrap_or(fault))
-    }
-
-    /// The error for times that are equally spaced up to rounding; `None` if they are not.
-    fn rounded_times(&self, mean_step: f64) -> Option<FileFault> {
-        let resolution = self.clock.resolution()?;
-        let tolerance = (1.0 + DIGIT_COMPARISON_TOLERANCE) * resolution;
-        let mut min_step = f64::MAX;
-        let mut max_step = 0.0_f64;
-        for pair in self.times.windows(2) {
-            min_step = min_step.min(pair[1] - pair[0]);
-            max_step = max_step.max(pair[1] - pair[0]);
-        }
-        // Two times in one unit of the last digit, or several units in each step.
-        let has_equal_times = mean_step > 0.0 && min_step == 0.0 && resolution < 1.0;
-        let has_coarse_steps = mean_step > MIN_ROUNDED_STEP_DIGITS * resolution;
-        if !(has_equal_times || has_coarse_steps) || max_step - min_step > tolerance {
-            return None;
-        }
-        for (k, time) in self.times.iter().enumerate() {
-            if (time - self.times[0] - k as f64 * mean_step).abs() > tolerance {
-                return None;
-            }
-        }
-        let needed = format!("given (`time_step`): times rounded to {resolution} s do not tell it");
-        let found = format!("near {} s", rounded_decimal(mean_step));
-        Some(FileFault::value("time step", found, needed))
-    }
 }
 
 /// Numbers of the columns of accelerations among the `found` ones of the first line.
@@ -376,33 +299,6 @@ fn acceleration_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<u
     }
     let time_column = format.time_step.is_none().then_some(format.time_column);
     (1..=found).filter(|&column| time_column != Some(column)).collect()
-}
-
-/// Names of the chosen columns; an error if a title names another unit.
-fn column_names(
-    format: &ColumnFormat,
-    titles: &ColumnTitles,
-    chosen: &[usize],
-) -> FaultResult<Vec<String>> {
-    if format.time_step.is_none() {
-        titles.check_time(format.time_column)?;
-    }
-    let mut names = Vec::new();
-    for &column in chosen {
-        titles.check_acceleration(column, format.unit)?;
-        names.push(titles.name(column).map_or_else(|| format!("column {column}"), str::to_owned));
-    }
-    Ok(names)
-}
-
-/// Fault of a time step (s).
-fn wrong_step(found: f64, needed: String) -> FileFault {
-    FileFault::value("time step", format!("{} s", rounded_decimal(found)), needed)
-}
-
-/// `value` rounded to twelve digits, since differences of printed decimals are decimals.
-fn rounded_decimal(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 /// Record of El Centro, with times in s and accelerations in g.

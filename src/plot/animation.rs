@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use super::deformed::{FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, places};
-use super::marks::{self, KEY_LEFT, hex};
+use super::marks::{self, KEY_LEFT, PixelBox, hex};
 use super::shown::ShownStates;
 use super::svg::{Svg, changes, escaped, polygon};
-use super::text_width::{fitted, short, width};
+use super::text_width::{fitted, length_text, short, width};
 use super::trench;
 use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
@@ -17,14 +17,6 @@ use crate::results::{DeformedShape, TimeSeries};
 const PICTURE_WIDTH: f64 = 940.0;
 /// Height of the picture, pixels.
 const PICTURE_HEIGHT: f64 = 640.0;
-/// A rectangle of the picture, pixels.
-struct PixelBox {
-    left: f64,
-    top: f64,
-    right: f64,
-    bottom: f64,
-}
-
 /// Rectangle of the structure.
 const STRUCTURE_BOX: PixelBox = PixelBox { left: 40.0, top: 60.0, right: 690.0, bottom: 520.0 };
 /// Largest number of frames: browsers cannot play larger files smoothly.
@@ -107,7 +99,7 @@ pub fn animation(
     Ok(Svg::new(out + "</svg>\n"))
 }
 
-/// AxisScale and origin of metres on the screen.
+/// Scale and origin of metres on the screen.
 struct Screen {
     /// Pixels per metre.
     scale: f64,
@@ -235,15 +227,6 @@ fn round_down(value: f64) -> f64 {
     let power = 10.0_f64.powf(value.log10().floor());
     let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= value);
     factor.unwrap_or(1.0) * power
-}
-
-/// A length in m or mm.
-fn length_text(length: f64) -> String {
-    if length < 0.5 {
-        format!("{} mm", short(1e3 * length))
-    } else {
-        format!("{} m", short(length))
-    }
 }
 
 /// The beginning of the file, with the title.

@@ -10,6 +10,14 @@ use plotters::style::RGBColor;
 
 /// x of the left end of key, scale and clock, pixels.
 pub(super) const KEY_LEFT: f64 = 725.0;
+/// A rectangle of the picture, pixels.
+pub(super) struct PixelBox {
+    pub(super) left: f64,
+    pub(super) top: f64,
+    pub(super) right: f64,
+    pub(super) bottom: f64,
+}
+
 /// Width of a mark behind a face, pixels.
 const MARK_WIDTH: f64 = 14.0;
 

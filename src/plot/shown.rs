@@ -21,7 +21,8 @@ pub(super) enum ElementState {
 }
 
 impl ElementState {
-    pub(super) const ALL: [Self; 6] =
+    /// All states, in the order of the key.
+    const KEY_ORDER: [Self; 6] =
         [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
 
     /// State from mode and tractions of an element.
@@ -81,7 +82,7 @@ impl ShownStates {
                     .collect(),
             );
         }
-        let mut in_key = ElementState::ALL.to_vec();
+        let mut in_key = ElementState::KEY_ORDER.to_vec();
         in_key.retain(|state| match state {
             ElementState::Weightless => by_frame.iter().flatten().any(|other| other == state),
             ElementState::Slip => in_plan,

@@ -44,6 +44,15 @@ pub(super) fn short(value: f64) -> String {
     }
 }
 
+/// A length in m or mm.
+pub(super) fn length_text(length: f64) -> String {
+    if length < 0.5 {
+        format!("{} mm", short(1e3 * length))
+    } else {
+        format!("{} m", short(length))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,6 +4,7 @@
 mod damping_form;
 mod maxwell;
 mod profile;
+mod published_curves;
 mod relaxation;
 mod strain_curves;
 mod strength;

@@ -182,12 +182,8 @@ impl SoilProfile {
 
     /// Whether the profile is a half-plane without layers or damping, which has a closed form.
     pub(crate) fn is_elastic_half_plane(&self) -> bool {
-        match &self.bedrock {
-            Bedrock::HalfPlane { damping, .. } => {
-                self.layers.is_empty() && damping.identity() == Elastic.identity()
-            }
-            Bedrock::Rigid => false,
-        }
+        let Bedrock::HalfPlane { damping, .. } = &self.bedrock else { return false };
+        self.layers.is_empty() && damping.identity() == Elastic.identity()
     }
 
     /// Numbers that are equal only for equal profiles; `None` if a damping law has no identity.
@@ -333,8 +329,8 @@ fn check_modulus(index: usize, s: Complex, modulus: Complex) -> Result<()> {
     if !(modulus.is_finite() && modulus.abs() > 0.0) || (is_static && modulus.re <= 0.0) {
         let needed = if is_static { "finite and above zero" } else { "finite and not zero" };
         let quantity = "shear modulus (Pa)";
-        let value = modulus.re;
-        return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
+        let s = [s.re, s.im];
+        return Err(SoilError::Modulus { layer, quantity, value: modulus.re, s, needed }.into());
     }
     let ratio = modulus / s;
     let value = ratio.re / ratio.abs();

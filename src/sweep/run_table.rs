@@ -8,7 +8,7 @@ use super::{Parameter, check_names};
 use crate::error::CaseError;
 use crate::error::Result;
 
-/// TableRow of a case from its result.
+/// Row of a case from its result.
 pub(super) fn table_row<const N: usize, E: Display>(
     case: usize,
     result: std::result::Result<[f64; N], CaseError<E>>,

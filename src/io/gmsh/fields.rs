@@ -1,4 +1,4 @@
-//! MshFields of a `.msh` file, as text or as binary numbers.
+//! Fields of a `.msh` file, as text or as binary numbers.
 
 use std::io::Read;
 use std::str::FromStr;

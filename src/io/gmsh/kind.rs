@@ -2,7 +2,7 @@
 
 use crate::error::FileFault;
 
-/// ElementKind of an element that a reader accepts.
+/// Kind of an element that a reader accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ElementKind {
     Point,
@@ -126,7 +126,7 @@ const KIND_NAMES: [&str; 19] = [
 ];
 
 impl AcceptedKinds {
-    /// ElementKind with this `number` in the format; the fault names the `count` of elements that are not accepted.
+    /// Kind with this `number` in the format; the fault names the `count` of elements that are not accepted.
     pub(super) fn kind(&self, number: u32, count: u64) -> Result<ElementKind, FileFault> {
         if let Some((_, kind)) = self.kinds.iter().find(|(other, _)| *other == number) {
             return Ok(*kind);

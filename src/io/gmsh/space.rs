@@ -301,7 +301,7 @@ impl GmshSpaceMesh {
     }
 }
 
-/// ElementKind and tag of an element.
+/// Kind and tag of an element.
 fn title(cell: &MeshCell) -> String {
     format!("{} {}", cell.kind.name(), cell.tag)
 }
