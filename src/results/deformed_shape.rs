@@ -1,7 +1,7 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
 use super::shape_cell::{ShapeCell, drawn_cells};
-use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
+use crate::error::{Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
     Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
