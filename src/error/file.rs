@@ -21,7 +21,7 @@ use super::{Error, MemoryError};
 /// assert!(matches!(&error.fault, FileFault::Value { found, .. } if found == "'1,5'"));
 /// ```
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{}{fault}", place(.file, *.line, .fault))]
+#[error("{}{fault}", message_start(.file, *.line, .fault))]
 pub struct FileError {
     /// Name of the file, or of another source.
     pub file: String,
@@ -36,10 +36,10 @@ pub struct FileError {
 #[non_exhaustive]
 pub enum FileFault {
     /// The file cannot be opened or read.
-    #[error("cannot be read: {}", of_system(*.0))]
+    #[error("cannot be read: {}", system_message(*.0))]
     Unreadable(ErrorKind),
     /// The file cannot be written; a file of that name is as it was.
-    #[error("cannot be written: {}", of_system(*.0))]
+    #[error("cannot be written: {}", system_message(*.0))]
     Unwritable(ErrorKind),
     /// The file has another format than the one that is read, or uses a part of it that is not read.
     #[error("'{found}' instead of {needed}")]
@@ -88,8 +88,7 @@ impl FileFault {
         found: impl Into<String>,
         needed: impl Into<String>,
     ) -> Self {
-        let (quantity, found, needed) = (quantity.into(), found.into(), needed.into());
-        Self::Value { quantity, found, needed }
+        Self::Value { quantity: quantity.into(), found: found.into(), needed: needed.into() }
     }
 
     /// A wrong number of items.
@@ -114,7 +113,7 @@ impl FileFault {
 }
 
 /// Beginning of a message: the file, and the line if it is one line's fault.
-fn place(file: &str, line: usize, fault: &FileFault) -> String {
+fn message_start(file: &str, line: usize, fault: &FileFault) -> String {
     match (line, fault) {
         (0, FileFault::Unreadable(_) | FileFault::Unwritable(_)) => format!("{file} "),
         (0, _) => format!("{file}: "),
@@ -123,7 +122,7 @@ fn place(file: &str, line: usize, fault: &FileFault) -> String {
 }
 
 /// Message for an error of the file system.
-fn of_system(kind: ErrorKind) -> String {
+fn system_message(kind: ErrorKind) -> String {
     match kind {
         ErrorKind::NotFound => "it does not exist".to_owned(),
         other => other.to_string(),

@@ -1,6 +1,53 @@
-//! Errors of grounds and of mats in plan.
+//! Errors of soils, of grounds and of mats in plan.
 
 use crate::error::short;
+
+/// Why waves do not travel through a soil as asked.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SoilError {
+    /// A damping law that exists at real frequencies only.
+    #[error(
+        "{law} damping of layer {layer} is not causal and cannot march in time (use \
+         GeneralizedMaxwell::constant_q with the same ratio over the band of the motion)"
+    )]
+    NotCausal {
+        /// Name of the law.
+        law: String,
+        /// Layer, from 1 at the surface.
+        layer: usize,
+    },
+    /// A damping law with a modulus that no passive soil has.
+    ///
+    /// It is not finite, zero, or generates energy: Re(μ(s)/s) is negative although Re s > 0.
+    #[error("{quantity} of layer {layer} is {value:e} at s = {} + {}i 1/s, but must be {needed}", s[0], s[1])]
+    Modulus {
+        /// Layer, from 1 at the surface.
+        layer: usize,
+        /// Name of the quantity: the modulus, or Re(μ/s)/|μ/s|.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Real and imaginary part of s, 1/s.
+        s: [f64; 2],
+        /// Requirement.
+        needed: &'static str,
+    },
+    /// An inclined wave without a first arrival.
+    #[error(
+        "wave is beyond the critical angle of layer {layer}: its horizontal slowness is {slowness} s/m, \
+         but must be below {limit} s/m, that of its fastest waves there, to begin in time (its transfer \
+         functions exist)"
+    )]
+    BeyondCritical {
+        /// Layer, from 1 at the surface; the half-plane counts as the last.
+        layer: usize,
+        /// Horizontal slowness of the wave, absolute, s/m.
+        slowness: f64,
+        /// Slowness of pressure waves (SH: shear waves) in the layer at the highest frequency of the motion, s/m.
+        limit: f64,
+    },
+}
 
 /// Why the weights or the compliance of a ground cannot be computed or used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -20,11 +67,11 @@ pub enum GroundError {
         /// Wavenumber at which bisection stopped, 1/m.
         wavenumber: f64,
     },
-    /// A time step, top layer or element so small relative to the contact that integrals would take too long.
+    /// A time step, top layer or element too small relative to the contact: integrals would take too long.
     #[error(
-        "contact of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, but {most:.3e} 1/m, {:.2} times less, are \
-         the most (a time step so many times as long, frequencies so many times lower, a thicker top layer, a shorter \
-         contact or fewer elements)", wavenumber / most
+        "contact of {span:.4} m needs wavenumbers up to {wavenumber:.3e} 1/m, but at most {most:.3e} 1/m, {:.2} times \
+         less, are allowed (increase the time step, or lower the frequencies, by this factor; or take a thicker top \
+         layer, a shorter contact or fewer elements)", wavenumber / most
     )]
     TooFine {
         /// Length of the contact, or diagonal of the mat, m.
@@ -71,7 +118,7 @@ pub enum PlanError {
         /// Sides of a cell, m.
         pitch: [f64; 2],
     },
-    /// Two faces that overlap: what stands there would touch the ground twice.
+    /// Two faces that overlap, so that a part of the base would touch the ground twice.
     #[error(
         "faces {} and {} overlap by {} m2 (give each part of the base once; faces of one mat share corners)",
         faces[0], faces[1], short(*area)

@@ -1,4 +1,4 @@
-//! Limit of memory for sizes given as numbers, checked before allocation.
+//! Limit of memory for sizes that the caller states as numbers, checked before allocation.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 #[error(
     "{quantity}: {asked} would take about {} of memory, but at most {} are allowed \
      ({remedy})",
-    bytes(*.needed), bytes(*.limit)
+    bytes_text(*.needed), bytes_text(*.limit)
 )]
 pub struct MemoryError {
     /// Name of the quantity.
@@ -25,27 +25,31 @@ pub struct MemoryError {
     pub remedy: &'static str,
 }
 
-fn bytes(number: f64) -> String {
-    match number {
-        few if few < 1e6 => format!("{:.1} kB", few / 1e3),
-        some if some < 1e9 => format!("{:.1} MB", some / 1e6),
-        many if many < 1e15 => format!("{:.1} GB", many / 1e9),
-        endless => format!("{:.0e} GB", endless / 1e9),
+fn bytes_text(number: f64) -> String {
+    if number < 1e6 {
+        format!("{:.1} kB", number / 1e3)
+    } else if number < 1e9 {
+        format!("{:.1} MB", number / 1e6)
+    } else if number < 1e15 {
+        format!("{:.1} GB", number / 1e9)
+    } else {
+        format!("{:.0e} GB", number / 1e9)
     }
 }
 
-static LIMIT: AtomicU64 = AtomicU64::new(4 << 30);
+/// The limit, bytes.
+static MEMORY_LIMIT: AtomicU64 = AtomicU64::new(4 << 30);
 
 /// Memory limit (bytes) for the size of one mesh, matrix, ground, record or sweep.
 ///
 /// 4 GiB unless [`set_memory_limit`] was called.
 pub fn memory_limit() -> u64 {
-    LIMIT.load(Ordering::Relaxed)
+    MEMORY_LIMIT.load(Ordering::Relaxed)
 }
 
 /// Sets the memory limit (bytes) for the whole process.
 ///
-/// Sizes given as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
+/// Sizes stated as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
 /// record, convolution weights of layered ground) are compared with it before anything is allocated; a
 /// [`MemoryError`] states the memory that they would take. The estimate is for each part alone, not a count of all
 /// memory of a program. Set the limit to the machine's memory, minus the memory of other programs.
@@ -61,7 +65,7 @@ pub fn memory_limit() -> u64 {
 /// # Ok::<(), Error>(())
 /// ```
 pub fn set_memory_limit(bytes: u64) {
-    LIMIT.store(bytes, Ordering::Relaxed);
+    MEMORY_LIMIT.store(bytes, Ordering::Relaxed);
 }
 
 /// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
@@ -83,19 +87,22 @@ pub(crate) fn check(
 mod tests {
     use super::*;
 
+    fn message(needed: f64) -> String {
+        let limit = 2.0_f64.powi(32);
+        MemoryError { quantity: "rows", asked: 1e5, needed, limit, remedy: "less" }.to_string()
+    }
+
     #[test]
     fn sizes_are_told_in_their_units() {
-        let text = |needed: f64| {
-            let limit = 2.0_f64.powi(32);
-            MemoryError { quantity: "rows", asked: 1e5, needed, limit, remedy: "less" }.to_string()
-        };
         assert_eq!(
-            text(4.84e9),
+            message(4.84e9),
             "rows: 100000 would take about 4.8 GB of memory, but at most 4.3 GB are allowed \
              (less)"
         );
-        assert!(text(2e6).contains("about 2.0 MB of") && text(2e30).contains("about 2e21 GB of"));
-        assert!(text(2e4).contains("about 20.0 kB of"));
-        assert!(text(f64::INFINITY).contains("about inf GB of"));
+        assert!(
+            message(2e6).contains("about 2.0 MB of") && message(2e30).contains("about 2e21 GB of")
+        );
+        assert!(message(2e4).contains("about 20.0 kB of"));
+        assert!(message(f64::INFINITY).contains("about inf GB of"));
     }
 }

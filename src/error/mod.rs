@@ -7,21 +7,16 @@
 mod checkpoint;
 mod file;
 mod ground;
-mod law;
 pub(crate) mod memory;
-mod part;
 mod progress;
 mod requirement;
-mod soil;
 mod stability;
 mod step;
-mod structure;
 mod sweep;
 
 pub use checkpoint::CheckpointError;
 pub use file::{FileError, FileFault};
-pub use ground::{GroundError, PlanError};
-pub use law::LawError;
+pub use ground::{GroundError, PlanError, SoilError};
 pub use memory::{MemoryError, memory_limit, set_memory_limit};
 pub(crate) use progress::Watch;
 pub use progress::{Observer, Progress, unobserved};
@@ -29,11 +24,9 @@ pub(crate) use requirement::{
     all_finite, at_least, damping_ratio, finite, in_bounds, in_brackets, names, not_finite,
     not_negative, positive, require, require_part, same_length, short,
 };
-pub use soil::SoilError;
-pub use stability::{CoarseBaseError, StabilityError};
+pub use stability::{CoarseBaseError, StabilityError, StructureError};
 pub(crate) use stability::{along, of_units};
-pub use step::StepError;
-pub use structure::StructureError;
+pub use step::{LawError, StepError};
 pub use sweep::{CaseError, SweepError};
 
 /// Result of every fallible function of the crate.
@@ -52,7 +45,7 @@ pub enum Error {
     Input {
         /// Name of the quantity.
         quantity: &'static str,
-        /// The value that was given.
+        /// The value.
         value: f64,
         /// Requirement.
         needed: &'static str,
@@ -72,9 +65,9 @@ pub enum Error {
     Size {
         /// Name of the quantity.
         quantity: &'static str,
-        /// The length that was given.
+        /// The length.
         found: usize,
-        /// The length that was needed.
+        /// Required length.
         needed: usize,
     },
     /// A size that would not fit into memory.
@@ -85,9 +78,9 @@ pub enum Error {
     Index {
         /// Name of the quantity.
         quantity: &'static str,
-        /// The index that was given.
+        /// The index.
         index: usize,
-        /// First value out of range.
+        /// Smallest index that is out of range.
         bound: usize,
     },
     /// A file that cannot be read or written, or whose content cannot be right.
@@ -96,9 +89,9 @@ pub enum Error {
     /// A name that does not exist.
     #[error("there is no {quantity} '{name}'{}", names(.known))]
     Name {
-        /// Item that was sought.
+        /// Kind of the item.
         quantity: &'static str,
-        /// The name that was given.
+        /// The unknown name.
         name: String,
         /// The names that are known.
         known: Vec<String>,
@@ -106,7 +99,7 @@ pub enum Error {
     /// A name that occurs more than once.
     #[error("more than one {quantity} is called '{name}'")]
     DuplicateName {
-        /// Item that has the name.
+        /// Kind of the items.
         quantity: &'static str,
         /// The name.
         name: String,
@@ -140,7 +133,7 @@ pub enum Error {
         /// Requirement.
         needed: &'static str,
     },
-    /// A user's own part that does not accept the scene, a file or a checkpoint: see [`Error::part`].
+    /// A part that the user wrote and that does not accept the scene, a file or a checkpoint: see [`Error::part`].
     #[error("{part}: {reason}")]
     Part {
         /// Name of the part.
@@ -156,8 +149,9 @@ pub enum Error {
         /// Order of the matrix.
         order: usize,
     },
-    /// A matrix that would let a motion gain energy without end: negative mass or damping, or columns above their
-    /// buckling load.
+    /// A matrix with which a motion would gain energy without end.
+    ///
+    /// It has negative mass or damping, or columns above their buckling load.
     #[error(
         "{matrix} is not positive semi-definite: it shows at row {row}, which has {diagonal:e} on the \
          diagonal"
@@ -257,7 +251,7 @@ pub enum Error {
     /// A call that its [`Observer`] stopped; everything is as before the call.
     #[error("stopped by its observer: {0}")]
     Stopped(Progress),
-    /// A soil through which waves do not travel as asked.
+    /// A soil through which waves do not travel as requested.
     #[error(transparent)]
     Soil(#[from] SoilError),
     /// A ground that cannot be computed or used.

@@ -86,12 +86,12 @@ impl fmt::Display for Progress {
 ///     eprint!("\r{progress}");
 ///     Continue(())
 /// })?;
-/// simulation.run(300, |_| ())?; // Waits for no weights.
+/// simulation.run(300, |_| ())?; // All weights are there.
 /// # Ok::<(), Error>(())
 /// ```
 pub type Observer<'a> = dyn FnMut(Progress) -> ControlFlow<()> + 'a;
 
-/// [`Observer`] that hears of nothing and stops nothing: the default of long calls.
+/// No-op [`Observer`]: the default of long calls.
 ///
 /// ```
 /// let record = basemat::motion::el_centro_1940();
@@ -102,14 +102,14 @@ pub fn unobserved(_: Progress) -> ControlFlow<()> {
     ControlFlow::Continue(())
 }
 
-/// The observer of a call, if any, and its last progress.
+/// Reports the progress of a call to its observer, if any.
 pub(crate) struct Watch<'a> {
     observer: Option<&'a mut Observer<'a>>,
     progress: Progress,
 }
 
 impl<'a> Watch<'a> {
-    /// No observer.
+    /// A reporter without an observer.
     pub(crate) fn nobody() -> Self {
         Self { observer: None, progress: Progress { task: "", done: 0, total: 0 } }
     }

@@ -2,7 +2,7 @@
 
 use super::{Error, Result};
 
-/// `value` if its requirement `holds`.
+/// `value`, or an error unless its requirement `holds`.
 pub(crate) fn require(
     quantity: &'static str,
     value: f64,
@@ -12,22 +12,22 @@ pub(crate) fn require(
     if holds { Ok(value) } else { Err(Error::Input { quantity, value, needed }) }
 }
 
-/// `value` if it is finite and above zero.
+/// `value`, or an error unless it is finite and above zero.
 pub(crate) fn positive(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value > 0.0, "finite and above zero")
 }
 
-/// `value` if it is finite and not below zero.
+/// `value`, or an error unless it is finite and not below zero.
 pub(crate) fn not_negative(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite() && value >= 0.0, "finite and not below zero")
 }
 
-/// `value` if it is a damping ratio, a fraction of critical damping (5 % are 0.05).
+/// `value`, or an error unless it is a damping ratio, a fraction of critical damping (5 % are 0.05).
 pub(crate) fn damping_ratio(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, (0.0..1.0).contains(&value), "from 0 to below 1 (0.05 is 5 %)")
 }
 
-/// `value` if it is finite.
+/// `value`, or an error unless it is finite.
 pub(crate) fn finite(quantity: &'static str, value: f64) -> Result<f64> {
     require(quantity, value, value.is_finite(), "finite")
 }
@@ -55,7 +55,7 @@ pub(crate) fn at_least(quantity: &'static str, found: usize, needed: usize) -> R
     if found >= needed { Ok(()) } else { Err(Error::Size { quantity, found, needed }) }
 }
 
-/// `index` if it is below `bound`.
+/// `index`, or an error unless it is below `bound`.
 pub(crate) fn in_bounds(quantity: &'static str, index: usize, bound: usize) -> Result<usize> {
     if index < bound { Ok(index) } else { Err(Error::Index { quantity, index, bound }) }
 }
@@ -82,21 +82,62 @@ pub(crate) fn in_brackets([x, y, z]: &[f64; 3], points: &[[f64; 3]]) -> String {
 ///
 /// Whole numbers stay as they are. Others have six figures, or twelve if six would make them round.
 pub(crate) fn short(value: f64) -> String {
-    let figures = |count: usize| format!("{value:.count$e}").parse::<f64>().unwrap_or(value);
-    let (three, six) = (figures(2), figures(5));
-    let whole = value.fract() == 0.0 || !value.is_finite();
-    let shown = if whole {
+    let is_whole = value.fract() == 0.0 || !value.is_finite();
+    let three_figures = rounded_to(3, value);
+    let six_figures = rounded_to(6, value);
+    let rounded = if is_whole {
         value
-    } else if six.to_bits() == three.to_bits() {
-        figures(11)
+    } else if six_figures.to_bits() == three_figures.to_bits() {
+        rounded_to(12, value)
     } else {
-        six
+        six_figures
     };
     // No negative zero.
-    (shown + 0.0).to_string()
+    (rounded + 0.0).to_string()
+}
+
+fn rounded_to(figures: usize, value: f64) -> f64 {
+    let decimals = figures - 1;
+    format!("{value:.decimals$e}").parse().unwrap_or(value)
 }
 
 impl Error {
+    /// Error of a part that the user wrote, if no other error fits.
+    ///
+    /// ```
+    /// use basemat::bem::SpringGround;
+    /// use basemat::interface::{ContactScene, Coulomb, InterfaceLaw, Limits, PreviousContact};
+    /// use basemat::structure::RigidBlock;
+    /// use basemat::{Error, Result, Simulation};
+    ///
+    /// /// Friction of a bearing that was tested for steps of up to 5 ms.
+    /// struct Bearing(Coulomb);
+    ///
+    /// impl InterfaceLaw for Bearing {
+    ///     fn check(&self, scene: &ContactScene) -> Result<()> {
+    ///         if scene.time_step <= 0.005 {
+    ///             return Ok(());
+    ///         }
+    ///         Err(Error::part("bearing", format!("a step of {} s is too long", scene.time_step)))
+    ///     }
+    ///     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
+    ///         self.0.limits(start)
+    ///     }
+    /// }
+    ///
+    /// let error = Simulation::builder(0.01)
+    ///     .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
+    ///     .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
+    ///     .interface(Bearing(Coulomb::new(0.1)?))
+    ///     .build()
+    ///     .unwrap_err();
+    /// assert_eq!(error.to_string(), "bearing: a step of 0.01 s is too long");
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn part(part: impl Into<String>, reason: impl Into<String>) -> Self {
+        Self::Part { part: part.into(), reason: reason.into() }
+    }
+
     /// This fault of an item, named in the error.
     pub(crate) fn within(self, item: impl Into<String>) -> Self {
         Self::Item { item: item.into(), r#source: Box::new(self) }
@@ -112,8 +153,11 @@ impl Error {
     }
 }
 
-/// Text of the known names, of 40 at most.
+/// Largest number of known names that a message lists.
+const MAX_LISTED_NAMES: usize = 40;
+
+/// Text of the known names.
 pub(crate) fn names(known: &[String]) -> String {
-    let listed = known[..known.len().min(40)].join(", ");
+    let listed = known[..known.len().min(MAX_LISTED_NAMES)].join(", ");
     if known.is_empty() { listed } else { format!(", only {listed}") }
 }

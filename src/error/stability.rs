@@ -1,4 +1,4 @@
-//! Reasons why a structure cannot stand on the ground.
+//! Errors of structures that cannot stand on the ground.
 
 use crate::error::short;
 
@@ -7,7 +7,7 @@ use crate::error::short;
 #[non_exhaustive]
 pub enum StabilityError {
     /// The loads lift the structure off.
-    #[error("weight and loads at t = 0 lift it by {upward:.4e} {}{}", force(*across), on(*ends, *across))]
+    #[error("weight and loads at t = 0 lift it by {upward:.4e} {}{}", force_unit(*across), base_text(*ends, *across))]
     Uplift {
         /// Left and right end of the base of the part that is lifted, m.
         ends: [f64; 2],
@@ -20,8 +20,8 @@ pub enum StabilityError {
     #[error(
         "the load at t = 0 pushes it off: {horizontal:.4e} {0} along the base, {ratio:.3} times the \
          friction {resistance:.4e} {0} under a normal force of {normal:.4e} {0}{1}",
-        force(*across),
-        on(*ends, *across)
+        force_unit(*across),
+        base_text(*ends, *across)
     )]
     Sliding {
         /// Left and right end of the base of the part that slides, m.
@@ -41,7 +41,7 @@ pub enum StabilityError {
     #[error(
         "the load at t = 0 twists it: a torque of {torque:.4e} N·m, {ratio:.3} times the {resistance:.4e} N·m of friction \
          under a normal force of {normal:.4e} N that is spread evenly{}",
-        on(*ends, Some(*across))
+        base_text(*ends, Some(*across))
     )]
     Twisting {
         /// Left and right end of the base of the part that is twisted, m.
@@ -65,7 +65,7 @@ pub enum StabilityError {
         if across.is_some() { "" } else { "/m" },
         edge(*axis, *eccentricity),
         along(*axis),
-        on(*ends, *across)
+        base_text(*ends, *across)
     )]
     Overturning {
         /// Left and right end of the base of the part that overturns, m.
@@ -117,9 +117,9 @@ pub enum StabilityError {
         "weight and loads at t = 0 press it into the soil: a normal force of {normal:.4e} {0}, {ratio:.3} \
          times the {capacity:.4e} {0} that the bearing pressure gives on the {width:.4} {1} whose middle \
          is under the resultant{2}",
-        force(*across),
+        force_unit(*across),
         if across.is_some() { "m²" } else { "m" },
-        on(*ends, *across)
+        base_text(*ends, *across)
     )]
     BearingFailure {
         /// Left and right end of the base of the part that sinks in, m.
@@ -142,8 +142,8 @@ pub enum StabilityError {
     #[error(
         "the resultant of weight and loads at t = 0 passes at {} = {resultant:.4} m{}, but {}",
         axis.unwrap_or('x'),
-        on(*ends, *across),
-        grip(*elements, *reach, axis.unwrap_or('x'))
+        base_text(*ends, *across),
+        carried_range(*elements, *reach, axis.unwrap_or('x'))
     )]
     Beyond {
         /// Left and right end of the base of the part, m.
@@ -170,7 +170,7 @@ pub enum StabilityError {
     Mechanism {
         /// The degrees of freedom of that motion, ascending.
         dofs: Vec<usize>,
-        /// The structure's own names of them.
+        /// The structure's names of them.
         place: String,
         /// Whether the part has no mass either, and no damping.
         massless: bool,
@@ -192,27 +192,30 @@ fn unresisted(place: &str, massless: bool) -> String {
 }
 
 /// The end of the message of [`StabilityError::Beyond`].
-fn grip(elements: usize, reach: [f64; 2], axis: char) -> String {
+fn carried_range(elements: usize, reach: [f64; 2], axis: char) -> String {
     if elements == 1 {
         "a base of one element resists no moment".to_owned()
     } else {
-        let [left, right] = reach;
         format!(
-            "{elements} elements, on each of which the traction is constant, carry it from {axis} = {left:.4} to \
-             {right:.4} m only, the middles of the outermost ones (shorter ones there reach further)"
+            "{elements} elements, on each of which the traction is constant, carry it from {axis} = {:.4} to \
+             {:.4} m only, the middles of the outermost ones (shorter ones there reach further)",
+            reach[0], reach[1]
         )
     }
 }
 
 /// Text that names the base in a message.
-fn on([left, right]: [f64; 2], across: Option<[f64; 2]>) -> String {
-    let range = |ends: [f64; 2]| format!("{} to {} m", short(ends[0]), short(ends[1]));
-    let depth = across.map_or(String::new(), |ends| format!(", y = {}", range(ends)));
-    format!(" (base from x = {}{depth})", range([left, right]))
+fn base_text(ends: [f64; 2], across: Option<[f64; 2]>) -> String {
+    let depth = across.map_or(String::new(), |ends| format!(", y = {}", range_text(ends)));
+    format!(" (base from x = {}{depth})", range_text(ends))
 }
 
-/// The unit of forces.
-fn force(across: Option<[f64; 2]>) -> &'static str {
+fn range_text([start, end]: [f64; 2]) -> String {
+    format!("{} to {} m", short(start), short(end))
+}
+
+/// Unit of forces.
+fn force_unit(across: Option<[f64; 2]>) -> &'static str {
     if across.is_some() { "N" } else { "N/m" }
 }
 
@@ -257,7 +260,7 @@ pub struct CoarseBaseError {
     pub axis: Option<char>,
 }
 
-/// Ratio of needed to present elements above which the structure is far softer than any built one.
+/// Ratio of needed to present elements from which the structure is far softer than any built one.
 const SOFTEST_BUILT_RATIO: usize = 16;
 
 /// Doubt about units of a base so soft that it needs many times its elements, as with moduli in GPa or lengths in mm.
@@ -269,8 +272,55 @@ pub(crate) fn of_units(elements: usize, needed: usize) -> &'static str {
     }
 }
 
+/// Text for the change of the static shape with twice the elements.
 fn twice_as_many(difference: Option<f64>) -> String {
-    difference.map_or(String::new(), |own| {
-        format!(" (twice as many change its static shape by {:.0} %)", 100.0 * own)
+    difference.map_or(String::new(), |change| {
+        format!(" (twice as many change its static shape by {:.0} %)", 100.0 * change)
     })
+}
+
+/// Why a structure cannot stand on a ground, whatever its loads.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StructureError {
+    /// A structure with stiffness to a fixed point: the ground alone must hold it up.
+    #[error(
+        "the structure must translate freely, without supports: moved {direction} by 1 m it meets \
+         {force:.2e} N at degree of freedom {dof}, {ratio:.1e} of the stiffness around (entries of a \
+         stiffness matrix in a file need eleven digits or more)"
+    )]
+    Restrained {
+        /// Direction of the translation that is resisted.
+        direction: &'static str,
+        /// Force per metre of translation at the degree of freedom, N/m.
+        ///
+        /// If the structure can hardly translate, it is the force at the contact nodes.
+        force: f64,
+        /// The degree of freedom with the largest force relative to the stiffness around.
+        dof: usize,
+        /// That force relative to the stiffness around.
+        ratio: f64,
+    },
+    /// A part of a structure that no stiffness connects to its contact nodes.
+    ///
+    /// It would neither weigh on the ground nor move.
+    #[error(
+        "part of the structure is not joined to its base by any stiffness: {place} (dashpots alone \
+         hold nothing up)"
+    )]
+    Detached {
+        /// The degrees of freedom of all such parts, ascending.
+        dofs: Vec<usize>,
+        /// The structure's names of them: see [`Structure::describe`](crate::structure::Structure::describe).
+        place: String,
+    },
+    /// A structure that buckles, held at its contact nodes, under the axial forces of its static state.
+    #[error(
+        "the structure buckles under the axial forces of its static state: held at its contact \
+         nodes it carries {factor:.3e} of them"
+    )]
+    Buckling {
+        /// Fraction of the axial forces at which it buckles.
+        factor: f64,
+    },
 }

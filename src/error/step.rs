@@ -1,6 +1,6 @@
-//! Errors of steps.
+//! Errors of steps and of interface laws.
 
-use crate::error::{Error, LawError, not_finite};
+use crate::error::{Error, not_finite};
 
 /// Why a step failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum StepError {
     #[error(
         "contact modes not found in {iterations} trials{}, residual {residual:.2e}, modes {} \
          (`coupled::largest_convergent_step` finds a time step that gets through)",
-        all(*sets), modes.join(" ")
+        no_solution(*sets), modes.join(" ")
     )]
     Contact {
         /// Number of trials, fallbacks included.
@@ -54,13 +54,14 @@ pub enum StepError {
         /// right.
         modes: Vec<&'static str>,
     },
-    /// A part of the scene returned an error: the structure for its load, nonlinear force or tangent, the ground for
-    /// its history.
+    /// A part of the scene returned an error.
+    ///
+    /// The structure for its load, nonlinear force or tangent, or the ground for its history.
     #[error("{quantity}: {source}")]
     Part {
         /// Name of the quantity.
         quantity: &'static str,
-        /// The part's reason.
+        /// Error of the part.
         r#source: Box<Error>,
     },
     /// An interface law returned an invalid value.
@@ -88,8 +89,8 @@ pub enum StepError {
     },
 }
 
-/// Number of sets of modes, where all were tried.
-fn all(sets: Option<usize>) -> String {
+/// Text for a step that has no solution, since all sets of modes were tried.
+fn no_solution(sets: Option<usize>) -> String {
     sets.map_or_else(String::new, |sets| {
         format!(
             ": the step has no solution, as none of all {sets} sets of modes satisfies the laws"
@@ -112,5 +113,33 @@ impl StepError {
     /// Wraps an error of a part of the scene as [`StepError::Part`].
     pub(crate) fn part(quantity: &'static str) -> impl FnOnce(Error) -> Self {
         move |source| Self::Part { quantity, source: Box::new(source) }
+    }
+}
+
+/// Invalid value that an interface law returned, or the reason for which it rejects a state.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("interface law of element {element}, mode {mode}: {reason}")]
+pub struct LawError {
+    /// Element, from the left, from 0.
+    pub element: usize,
+    /// Word ([`Mode`](crate::interface::Mode)'s `Display`) of the mode for which the law was evaluated; for its state
+    /// variables, the mode at the end of the step.
+    pub mode: &'static str,
+    /// [`Error::Input`] for a number that is not finite, [`Error::Name`] for a next mode that the law does not list, or
+    /// the error of [`InterfaceLaw::check_start`](crate::interface::InterfaceLaw::check_start) or of the law's limits.
+    pub reason: Box<Error>,
+}
+
+impl LawError {
+    /// A number of a law that is not finite.
+    #[cold]
+    pub(crate) fn not_finite(
+        element: usize,
+        mode: &'static str,
+        quantity: &'static str,
+        value: f64,
+    ) -> Self {
+        let reason = Box::new(Error::Input { quantity, value, needed: "finite" });
+        Self { element, mode, reason }
     }
 }

@@ -9,7 +9,7 @@ use crate::error::Error;
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CaseError<E> {
-    /// The case failed with an error of its own.
+    /// The case failed with this error.
     #[error("{0}")]
     Failed(E),
     /// The case panicked.
@@ -49,7 +49,7 @@ pub enum SweepError {
     Unwritten {
         /// The file.
         file: String,
-        /// The system's own message.
+        /// The reason that the system states.
         reason: ErrorKind,
         /// Cases with a row, including rows of earlier processes.
         computed: usize,
@@ -71,16 +71,21 @@ pub enum SweepError {
     },
 }
 
-/// Text of the missing shards and the first few missing cases.
+/// Largest number of cases and of shards that a message lists.
+const MAX_LISTED_CASES: usize = 10;
+
+/// Text of the first missing cases and of the first missing shards.
 fn missing(cases: &[usize], shards: &[[usize; 2]]) -> String {
-    const SHOWN: usize = 10;
-    let dots = |count: usize| if count > SHOWN { ", …" } else { "" };
-    let list = cases.iter().take(SHOWN).map(usize::to_string).collect::<Vec<_>>().join(", ");
-    let cases = format!("{list}{}", dots(cases.len()));
+    let cases_text = first_items(cases.iter().map(usize::to_string), cases.len());
     if shards.is_empty() {
-        return cases;
+        return cases_text;
     }
-    let names = shards.iter().take(SHOWN).map(|[index, of]| format!("{index}/{of}"));
-    let names = names.collect::<Vec<_>>().join(", ");
-    format!("{cases}; shard {names}{}", dots(shards.len()))
+    let names = shards.iter().map(|[index, of]| format!("{index}/{of}"));
+    format!("{cases_text}; shard {}", first_items(names, shards.len()))
+}
+
+/// The first of `count` items, with dots for the others.
+fn first_items(items: impl Iterator<Item = String>, count: usize) -> String {
+    let dots = if count > MAX_LISTED_CASES { ", …" } else { "" };
+    format!("{}{dots}", items.take(MAX_LISTED_CASES).collect::<Vec<_>>().join(", "))
 }

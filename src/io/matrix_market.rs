@@ -3,7 +3,6 @@
 //! The format of Boisvert, Pozo & Remington (NIST IR 5935, 1996), as far as structural matrices need it:
 //! coordinate or array, real or integer, general or symmetric.
 
-use std::fs::File;
 use std::io::{Read, Write};
 use std::path::Path;
 
@@ -11,7 +10,7 @@ use super::matrix_market_reader::read;
 use crate::error::{FileFault, Result};
 use crate::linalg::SparseMatrix;
 use crate::structure::Triplets;
-use crate::text::file::{replaced, unwritten};
+use crate::text::file::{open_file, replace_file, write_error};
 
 impl Triplets {
     /// Reads a square matrix from a Matrix Market file (`.mtx`).
@@ -23,11 +22,7 @@ impl Triplets {
     /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read_matrix_market(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        let name = path.display().to_string();
-        match File::open(path) {
-            Ok(file) => Self::from_matrix_market(&name, file),
-            Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
-        }
+        Self::from_matrix_market(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
@@ -64,9 +59,9 @@ impl Triplets {
     pub fn write_matrix_market(&self, path: impl AsRef<Path>) -> Result<()> {
         let path = path.as_ref();
         let mut text = Vec::new();
-        write(&self.checked()?, &mut text)
-            .and_then(|()| replaced(path, &text))
-            .map_err(unwritten(path))
+        write(&self.checked_matrix()?, &mut text)
+            .and_then(|()| replace_file(path, &text))
+            .map_err(write_error(path))
     }
 
     /// Writes the same to any sink of bytes; errors use `name` for the sink.
@@ -74,26 +69,28 @@ impl Triplets {
     /// # Errors
     /// As for [`Triplets::write_matrix_market`].
     pub fn to_matrix_market(&self, name: &str, mut sink: impl Write) -> Result<()> {
-        write(&self.checked()?, &mut sink)
+        write(&self.checked_matrix()?, &mut sink)
             .map_err(|error| FileFault::Unwritable(error.kind()).of(name, 0))
     }
 
-    fn checked(&self) -> Result<SparseMatrix> {
+    /// The matrix with entries at the same place summed; an error for an entry out of range or not finite.
+    fn checked_matrix(&self) -> Result<SparseMatrix> {
         SparseMatrix::new("matrix to be written", self)
     }
 }
 
-/// Coordinate format; `{:e}` prints the shortest digits that read back as the same number.
+/// Writes the coordinate format; `{:e}` prints the shortest digits that read back as the same number.
 fn write(matrix: &SparseMatrix, sink: &mut dyn Write) -> std::io::Result<()> {
-    let symmetric = matrix.asymmetry() == 0.0;
-    let wanted =
-        |&(row, column, value): &(usize, usize, f64)| value != 0.0 && (!symmetric || row >= column);
+    let is_symmetric = matrix.asymmetry() == 0.0;
+    let entries: Vec<(usize, usize, f64)> = matrix
+        .entries()
+        .filter(|&(row, column, value)| value != 0.0 && (!is_symmetric || row >= column))
+        .collect();
     let order = matrix.order();
-    let count = matrix.entries().filter(wanted).count();
-    let symmetry = if symmetric { "symmetric" } else { "general" };
+    let symmetry = if is_symmetric { "symmetric" } else { "general" };
     writeln!(sink, "%%MatrixMarket matrix coordinate real {symmetry}")?;
-    writeln!(sink, "{order} {order} {count}")?;
-    for (row, column, value) in matrix.entries().filter(wanted) {
+    writeln!(sink, "{order} {order} {}", entries.len())?;
+    for (row, column, value) in entries {
         writeln!(sink, "{} {} {value:e}", row + 1, column + 1)?;
     }
     sink.flush()

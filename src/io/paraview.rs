@@ -36,7 +36,7 @@ use crate::geometry::ContactElement;
 use crate::interface::ContactState;
 use crate::results::shape_cell::ShapeCell;
 use crate::results::{ContactFrame, DeformedShape, ShapePoint, TimeSeries};
-use crate::text::file::{unwritten, write_file};
+use crate::text::file::{write_error, write_file};
 
 /// Writes `name.pvd` and the grids of all kept frames into `folder`; returns the number of grids.
 ///
@@ -81,91 +81,119 @@ pub fn write_base(folder: impl AsRef<Path>, name: &str, time_series: &TimeSeries
 /// [`Error::Index`](crate::Error::Index) if `shape` has degrees of freedom beyond `dofs`;
 /// [`Error::File`](crate::Error::File) if the file cannot be written.
 pub fn write_state(path: impl AsRef<Path>, shape: &DeformedShape, dofs: &[f64]) -> Result<()> {
-    write_file(path.as_ref(), structure(shape, shape.up(), &[("displacement", dofs)])?)
+    write_file(path.as_ref(), structure_grid(shape, shape.up(), &[("displacement", dofs)])?)
 }
 
+/// Writes the collection and its grids; returns the number of grids.
 fn write(
     folder: &Path,
     name: &str,
     shape: Option<&DeformedShape>,
     time_series: &TimeSeries,
 ) -> Result<usize> {
-    let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    let needed = "letters, digits, - and _ only, one at least";
-    require_part("name of a series", !name.is_empty() && name.chars().all(plain), needed)?;
-    std::fs::create_dir_all(folder).map_err(unwritten(folder))?;
+    let is_valid = !name.is_empty() && name.chars().all(is_allowed_in_name);
+    require_part("name of a series", is_valid, "letters, digits, - and _ only, one at least")?;
+    std::fs::create_dir_all(folder).map_err(write_error(folder))?;
 
     let mut entries = Vec::new();
-    let rest = time_series.static_displacement();
-    let moved = time_series.motion_frames().filter_map(|frame| Some((shape?, frame)));
-    for (k, (shape, frame)) in moved.enumerate() {
-        let file = format!("{name}_{k:04}.vtu");
-        let mut vectors = vec![("displacement", frame.displacement), ("velocity", frame.velocity)];
-        if !rest.is_empty() {
-            vectors.push(("static_displacement", rest));
+    let static_displacement = time_series.static_displacement();
+    if let Some(shape) = shape {
+        for (k, frame) in time_series.motion_frames().enumerate() {
+            let file = format!("{name}_{k:04}.vtu");
+            let mut vectors =
+                vec![("displacement", frame.displacement), ("velocity", frame.velocity)];
+            if !static_displacement.is_empty() {
+                vectors.push(("static_displacement", static_displacement));
+            }
+            let grid = structure_grid(shape, time_series.up(), &vectors)?;
+            write_file(&folder.join(&file), grid)?;
+            entries.push(CollectionEntry { time: frame.time, part: 0, file });
         }
-        write_file(&folder.join(&file), structure(shape, time_series.up(), &vectors)?)?;
-        entries.push((frame.time, 0, file));
     }
-    let mut corners = 0..;
-    let cell = |own: &ContactElement| {
-        ShapeCell::flat(corners.by_ref().take(own.outline().count()).collect())
-    };
-    let cells: Vec<ShapeCell> = time_series.elements().iter().map(cell).collect();
+    let mut point_indices = 0..;
+    let mut cells = Vec::new();
+    for element in time_series.elements() {
+        let corners = point_indices.by_ref().take(element.outline().count());
+        cells.push(ShapeCell::flat(corners.collect()));
+    }
     for (k, frame) in time_series.contact_frames().enumerate() {
         let file = format!("{name}_base_{k:04}.vtu");
-        write_file(&folder.join(&file), base(time_series, &cells, &frame))?;
-        entries.push((frame.time, 1, file));
+        write_file(&folder.join(&file), base_grid(time_series, &cells, &frame))?;
+        entries.push(CollectionEntry { time: frame.time, part: 1, file });
     }
-    entries.sort_by(|a, b| a.0.total_cmp(&b.0));
+    entries.sort_by(|a, b| a.time.total_cmp(&b.time));
     write_file(&folder.join(format!("{name}.pvd")), collection(&entries))?;
     Ok(entries.len())
 }
 
-/// The vector `[x, y, z]`, z up, in the file's axes: those along the surface, and then `up`.
-fn shown(up: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    let mut own = [x, y, 0.0];
-    own[up] = z;
-    own
+fn is_allowed_in_name(character: char) -> bool {
+    character.is_alphanumeric() || character == '-' || character == '_'
 }
 
-/// A grid of the structure with the displacements of its points by these values of the degrees of freedom.
-fn structure(
+/// The vector `[x, y, z]`, z up, in the file's axes: those along the surface, and then `up`.
+fn in_file_axes(up: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    let mut vector = [x, y, 0.0];
+    vector[up] = z;
+    vector
+}
+
+/// A vector [right, height, away] of a deformed shape in the file's axes.
+fn shape_vector(up: usize, [right, height, away]: [f64; 3]) -> [f64; 3] {
+    in_file_axes(up, [right, away, height])
+}
+
+/// A grid of the structure with the vectors of its points by these values of the degrees of freedom.
+fn structure_grid(
     shape: &DeformedShape,
     up: usize,
     vectors: &[(&'static str, &[f64])],
 ) -> Result<String> {
-    let turned = |[right, height, away]: [f64; 3]| shown(up, [right, away, height]);
-    let vectors = vectors.iter().map(|&(name, dofs)| {
-        Ok((name, shape.displacements(dofs)?.into_iter().map(turned).collect()))
-    });
-    let grid = Grid {
-        points: shape.points().iter().map(ShapePoint::place).map(turned).collect(),
+    let mut point_vectors = Vec::new();
+    for &(name, dofs) in vectors {
+        let vectors = shape.displacements(dofs)?.into_iter();
+        point_vectors.push((name, vectors.map(|vector| shape_vector(up, vector)).collect()));
+    }
+    let places = shape.points().iter().map(ShapePoint::place);
+    let grid = VtuGrid {
+        points: places.map(|place| shape_vector(up, place)).collect(),
         cells: shape.grid(),
-        point_vectors: vectors.collect::<Result<_>>()?,
+        point_vectors,
         cell_scalars: Vec::new(),
     };
     Ok(grid.xml())
 }
 
-fn base(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame<'_>) -> String {
+/// A grid of the base with the state of its contact elements.
+fn base_grid(time_series: &TimeSeries, cells: &[ShapeCell], frame: &ContactFrame<'_>) -> String {
     let corners = time_series.elements().iter().flat_map(ContactElement::outline);
-    let points = corners.map(|place| shown(time_series.up(), place)).collect();
-    let numbers = ContactState::NUMBERS.iter().filter(|own| time_series.in_plan() || !own.2);
-    let values = |value: &fn(&ContactState) -> f64| frame.states.iter().map(value).collect();
+    let points = corners.map(|place| in_file_axes(time_series.up(), place)).collect();
+    let mut cell_scalars = Vec::new();
+    for &(name, _, is_in_plan_only, value) in &ContactState::NUMBERS {
+        if time_series.in_plan() || !is_in_plan_only {
+            cell_scalars.push((name, frame.states.iter().map(value).collect()));
+        }
+    }
     let modes = frame.modes.iter().map(|mode| f64::from(*mode as u8)).collect();
-    let numbers = numbers.map(|(word, .., value)| (*word, values(value)));
-    let cell_scalars = numbers.chain([("mode", modes)]).collect();
-    let grid = Grid { points, cells, point_vectors: Vec::new(), cell_scalars };
-    grid.xml()
+    cell_scalars.push(("mode", modes));
+    VtuGrid { points, cells, point_vectors: Vec::new(), cell_scalars }.xml()
 }
 
-fn collection(entries: &[(f64, usize, String)]) -> String {
+/// A grid in a collection.
+struct CollectionEntry {
+    /// Time of the grid, s.
+    time: f64,
+    /// 0 for the structure, 1 for the base.
+    part: usize,
+    /// Name of the grid's file.
+    file: String,
+}
+
+fn collection(entries: &[CollectionEntry]) -> String {
     let mut out = String::from(
         "<?xml version=\"1.0\"?>\n\
          <VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
-    for (time, part, file) in entries {
+    for CollectionEntry { time, part, file } in entries {
         // Writing to a string does not fail.
         let _ = writeln!(
             out,
@@ -176,17 +204,18 @@ fn collection(entries: &[(f64, usize, String)]) -> String {
 }
 
 /// Points, cells and data of a `.vtu` file.
-pub(super) struct Grid<'a> {
+pub(super) struct VtuGrid<'a> {
     pub(super) points: Vec<[f64; 3]>,
     pub(super) cells: &'a [ShapeCell],
     pub(super) point_vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
     pub(super) cell_scalars: Vec<(&'static str, Vec<f64>)>,
 }
 
-impl Grid<'_> {
+impl VtuGrid<'_> {
     /// The file's text.
     pub(super) fn xml(&self) -> String {
-        let (points, cells) = (self.points.len(), self.cells.len());
+        let points = self.points.len();
+        let cells = self.cells.len();
         let mut out = String::from(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
@@ -198,38 +227,39 @@ impl Grid<'_> {
             "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">\n<PointData>"
         );
         for (name, vectors) in &self.point_vectors {
-            array(&mut out, "Float64", name, 3, vectors.iter().map(in_space));
+            write_array(&mut out, "Float64", name, 3, vectors.iter().map(vector_text));
         }
         out += "</PointData>\n<CellData>\n";
         for (name, values) in &self.cell_scalars {
-            array(&mut out, "Float64", name, 1, values.iter());
+            write_array(&mut out, "Float64", name, 1, values.iter());
         }
         out += "</CellData>\n<Points>\n";
-        array(&mut out, "Float64", "points", 3, self.points.iter().map(in_space));
+        write_array(&mut out, "Float64", "points", 3, self.points.iter().map(vector_text));
         out += "</Points>\n<Cells>\n";
-        array(
+        write_array(
             &mut out,
             "Int64",
             "connectivity",
             1,
             self.cells.iter().flat_map(|cell| &cell.points),
         );
-        let ends = self.cells.iter().scan(0, |end, cell| {
+        let offsets = self.cells.iter().scan(0, |end, cell| {
             *end += cell.points.len();
             Some(*end)
         });
-        array(&mut out, "Int64", "offsets", 1, ends);
-        array(&mut out, "UInt8", "types", 1, self.cells.iter().map(|cell| cell.form as u8));
+        write_array(&mut out, "Int64", "offsets", 1, offsets);
+        write_array(&mut out, "UInt8", "types", 1, self.cells.iter().map(|cell| cell.form as u8));
         out += "</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
         out
     }
 }
 
-fn in_space([x, y, z]: &[f64; 3]) -> String {
+fn vector_text([x, y, z]: &[f64; 3]) -> String {
     format!("{x} {y} {z}")
 }
 
-fn array<T: Display>(
+/// Appends one array of data, a value a line.
+fn write_array<T: Display>(
     out: &mut String,
     kind: &str,
     name: &str,

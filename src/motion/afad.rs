@@ -7,11 +7,12 @@
 use std::io::Read;
 
 use super::column_title::check_acceleration;
-use super::fault::{not_in_header, unclear, unequal_columns};
+use super::fault::{FaultResult, unclear, unequal_columns};
 use super::header_line::titles_of_words;
 use super::header_number::HeaderNumber;
 use super::lines::{
-    Lines, Reason, Series, component, count, is_like_number, push_numbers, record, records,
+    LineResult, Lines, Series, is_like_number, push_numbers, required, sample_count,
+    select_component, to_record, to_records, wrong_count,
 };
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
@@ -54,41 +55,45 @@ impl Default for AfadFormat {
 
 impl RecordFormat for AfadFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, component(self.component, read(&mut Lines::new(source))))
+        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source)))
+        to_records(name, read(&mut Lines::new(source)))
     }
 }
 
-const GAL: AccelerationUnit = AccelerationUnit::Gal;
+/// Unit of the samples and of their peaks.
+const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::Gal;
 
 /// Entries of the header that are used.
 #[derive(Default)]
-struct Header {
+struct AfadHeader {
+    /// Time step, s.
     interval: Option<f64>,
+    /// Number of samples.
     points: Option<usize>,
     /// Text of the peaks, gal.
     peaks: String,
 }
 
-impl Header {
-    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), FileFault> {
+impl AfadHeader {
+    /// Stores the value of a line `KEY : value`.
+    fn read(&mut self, key: &str, value: &str) -> FaultResult<()> {
         let upper = key.to_ascii_uppercase();
         if upper.starts_with("NUMBER OF DATA") {
-            self.points = HeaderNumber::Points.read(value)?.and_then(count);
+            self.points = HeaderNumber::Points.read(value)?.and_then(sample_count);
         } else if let Some(unit) = upper.strip_prefix("SAMPLING INTERVAL") {
             self.interval = HeaderNumber::TimeStep.read(&format!("{value} {}", unit.trim()))?;
         } else if upper.contains("PGA") {
-            check_acceleration(key, GAL)?;
+            check_acceleration(key, SAMPLE_UNIT)?;
             self.peaks = value.to_ascii_uppercase();
         }
         Ok(())
     }
 
     /// Peak of a component, gal; zero if there is none: `(N-S) 13.2 (E-W) 12.2`.
-    fn peak(&self, name: &str) -> std::result::Result<f64, FileFault> {
+    fn peak(&self, name: &str) -> FaultResult<f64> {
         let name = name.split(['(', '[']).next().unwrap_or(name).trim().to_ascii_uppercase();
         let text = self.peaks.split_once(&format!("({name})")).map_or("", |(_, text)| text);
         match text.split_whitespace().next() {
@@ -98,70 +103,78 @@ impl Header {
     }
 }
 
-fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
-    let (header, names, first) = head(lines)?;
-    let missing = |quantity| lines.refuse(not_in_header(quantity));
+/// Reads all components.
+fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
+    let AfadHead { header, names, first_row } = read_head(lines)?;
     let step = header.interval.filter(|&step| step > 0.0);
-    let step = step.ok_or_else(|| missing("sampling interval (SAMPLING INTERVAL)"))?;
-    let needed = header.points.ok_or_else(|| missing("number of samples (NUMBER OF DATA)"))?;
-    let gal = GAL.in_metres_per_second_squared();
+    let step = required(lines, step, "sampling interval (SAMPLING INTERVAL)")?;
+    let needed = required(lines, header.points, "number of samples (NUMBER OF DATA)")?;
+    let factor = SAMPLE_UNIT.in_metres_per_second_squared();
     let mut columns = vec![Vec::new(); names.len()];
-    let mut row = first;
-    loop {
+    let mut row = first_row;
+    while !row.is_empty() {
         if row.len() != names.len() {
-            let (found, expected) = (row.len(), names.len());
-            return Err(lines.refuse(unequal_columns(found, expected)));
+            return Err(lines.fault(unequal_columns(row.len(), names.len())));
         }
         for (column, value) in columns.iter_mut().zip(&row) {
-            column.push(value * gal);
+            column.push(value * factor);
         }
-        row.clear();
-        while row.is_empty() {
-            let Some(line) = lines.next()? else { break };
-            push_numbers(&line, &mut row).map_err(|reason| lines.refuse(reason))?;
-        }
-        if row.is_empty() {
-            break;
-        }
+        row = next_row(lines)?;
     }
     let found = columns[0].len();
     if found != needed {
-        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
+        return Err(lines.fault(wrong_count(found, needed)));
     }
     let mut components = Vec::new();
     for (name, samples) in names.into_iter().zip(columns) {
-        let peak = header.peak(&name);
-        peak.and_then(|peak| agreement::peak(&samples, peak * gal))
-            .map_err(|reason| lines.refuse(reason))?;
+        let peak = lines.with_line_number(header.peak(&name))?;
+        lines.with_line_number(agreement::peak(&samples, peak * factor))?;
         components.push(Series { name, step, samples });
     }
     Ok(components)
 }
 
-/// The header, the names of the components, and the first line of numbers.
-fn head(lines: &mut Lines) -> Reason<(Header, Vec<String>, Vec<f64>)> {
-    let mut header = Header::default();
-    // The line before the numbers.
-    let mut title = String::new();
+/// The numbers of the next line that is not empty; none at the end of the file.
+fn next_row(lines: &mut Lines) -> LineResult<Vec<f64>> {
+    let mut row = Vec::new();
+    while row.is_empty() {
+        let Some(line) = lines.next()? else { break };
+        lines.with_line_number(push_numbers(&line, &mut row))?;
+    }
+    Ok(row)
+}
+
+/// The lines of a file up to the first line of numbers.
+struct AfadHead {
+    header: AfadHeader,
+    /// Names of the components.
+    names: Vec<String>,
+    /// Numbers of the first line.
+    first_row: Vec<f64>,
+}
+
+fn read_head(lines: &mut Lines) -> LineResult<AfadHead> {
+    let mut header = AfadHeader::default();
+    let mut previous_line = String::new();
     while let Some(line) = lines.next()? {
-        let mut row = Vec::new();
         if let Some((key, value)) = line.split_once(':') {
-            let understood = header.read(key.trim(), value.trim());
-            understood.map_err(|reason| lines.refuse(reason))?;
+            lines.with_line_number(header.read(key.trim(), value.trim()))?;
         } else if !line.is_empty() && line.split_whitespace().all(is_like_number) {
-            push_numbers(&line, &mut row).map_err(|reason| lines.refuse(reason))?;
-            let names = titles_of_words(&title);
+            let mut first_row = Vec::new();
+            lines.with_line_number(push_numbers(&line, &mut first_row))?;
+            let names = titles_of_words(&previous_line);
             if names.is_empty() {
                 break;
             }
-            let units = names.iter().try_for_each(|name| check_acceleration(name, GAL));
-            units.map_err(|reason| lines.refuse(reason))?;
-            return Ok((header, names, row));
+            for name in &names {
+                lines.with_line_number(check_acceleration(name, SAMPLE_UNIT))?;
+            }
+            return Ok(AfadHead { header, names, first_row });
         }
         if !line.is_empty() {
-            title = line;
+            previous_line = line;
         }
     }
     let quantity = "line with the names of the components, and numbers below it";
-    Err(lines.refuse(FileFault::missing(quantity)))
+    Err(lines.fault(FileFault::missing(quantity)))
 }

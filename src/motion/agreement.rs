@@ -2,14 +2,14 @@
 
 use crate::error::FileFault;
 
-/// Difference of a stated and the samples' duration that counts as rounding, relative to the duration.
-const DURATION: f64 = 0.03;
-/// Largest factor between a stated and the samples' peak that a change of the baseline explains.
+/// Largest difference of a stated duration, or of a stated time, that counts as rounding, relative to it.
+const DURATION_TOLERANCE: f64 = 0.03;
+/// Largest ratio of a stated peak and the samples' peak that a change of the baseline explains.
 ///
 /// The closest two units differ by a factor of 2.54.
-const PEAK: f64 = 2.0;
-/// Relative difference of a stated extreme and a sample that counts as rounding.
-const NEAR: f64 = 1e-3;
+const MAX_PEAK_RATIO: f64 = 2.0;
+/// Largest relative difference of two printed numbers that counts as rounding.
+const PRINTED_NUMBER_TOLERANCE: f64 = 1e-3;
 
 /// Error unless `points` samples every `step` (s) last as long as the file states.
 ///
@@ -22,14 +22,15 @@ pub(super) fn duration(
 ) -> Result<(), FileFault> {
     let found = points as f64 * step;
     // Some agencies count the samples, others the intervals between them.
-    let agrees = (found - stated).abs() <= DURATION * stated.abs() + rounding + 2.0 * step;
+    let agrees =
+        (found - stated).abs() <= DURATION_TOLERANCE * stated.abs() + rounding + 2.0 * step;
     let quantity = "number of samples times the time step (s)";
     if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
 }
 
 /// Error unless two places state the same number, up to its last printed digit.
 pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<(), FileFault> {
-    let agrees = (found - stated).abs() <= 1e-3 * found.abs();
+    let agrees = (found - stated).abs() <= PRINTED_NUMBER_TOLERANCE * found.abs();
     if agrees { Ok(()) } else { Err(contradiction(quantity, found, stated)) }
 }
 
@@ -37,31 +38,48 @@ pub(super) fn number(quantity: &'static str, found: f64, stated: f64) -> Result<
 ///
 /// Both in m/s². A stated peak of zero is not checked.
 pub(super) fn peak(samples: &[f64], stated: f64) -> Result<(), FileFault> {
-    let largest = |mean: f64| samples.iter().fold(0.0_f64, |most, a| most.max((a - mean).abs()));
     let mean = samples.iter().sum::<f64>() / samples.len() as f64;
+    let found = largest_deviation(samples, 0.0);
     // The stated peak may refer to the samples before or after removal of the mean.
-    let near = |found: f64| {
-        let ratio = found / stated.abs();
-        ratio == 0.0 || (1.0 / PEAK..=PEAK).contains(&ratio)
-    };
-    let found = largest(0.0);
-    if stated == 0.0 || near(found) || near(largest(mean)) {
+    if stated == 0.0
+        || is_same_peak(found, stated)
+        || is_same_peak(largest_deviation(samples, mean), stated)
+    {
         return Ok(());
     }
     Err(contradiction("peak acceleration (m/s²)", found, stated))
 }
 
-/// Error unless the samples have the extreme that a file states (m/s², at a time in s), in time and size.
+/// Largest magnitude of the differences of the samples from `mean`.
+fn largest_deviation(samples: &[f64], mean: f64) -> f64 {
+    samples.iter().fold(0.0_f64, |largest, sample| largest.max((sample - mean).abs()))
+}
+
+/// Whether a peak of the samples may be the stated one; a peak of zero may be any.
+fn is_same_peak(found: f64, stated: f64) -> bool {
+    let ratio = found / stated.abs();
+    ratio == 0.0 || (1.0 / MAX_PEAK_RATIO..=MAX_PEAK_RATIO).contains(&ratio)
+}
+
+/// Error unless the samples have the stated extreme at the stated time.
+///
+/// `time` in s, `stated` in m/s². If no sample has that value, only its size is checked.
 pub(super) fn extreme(samples: &[f64], step: f64, time: f64, stated: f64) -> Result<(), FileFault> {
     peak(samples, stated)?;
-    let close = |a: f64| (a - stated).abs() <= NEAR * stated.abs();
-    let mut times = (0..samples.len()).filter(|&k| close(samples[k])).map(|k| k as f64 * step);
-    let Some(first) = times.next() else { return Ok(()) };
-    let agrees = |found: f64| (found - time).abs() <= DURATION * time.abs() + 2.0 * step;
-    if agrees(first) || times.any(agrees) {
-        return Ok(());
+    let mut first_time = None;
+    for (index, sample) in samples.iter().enumerate() {
+        if (sample - stated).abs() <= PRINTED_NUMBER_TOLERANCE * stated.abs() {
+            let found = index as f64 * step;
+            if (found - time).abs() <= DURATION_TOLERANCE * time.abs() + 2.0 * step {
+                return Ok(());
+            }
+            first_time.get_or_insert(found);
+        }
     }
-    Err(contradiction("time of the peak acceleration (s)", first, time))
+    match first_time {
+        None => Ok(()),
+        Some(found) => Err(contradiction("time of the peak acceleration (s)", found, time)),
+    }
 }
 
 fn contradiction(quantity: &'static str, found: f64, stated: f64) -> FileFault {

@@ -1,24 +1,26 @@
 //! Reader of text files with the values of one series along the lines, several on each.
 //!
-//! Layout: none of an agency; what SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`),
-//! OpenSees and scripts read and print.
+//! No agency defines this layout: SHAKE (Idriss & Sun, *User's manual for SHAKE91*, 1992: cards of `8F9.6`), OpenSees and
+//! scripts read and print it.
 
 use std::io::Read;
 
-use super::fault::{columns_of_table, header_line, off_columns, unequal_columns};
+use super::fault::{
+    FaultResult, may_be_table, not_in_format, unequal_columns, unexpected_header_line,
+};
 use super::fortran_format::FortranFormat;
 use super::header_line::HeaderLines;
 use super::lines::{
-    Fields, Lines, Reason, Series, first_word, in_header, is_failure, is_header, push_numbers,
-    record, records, scaled,
+    LineFields, LineResult, Lines, Series, first_word, has_spreadsheet_error, is_header,
+    line_or_header_fault, push_numbers, scaled, to_record, to_records, wrong_count,
 };
 use super::number_table::NumberTable;
 use super::{AccelerationUnit, Record, RecordFormat};
-use crate::error::{FileFault, Result};
+use crate::error::Result;
 use crate::text::decimal::has_implied_point;
 
-/// Smallest number of lines that show a column of times.
-const LINES_WITH_TIMES: usize = 4;
+/// Number of lines from which a column may be known as times.
+const MIN_LINES_WITH_TIMES: usize = 4;
 
 /// Layout of a record whose values follow each other along the lines, several on each line.
 ///
@@ -72,50 +74,50 @@ impl AlongLinesFormat {
 
 impl RecordFormat for AlongLinesFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source), self))
+        to_record(name, read(&mut Lines::new(source), self))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source), self).map(|series| vec![series]))
+        to_records(name, read(&mut Lines::new(source), self).map(|series| vec![series]))
     }
 }
 
-fn read(lines: &mut Lines, format: &AlongLinesFormat) -> Reason<Series> {
+fn read(lines: &mut Lines, format: &AlongLinesFormat) -> LineResult<Series> {
     let mut header = HeaderLines::default();
-    let mut header_layout = None;
-    let mut header_may_come = true;
-    let mut series = LineSeries::default();
-    while let Some(line) = lines.next_columns()? {
+    let mut header_format = None;
+    let mut title_may_come = true;
+    let mut series = SeriesInLines::default();
+    while let Some(line) = lines.next_indented()? {
         let text = line.trim_start();
-        let skipped = lines.number <= format.header_lines;
-        let comment = text.starts_with('#') && !is_failure(text);
-        let fields = Fields::split(text);
-        let title = header_may_come && !skipped && is_header(&fields);
-        if text.is_empty() || skipped || comment || title {
-            header_may_come &= text.is_empty() || skipped || comment;
-            if series.values.is_empty() {
+        let is_skipped = lines.number <= format.header_lines;
+        let is_comment = text.starts_with('#') && !has_spreadsheet_error(text);
+        let fields = LineFields::split(text);
+        let is_title = title_may_come && !is_skipped && is_header(&fields);
+        let is_first = series.values.is_empty();
+        if text.is_empty() || is_skipped || is_comment || is_title {
+            title_may_come &= text.is_empty() || is_skipped || is_comment;
+            if is_first {
                 header.add(text);
-                header_layout = FortranFormat::find(text).or(header_layout);
+                header_format = FortranFormat::find(text).or(header_format);
             }
             continue;
         }
-        header_may_come = false;
-        if series.values.is_empty() {
-            series.begin(&line, format.layout, header_layout, lines.number);
+        title_may_come = false;
+        if is_first {
+            series.begin(&line, format.layout, header_format, lines.number);
             if let Some(word) = first_word(&fields) {
-                return Err(lines.refuse(header_line(word)));
+                return Err(lines.fault(unexpected_header_line(word)));
             }
-            let unit = header.titles(&(1..=1)).check_acceleration(1, format.unit);
-            unit.map_err(|why| lines.refuse(why))?;
+            lines.with_line_number(header.titles(&(1..=1)).check_acceleration(1, format.unit))?;
         }
-        let first = series.values.is_empty();
         let added = series.add(&line, &fields, lines.number);
-        added.map_err(|(number, why)| (number, in_header(why, &fields, first)))?;
+        added
+            .map_err(|(number, fault)| (number, line_or_header_fault(fault, &fields, is_first)))?;
     }
     let found = series.values.len();
     match format.samples {
         Some(needed) if needed != found => {
-            return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
+            return Err(lines.fault(wrong_count(found, needed)));
         }
         // A known number of samples confirms the series.
         Some(_) => {}
@@ -125,115 +127,121 @@ fn read(lines: &mut Lines, format: &AlongLinesFormat) -> Reason<Series> {
     Ok(Series { name: String::new(), step: format.time_step, samples })
 }
 
-/// Values of all lines so far.
+/// The values of the lines read so far.
 #[derive(Default)]
-struct LineSeries {
+struct SeriesInLines {
     values: Vec<f64>,
     /// Columns that all lines must have.
-    layout: Option<FortranFormat>,
+    format: Option<FortranFormat>,
     /// Whether the header names a format with implied decimal points, which the lines do not match.
-    off_implied_points: bool,
+    ignores_implied_points: bool,
     /// Number of the first line in the file.
     first_line: usize,
     /// Number of values in a full line; zero before the first line.
-    per_line: usize,
-    /// Number of a shorter line, and of its values.
-    short: Option<(usize, usize)>,
-    /// Number of the card before.
-    card: Option<u64>,
+    values_per_line: usize,
+    short_line: Option<ShortLine>,
+    /// Number of the previous card.
+    previous_card: Option<u64>,
     full_lines: NumberTable,
-    full_count: usize,
+    full_line_count: usize,
 }
 
-impl LineSeries {
+/// A line with fewer values than the others, which must be the last one.
+struct ShortLine {
+    /// Number of the line in the file.
+    number: usize,
+    value_count: usize,
+}
+
+impl SeriesInLines {
     /// Decides, by the first line of numbers, whether lines are in columns.
+    ///
+    /// `format`: requested by the caller. `header_format`: named in the header, which counts if the line matches it.
     fn begin(
         &mut self,
         line: &str,
-        layout: Option<FortranFormat>,
-        header: Option<FortranFormat>,
+        format: Option<FortranFormat>,
+        header_format: Option<FortranFormat>,
         number: usize,
     ) {
         self.first_line = number;
-        let matching = header.filter(|header| header.card(line).is_some());
-        self.layout = layout.or(matching);
-        self.per_line = self.layout.map_or(0, |layout| layout.numbers_per_line());
-        self.off_implied_points =
-            self.layout.is_none() && header.is_some_and(FortranFormat::has_implied_points);
+        let matching = header_format.filter(|format| format.read_card(line).is_some());
+        self.format = format.or(matching);
+        self.values_per_line = self.format.map_or(0, |format| format.numbers_per_line());
+        self.ignores_implied_points =
+            self.format.is_none() && header_format.is_some_and(FortranFormat::has_implied_points);
     }
 
     /// Appends the values of a line.
-    fn add(&mut self, line: &str, fields: &Fields, number: usize) -> Reason<()> {
-        if let Some((short, found)) = self.short {
-            return Err((short, unequal_columns(found, self.per_line)));
+    fn add(&mut self, line: &str, fields: &LineFields, number: usize) -> LineResult<()> {
+        if let Some(short) = &self.short_line {
+            let fault = unequal_columns(short.value_count, self.values_per_line);
+            return Err((short.number, fault));
         }
-        let numbers = match self.layout {
-            Some(layout) => self.in_columns(layout, line),
-            None => self.apart(line, fields),
+        let values = match self.format {
+            Some(format) => self.values_in_columns(format, line),
+            None => self.separate_values(line, fields),
         };
-        let numbers = numbers.map_err(|why| (number, why))?;
-        if self.per_line == 0 {
-            self.per_line = numbers.len();
+        let values = values.map_err(|fault| (number, fault))?;
+        if self.values_per_line == 0 {
+            self.values_per_line = values.len();
         }
-        if numbers.len() > self.per_line {
-            return Err((number, unequal_columns(numbers.len(), self.per_line)));
+        if values.len() > self.values_per_line {
+            return Err((number, unequal_columns(values.len(), self.values_per_line)));
         }
-        if numbers.len() < self.per_line {
-            self.short = Some((number, numbers.len()));
+        if values.len() < self.values_per_line {
+            self.short_line = Some(ShortLine { number, value_count: values.len() });
         } else {
-            self.full_lines.push(&numbers);
-            self.full_count += 1;
+            self.full_lines.push(&values);
+            self.full_line_count += 1;
         }
-        self.values.extend(numbers);
+        self.values.extend(values);
         Ok(())
     }
 
-    /// Numbers of a line in columns; numbers of cards must rise.
-    fn in_columns(
-        &mut self,
-        layout: FortranFormat,
-        line: &str,
-    ) -> std::result::Result<Vec<f64>, FileFault> {
-        let card = layout.card(line).ok_or_else(|| off_columns(line))?;
-        if let Some(number) = card.card {
-            if self.card.is_some_and(|before| before >= number) {
-                return Err(off_columns(line));
+    /// Values of a line in the columns of a format; numbers of cards must rise.
+    fn values_in_columns(&mut self, format: FortranFormat, line: &str) -> FaultResult<Vec<f64>> {
+        let card = format.read_card(line).ok_or_else(|| not_in_format(line))?;
+        if let Some(number) = card.card_number {
+            if self.previous_card.is_some_and(|previous| previous >= number) {
+                return Err(not_in_format(line));
             }
-            self.card = Some(number);
+            self.previous_card = Some(number);
         }
         Ok(card.numbers)
     }
 
-    /// Numbers of a line that are apart.
-    fn apart(&self, line: &str, fields: &Fields) -> std::result::Result<Vec<f64>, FileFault> {
-        let mut numbers = Vec::new();
+    /// Values of a line that separators or signs keep apart.
+    fn separate_values(&self, line: &str, fields: &LineFields) -> FaultResult<Vec<f64>> {
+        let mut values = Vec::new();
         if fields.separator.is_none() {
-            push_numbers(line, &mut numbers)?;
+            push_numbers(line, &mut values)?;
         } else {
-            for column in 1..=fields.filled() {
-                numbers.push(fields.number(column)?);
+            for column in 1..=fields.filled_count() {
+                values.push(fields.number(column)?);
             }
         }
-        let pointless = |field: &&str| has_implied_point(field) && field.contains(nonzero_digit);
-        if self.off_implied_points && fields.texts.iter().any(pointless) {
-            return Err(off_columns(line));
+        if self.ignores_implied_points && fields.texts.iter().any(|text| lacks_point(text)) {
+            return Err(not_in_format(line));
         }
-        Ok(numbers)
+        Ok(values)
     }
 
     /// Error if a column counts or has times.
-    fn check(&self) -> Reason<()> {
-        match self.full_lines.even_column() {
-            Some((column, step))
-                if step > 0.0 && (step == 1.0 || self.full_count >= LINES_WITH_TIMES) =>
-            {
-                Err((self.first_line, columns_of_table(column)))
+    fn check(&self) -> LineResult<()> {
+        if let Some(column) = self.full_lines.even_column() {
+            let is_count = column.step == 1.0;
+            let is_time = column.step > 0.0 && self.full_line_count >= MIN_LINES_WITH_TIMES;
+            if is_count || is_time {
+                return Err((self.first_line, may_be_table(column.number)));
             }
-            _ => Ok(()),
         }
+        Ok(())
     }
 }
 
-fn nonzero_digit(sign: char) -> bool {
-    sign.is_ascii_digit() && sign != '0'
+/// Whether the value of a number without a decimal point depends on the format.
+fn lacks_point(field: &str) -> bool {
+    let is_nonzero = field.contains(|character: char| matches!(character, '1'..='9'));
+    has_implied_point(field) && is_nonzero
 }

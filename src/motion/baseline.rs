@@ -77,20 +77,24 @@ words_with_numbers! {
     }
 }
 
+/// Largest degree of a polynomial.
+const MAX_POLYNOMIAL_DEGREE: usize = 8;
+
 /// A linear least-squares problem for the polynomial in acceleration.
-struct Fit {
+struct BaselineFit {
     /// Number of coefficients.
     terms: usize,
     /// Whether the polynomial has the factor t.
     starts_from_zero: bool,
-    /// Quantity that is minimised.
-    least: Integral,
+    /// Quantity whose square is minimised.
+    minimized: FitQuantity,
     /// Quantities that are zero at the end.
-    zero_at_end: &'static [Integral],
+    zero_at_end: &'static [FitQuantity],
 }
 
+/// An integral of the acceleration to which a condition applies.
 #[derive(Clone, Copy)]
-enum Integral {
+enum FitQuantity {
     Velocity,
     Displacement,
 }
@@ -98,26 +102,31 @@ enum Integral {
 impl Baseline {
     /// Returns the treated samples.
     pub(super) fn apply(self, samples: &[f64]) -> Result<Vec<f64>> {
-        let newmark =
-            Fit { terms: 3, starts_from_zero: false, least: Integral::Velocity, zero_at_end: &[] };
+        let newmark = BaselineFit {
+            terms: 3,
+            starts_from_zero: false,
+            minimized: FitQuantity::Velocity,
+            zero_at_end: &[],
+        };
+        let at_rest_at_end = &[FitQuantity::Velocity];
         let fit = match self {
             Self::None => return Ok(samples.to_vec()),
-            Self::RemoveMean => Fit { terms: 1, zero_at_end: &[Integral::Velocity], ..newmark },
+            Self::RemoveMean => BaselineFit { terms: 1, zero_at_end: at_rest_at_end, ..newmark },
             Self::NewmarkParabola => newmark,
             Self::VelocityPolynomial { degree } => {
                 check_degree(degree, 1, "between 1 and 8")?;
-                Fit { terms: degree, zero_at_end: &[Integral::Velocity], ..newmark }
+                BaselineFit { terms: degree, zero_at_end: at_rest_at_end, ..newmark }
             }
             Self::DisplacementPolynomial { degree } => {
                 check_degree(degree, 2, "between 2 and 8")?;
-                Fit { terms: degree - 1, least: Integral::Displacement, ..newmark }
+                BaselineFit { terms: degree - 1, minimized: FitQuantity::Displacement, ..newmark }
             }
             Self::RestToRest { degree } => {
                 check_degree(degree, 3, "between 3 and 8")?;
-                Fit {
+                BaselineFit {
                     terms: degree - 1,
                     starts_from_zero: true,
-                    zero_at_end: &[Integral::Velocity, Integral::Displacement],
+                    zero_at_end: &[FitQuantity::Velocity, FitQuantity::Displacement],
                     ..newmark
                 }
             }
@@ -126,12 +135,12 @@ impl Baseline {
     }
 }
 
-fn check_degree(degree: usize, least: usize, needed: &'static str) -> Result<()> {
-    let is_known = (least..=8).contains(&degree);
-    require("degree of the baseline polynomial", degree as f64, is_known, needed).map(drop)
+fn check_degree(degree: usize, min_degree: usize, needed: &'static str) -> Result<()> {
+    let is_in_range = (min_degree..=MAX_POLYNOMIAL_DEGREE).contains(&degree);
+    require("degree of the baseline polynomial", degree as f64, is_in_range, needed).map(drop)
 }
 
-impl Fit {
+impl BaselineFit {
     /// Samples minus the fitted polynomial.
     ///
     /// V and U are the exact integrals of the basis functions φ, which are linear between samples; v and u are the
@@ -141,85 +150,102 @@ impl Fit {
         let quantity = "number of samples under a baseline fit";
         let needed = "above the number of coefficients by two at least";
         require(quantity, samples.len() as f64, samples.len() > self.terms + 1, needed)?;
-        let scale = samples.iter().fold(0.0, |most: f64, a| most.max(a.abs()));
+        let scale = samples.iter().fold(0.0, |largest: f64, sample| largest.max(sample.abs()));
         if scale == 0.0 {
             return Ok(samples.to_vec());
         }
         let step = 1.0 / (samples.len() - 1) as f64;
         let basis: Vec<Vec<f64>> =
-            (0..self.terms).map(|term| self.basis(term, samples.len())).collect();
-        let target: Vec<f64> = samples.iter().map(|a| a / scale).collect();
-        let motions: Vec<Integrals> =
-            basis.iter().chain([&target]).map(|a| Integrals::new(step, a, self.least)).collect();
-        let coefficients = self.solve(&motions)?;
-        let correction = |index: usize| -> f64 {
-            coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum()
-        };
-        Ok(samples.iter().enumerate().map(|(i, a)| a - scale * correction(i)).collect())
+            (0..self.terms).map(|term| self.basis_function(term, samples.len())).collect();
+        let target: Vec<f64> = samples.iter().map(|sample| sample / scale).collect();
+        let integrals: Vec<FitIntegrals> = basis
+            .iter()
+            .chain([&target])
+            .map(|acceleration| FitIntegrals::new(step, acceleration, self.minimized))
+            .collect();
+        let coefficients = self.solve(&integrals)?;
+        let mut treated = Vec::with_capacity(samples.len());
+        for (index, sample) in samples.iter().enumerate() {
+            let correction: f64 =
+                coefficients.iter().zip(&basis).map(|(c, phi)| c * phi[index]).sum();
+            treated.push(sample - scale * correction);
+        }
+        Ok(treated)
     }
 
     /// Legendre polynomial on [0, 1] at the samples, times t if `starts_from_zero`.
     ///
     /// Powers of t would leave the system ill-conditioned.
-    fn basis(&self, term: usize, count: usize) -> Vec<f64> {
-        let value = |index: usize| {
-            let time = index as f64 / (count - 1) as f64;
-            let x = 2.0 * time - 1.0;
-            let (mut before, mut now) = (0.0, 1.0);
-            for n in 0..term {
-                let n = n as f64;
-                (before, now) = (now, ((2.0 * n + 1.0) * x * now - n * before) / (n + 1.0));
-            }
-            if self.starts_from_zero { time * now } else { now }
-        };
-        (0..count).map(value).collect()
+    fn basis_function(&self, degree: usize, sample_count: usize) -> Vec<f64> {
+        let mut values = Vec::with_capacity(sample_count);
+        for index in 0..sample_count {
+            let time = index as f64 / (sample_count - 1) as f64;
+            let polynomial = legendre(degree, 2.0 * time - 1.0);
+            values.push(if self.starts_from_zero { time * polynomial } else { polynomial });
+        }
+        values
     }
 
-    /// Coefficients; the last of `motions` is the target of the fit.
-    fn solve(&self, motions: &[Integrals]) -> Result<Vec<f64>> {
+    /// Coefficients of the fit; the last of `integrals` belongs to its target.
+    fn solve(&self, integrals: &[FitIntegrals]) -> Result<Vec<f64>> {
         let terms = self.terms;
         let order = terms + self.zero_at_end.len();
-        // one row more than columns: the right-hand side is the last column
+        // The last column is the right-hand side.
         let mut rows = vec![vec![0.0; order + 1]; order];
         for i in 0..terms {
-            for (j, motion) in motions.iter().enumerate() {
+            for (j, other) in integrals.iter().enumerate() {
                 let column = if j == terms { order } else { j };
-                rows[i][column] = motions[i].product(motion);
+                rows[i][column] = integrals[i].product(other);
             }
             for (k, &quantity) in self.zero_at_end.iter().enumerate() {
-                rows[i][terms + k] = motions[i].end(quantity);
-                rows[terms + k][i] = motions[i].end(quantity);
-                rows[terms + k][order] = motions[terms].end(quantity);
+                rows[i][terms + k] = integrals[i].at_end(quantity);
+                rows[terms + k][i] = integrals[i].at_end(quantity);
+                rows[terms + k][order] = integrals[terms].at_end(quantity);
             }
         }
-        let mut solution = eliminate(rows)
+        let mut solution = solve_dense(rows)
             .ok_or(Error::Singular { matrix: "system of the baseline fit", order })?;
         solution.truncate(terms);
         Ok(solution)
     }
 }
 
+/// Legendre polynomial on [−1, 1], by its three-term recurrence.
+fn legendre(degree: usize, x: f64) -> f64 {
+    let mut previous = 0.0;
+    let mut value = 1.0;
+    for n in 0..degree {
+        let n = n as f64;
+        let next = ((2.0 * n + 1.0) * x * value - n * previous) / (n + 1.0);
+        previous = value;
+        value = next;
+    }
+    value
+}
+
 /// Integrals of an acceleration for the fit.
-struct Integrals {
-    /// The fitted quantity at the Gauss points of each interval, times the root of the weight.
+struct FitIntegrals {
+    /// The minimised quantity at the Gauss points of each interval, times the root of the weight.
     values: Vec<f64>,
-    velocity: f64,
-    displacement: f64,
+    /// Velocity at the end of the record.
+    end_velocity: f64,
+    /// Displacement at the end of the record.
+    end_displacement: f64,
 }
 
 /// Gauss–Legendre points and weights on [0, 1], exact for squares of the cubic displacement.
-const GAUSS: [(f64, f64); 4] = [
+const GAUSS_POINTS: [(f64, f64); 4] = [
     (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
     (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
 
-impl Integrals {
-    fn new(step: f64, samples: &[f64], least: Integral) -> Self {
+impl FitIntegrals {
+    fn new(step: f64, samples: &[f64], minimized: FitQuantity) -> Self {
         let (velocity, displacement) = super::integral::integrate(step, samples);
         let last = samples.len() - 1;
-        let mut values = Vec::with_capacity(GAUSS.len() * last);
+        let mut values = Vec::with_capacity(GAUSS_POINTS.len() * last);
         for index in 0..last {
             let start = super::integral::Motion {
                 acceleration: samples[index],
@@ -227,27 +253,27 @@ impl Integrals {
                 displacement: displacement[index],
             };
             let jerk = (samples[index + 1] - samples[index]) / step;
-            for (point, weight) in GAUSS {
-                let at = start.after(point * step, jerk);
-                let value = match least {
-                    Integral::Velocity => at.velocity,
-                    Integral::Displacement => at.displacement,
+            for (point, weight) in GAUSS_POINTS {
+                let motion = start.after(point * step, jerk);
+                let value = match minimized {
+                    FitQuantity::Velocity => motion.velocity,
+                    FitQuantity::Displacement => motion.displacement,
                 };
                 values.push(value * (weight * step).sqrt());
             }
         }
-        Self { values, velocity: velocity[last], displacement: displacement[last] }
+        Self { values, end_velocity: velocity[last], end_displacement: displacement[last] }
     }
 
     /// Velocity or displacement at the end of the record.
-    fn end(&self, quantity: Integral) -> f64 {
+    fn at_end(&self, quantity: FitQuantity) -> f64 {
         match quantity {
-            Integral::Velocity => self.velocity,
-            Integral::Displacement => self.displacement,
+            FitQuantity::Velocity => self.end_velocity,
+            FitQuantity::Displacement => self.end_displacement,
         }
     }
 
-    /// ∫ of the product of the fitted quantities.
+    /// Integral of the product of the minimised quantities.
     fn product(&self, other: &Self) -> f64 {
         self.values.iter().zip(&other.values).map(|(a, b)| a * b).sum()
     }
@@ -256,7 +282,7 @@ impl Integrals {
 /// Solution of a small dense system by elimination with row pivoting.
 ///
 /// The last column is the right-hand side. `None` if a pivot vanishes or is not finite.
-fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
+fn solve_dense(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let order = rows.len();
     for k in 0..order {
         let pivot = (k..order).max_by(|&i, &j| rows[i][k].abs().total_cmp(&rows[j][k].abs()))?;
@@ -264,19 +290,19 @@ fn eliminate(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
         if rows[k][k] == 0.0 || !rows[k][k].is_finite() {
             return None;
         }
-        let (done, below) = rows.split_at_mut(k + 1);
-        let row = &done[k];
-        for other in below {
-            let factor = other[k] / row[k];
-            for (entry, above) in other.iter_mut().zip(row).skip(k) {
-                *entry -= factor * above;
+        let (solved_rows, remaining_rows) = rows.split_at_mut(k + 1);
+        let pivot_row = &solved_rows[k];
+        for row in remaining_rows {
+            let factor = row[k] / pivot_row[k];
+            for (entry, pivot_entry) in row.iter_mut().zip(pivot_row).skip(k) {
+                *entry -= factor * pivot_entry;
             }
         }
     }
     let mut solution = vec![0.0; order];
     for k in (0..order).rev() {
-        let known: f64 = (k + 1..order).map(|j| rows[k][j] * solution[j]).sum();
-        solution[k] = (rows[k][order] - known) / rows[k][k];
+        let solved_terms: f64 = (k + 1..order).map(|j| rows[k][j] * solution[j]).sum();
+        solution[k] = (rows[k][order] - solved_terms) / rows[k][k];
     }
     Some(solution)
 }

@@ -1,50 +1,53 @@
 //! A block of numbers under a title that describes them, in COSMOS and CSMIP files.
 
-use super::fault::{no_acceleration, not_in_header, unclear, unprocessed};
+use super::fault::{FaultResult, not_acceleration, not_in_header, unclear, unprocessed};
 use super::fortran_format::FortranFormat;
-use super::lines::{Lines, Reason, count, line_after_block, read_numbers, scaled};
+use super::lines::{LineResult, Lines, line_after_block, read_numbers, sample_count, scaled};
 use super::{AccelerationUnit, agreement};
-use crate::error::FileFault;
 use crate::text::decimal::finite;
 
 /// Description of a block of numbers by its title.
-pub(super) struct Block {
+pub(super) struct DataBlock {
+    /// Number of samples.
     pub(super) points: usize,
     /// Time step, s.
     pub(super) step: f64,
     pub(super) unit: AccelerationUnit,
-    pub(super) columns: Option<FortranFormat>,
+    /// Columns of the numbers; `None` if white space separates them.
+    pub(super) format: Option<FortranFormat>,
     /// Peak that the header states, in the unit of the block.
     pub(super) peak: Option<f64>,
 }
 
-impl Block {
+impl DataBlock {
     /// The samples (m/s²), and the line after them.
-    pub(super) fn read(&self, lines: &mut Lines) -> Reason<(Vec<f64>, Option<String>)> {
-        let values = read_numbers(lines, self.points, self.columns)?;
+    pub(super) fn read(&self, lines: &mut Lines) -> LineResult<(Vec<f64>, Option<String>)> {
+        let values = read_numbers(lines, self.points, self.format)?;
         let factor = self.unit.in_metres_per_second_squared();
         let samples = scaled(values, factor);
         if let Some(peak) = self.peak {
-            agreement::peak(&samples, peak * factor).map_err(|reason| lines.refuse(reason))?;
+            lines.with_line_number(agreement::peak(&samples, peak * factor))?;
         }
-        let next = line_after_block(lines, self.points)?;
-        Ok((samples, next))
+        let next_line = line_after_block(lines, self.points)?;
+        Ok((samples, next_line))
     }
 }
 
-/// The number at the beginning of a title.
-pub(super) fn points(title: &str, quantity: &'static str) -> Result<usize, FileFault> {
+/// The count at the beginning of a title; an error names its `quantity`.
+pub(super) fn leading_count(title: &str, quantity: &'static str) -> FaultResult<usize> {
     let first = title.split_whitespace().next();
-    first.and_then(|field| count(finite(field)?)).ok_or_else(|| not_in_header(quantity))
+    first.and_then(|field| sample_count(finite(field)?)).ok_or_else(|| not_in_header(quantity))
 }
 
-/// A time step of more than zero.
-pub(super) fn step(value: Option<f64>) -> Result<f64, FileFault> {
+/// A time step, which must be there and above zero.
+pub(super) fn positive_step(value: Option<f64>) -> FaultResult<f64> {
     value.filter(|&step| step > 0.0).ok_or_else(|| not_in_header("sampling interval"))
 }
 
-/// Columns of the format in a title; an error if the text after the unit contains more than a format.
-pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FortranFormat>, FileFault> {
+/// The Fortran format that a title names, if any.
+///
+/// An error if `rest`, the text after the unit, contains more than a format.
+pub(super) fn format_of_title(title: &str, rest: &str) -> FaultResult<Option<FortranFormat>> {
     if !FortranFormat::is_all_of(rest) {
         return Err(unclear("unit or format", rest.trim()));
     }
@@ -54,27 +57,27 @@ pub(super) fn columns(title: &str, rest: &str) -> Result<Option<FortranFormat>, 
 /// The unit at the beginning of `text`, and the text behind it.
 ///
 /// `text`: the part of a title from the unit's name on.
-pub(super) fn unit<'a>(
+pub(super) fn unit_and_rest<'a>(
     title: &str,
     text: &'a str,
-) -> Result<(AccelerationUnit, &'a str), FileFault> {
-    let signs = text.find([',', '(', ')']).unwrap_or(text.len());
-    let end = text.find("format").unwrap_or(text.len()).min(signs);
-    let (name, rest) = text.split_at(end);
-    let name = name.trim_matches([' ', '\t', '.']);
-    if is_raw(name) {
-        return Err(unprocessed(title, RAW));
+) -> FaultResult<(AccelerationUnit, &'a str)> {
+    let separator = text.find([',', '(', ')']).unwrap_or(text.len());
+    let end = text.find("format").unwrap_or(text.len()).min(separator);
+    let rest = &text[end..];
+    let name = text[..end].trim_matches([' ', '\t', '.']);
+    if is_raw_unit(name) {
+        return Err(unprocessed(title, RAW_COUNTS_TEXT));
     }
     let code = rest.trim_start_matches([' ', ',']).strip_prefix('(');
     let code = code.and_then(|rest| rest.split_once(')')?.0.trim().parse().ok());
     let unit = AccelerationUnit::named(name);
-    let unit = unit.filter(|&unit| code.is_none_or(|code| of_code(code) == Some(unit)));
-    let unit = unit.ok_or_else(|| no_acceleration(title))?;
+    let unit = unit.filter(|&unit| code.is_none_or(|code| unit_of_code(code) == Some(unit)));
+    let unit = unit.ok_or_else(|| not_acceleration(title))?;
     Ok((unit, rest.trim_start_matches(')')))
 }
 
 /// The unit of a code of COSMOS (format 1.20, table 2).
-pub(super) fn of_code(code: i64) -> Option<AccelerationUnit> {
+pub(super) fn unit_of_code(code: i64) -> Option<AccelerationUnit> {
     match code {
         2 => Some(AccelerationUnit::StandardGravity),
         4 | 10 => Some(AccelerationUnit::Gal),
@@ -83,22 +86,22 @@ pub(super) fn of_code(code: i64) -> Option<AccelerationUnit> {
     }
 }
 
-/// Unit for a title without one: the known unit, unless the title contains another one.
-pub(super) fn unnamed(
+/// Unit for a title without one: `expected`, unless the title contains another one.
+pub(super) fn unit_of_untitled(
     title: &str,
-    known: Option<AccelerationUnit>,
-) -> Result<AccelerationUnit, FileFault> {
+    expected: Option<AccelerationUnit>,
+) -> FaultResult<AccelerationUnit> {
     let words = title.split([' ', '\t', ',', '(', ')']);
-    let mut others = words.filter_map(AccelerationUnit::named);
-    let known = known.filter(|&unit| others.all(|word| word == unit));
-    known.ok_or_else(|| no_acceleration(title))
+    let mut units_in_title = words.filter_map(AccelerationUnit::named);
+    let unit = expected.filter(|&expected| units_in_title.all(|unit| unit == expected));
+    unit.ok_or_else(|| not_acceleration(title))
 }
 
-/// Kind of data in counts.
-const RAW: &str = "raw counts of a recorder";
+/// Description of data in counts, for errors.
+const RAW_COUNTS_TEXT: &str = "raw counts of a recorder";
 
 /// Whether a unit belongs to numbers without a recorder's sensitivity.
-pub(super) fn is_raw(name: &str) -> bool {
+pub(super) fn is_raw_unit(name: &str) -> bool {
     matches!(name, "count" | "counts" | "cnt" | "cnts" | "volt" | "volts" | "mvolts" | "mv" | "v")
 }
 
@@ -109,7 +112,7 @@ mod tests {
     #[test]
     fn units_are_whole_words() {
         use AccelerationUnit::{Gal, InchPerSecondSquared, StandardGravity};
-        for (text, known) in [
+        for (text, expected) in [
             ("cm/s^2 (4),format=(8f10.5)", Gal),
             ("cm/sec2(04),format=(1e15.6)", Gal),
             ("gal (10)", Gal),
@@ -119,20 +122,25 @@ mod tests {
             ("in/sec2 (07)", InchPerSecondSquared),
             ("cms/sec/sec)   (8f10.3)", Gal),
         ] {
-            let (found, rest) = unit("title", text).unwrap();
-            assert!(found == known && FortranFormat::is_all_of(rest), "{text}");
+            let (found, rest) = unit_and_rest("title", text).unwrap();
+            assert!(found == expected && FortranFormat::is_all_of(rest), "{text}");
         }
         for text in ["mgal", "mg (8f10.3)", "", "cm/sec,", "g (4)", "cm/s^2 (25)", "cm/s^2 (50)"] {
-            let error = unit("title", text).unwrap_err();
-            assert_eq!(error, no_acceleration("title"), "{text}");
+            let error = unit_and_rest("title", text).unwrap_err();
+            assert_eq!(error, not_acceleration("title"), "{text}");
         }
         for text in ["counts (50),format=(10i8)", "volts", "counts(50)"] {
-            let error = unit("title", text).unwrap_err();
-            assert_eq!(error, unprocessed("title", RAW), "{text}");
+            let error = unit_and_rest("title", text).unwrap_err();
+            assert_eq!(error, unprocessed("title", RAW_COUNTS_TEXT), "{text}");
         }
-        assert_eq!(unnamed("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)), Ok(Gal));
-        assert_eq!(unnamed("4 points, in the gallery", Some(Gal)), Ok(Gal));
-        assert!(unnamed("4 points equally spaced at .010 sec.", None).is_err());
-        assert!(unnamed("4 points equally spaced at .010 sec. g (8f10.3)", Some(Gal)).is_err());
+        assert_eq!(
+            unit_of_untitled("4 points equally spaced at .010 sec. (8f10.3)", Some(Gal)),
+            Ok(Gal)
+        );
+        assert_eq!(unit_of_untitled("4 points, in the gallery", Some(Gal)), Ok(Gal));
+        assert!(unit_of_untitled("4 points equally spaced at .010 sec.", None).is_err());
+        assert!(
+            unit_of_untitled("4 points equally spaced at .010 sec. g (8f10.3)", Some(Gal)).is_err()
+        );
     }
 }

@@ -1,59 +1,170 @@
-//! Times of day in a column of times.
+//! Columns of times: times of day, and the common time step.
 
+use super::fault::unequal_time_step;
+use crate::error::FileFault;
+use crate::text::bounded_line::LineResult;
 use crate::text::decimal::finite;
 
 /// Minutes in a day.
-const DAY: i64 = 1440;
+const MINUTES_PER_DAY: i64 = 1440;
 
 /// Seconds since the first time of a column of seconds or times of day.
 #[derive(Default)]
 pub(super) struct Clock {
-    /// Minute of the day of the first time, and of the previous time.
-    first: Option<i64>,
-    before: i64,
+    /// Minute of the day of the first time.
+    first_minute: Option<i64>,
+    /// Minute of the day of the previous time.
+    previous_minute: i64,
     /// Minutes of the days that have ended since the first time.
-    days: i64,
+    minutes_of_past_days: i64,
     /// Largest number of decimals of a second so far.
     decimals: usize,
-    exponent: bool,
+    /// Whether a time had an exponent, so that its decimals do not show its last digit.
+    has_exponent: bool,
 }
 
 impl Clock {
     /// The time (s) in a field: `12.5`, `12:00:15.01`, or a date and a time of day.
     pub(super) fn read(&mut self, field: &str) -> Option<f64> {
         let time = finite(field).or_else(|| self.time_of_day(field))?;
-        self.exponent |= field.contains(['e', 'E', 'd', 'D']);
+        self.has_exponent |= field.contains(['e', 'E', 'd', 'D']);
         let decimals = field.rsplit_once('.').map_or(0, |(_, decimals)| decimals.len());
         self.decimals = self.decimals.max(decimals);
         Some(time)
     }
 
+    /// Seconds since the first time, for a time of day.
     fn time_of_day(&mut self, field: &str) -> Option<f64> {
         // The minutes are whole numbers, so that the seconds keep their digits.
         let time = field.rsplit([' ', 'T']).next()?;
-        let (minute, second) = time.rsplit_once(':')?;
-        let (hour, minute) = minute.split_once(':')?;
-        let whole = |text: &str| {
-            let digits =
-                !text.is_empty() && text.len() <= 2 && text.bytes().all(|b| b.is_ascii_digit());
-            if digits { text.parse::<i64>().ok() } else { None }
-        };
+        let (hour_and_minute, second) = time.rsplit_once(':')?;
+        let (hour, minute) = hour_and_minute.split_once(':')?;
         let second = finite(second).filter(|second| (0.0..61.0).contains(second))?;
-        let minute = 60 * whole(hour)? + whole(minute)?;
-        let first = *self.first.get_or_insert(minute);
-        // Midnight.
-        if minute + DAY / 2 < self.before {
-            self.days += DAY;
+        let minute = 60 * two_digits(hour)? + two_digits(minute)?;
+        let first_minute = *self.first_minute.get_or_insert(minute);
+        let passed_midnight = minute + MINUTES_PER_DAY / 2 < self.previous_minute;
+        if passed_midnight {
+            self.minutes_of_past_days += MINUTES_PER_DAY;
         }
-        self.before = minute;
-        Some((minute + self.days - first) as f64 * 60.0 + second)
+        self.previous_minute = minute;
+        Some((minute + self.minutes_of_past_days - first_minute) as f64 * 60.0 + second)
     }
 
     /// Unit of the last digit of the times, s.
     pub(super) fn resolution(&self) -> Option<f64> {
         let decimals = i32::try_from(self.decimals).ok().filter(|&decimals| decimals < 12)?;
-        (!self.exponent).then(|| 10.0_f64.powi(-decimals))
+        (!self.has_exponent).then(|| 10.0_f64.powi(-decimals))
     }
+}
+
+/// A whole number of one or two digits.
+fn two_digits(text: &str) -> Option<i64> {
+    let is_number = matches!(text.len(), 1 | 2) && text.bytes().all(|byte| byte.is_ascii_digit());
+    if is_number { text.parse().ok() } else { None }
+}
+
+/// Largest difference of a sample from equal steps, relative to the step.
+///
+/// Wide enough for times printed with two digits of the step.
+const STEP_TOLERANCE: f64 = 0.01;
+/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
+const MIN_ROUNDED_STEP_DIGITS: f64 = 3.0;
+/// Relative tolerance of a comparison with the unit of the last digit.
+const DIGIT_COMPARISON_TOLERANCE: f64 = 1e-6;
+
+/// Times of the lines of a file.
+#[derive(Default)]
+pub(super) struct TimeColumn {
+    /// Times, s.
+    times: Vec<f64>,
+    /// Reads the times.
+    pub(super) clock: Clock,
+}
+
+impl TimeColumn {
+    pub(super) fn push(&mut self, time: f64) {
+        self.times.push(time);
+    }
+
+    /// The common time step of the lines, from their times.
+    ///
+    /// `lines`: numbers of the lines in the file.
+    pub(super) fn equal_step(&self, lines: &[usize]) -> LineResult<f64> {
+        let times = &self.times;
+        let first_step = times[1] - times[0];
+        let last = times.len() - 1;
+        let mean_step = (times[last] - times[0]) / last as f64;
+        for k in 1..=last {
+            let step = times[k] - times[k - 1];
+            // The difference of huge times may be infinite.
+            if !(step > 0.0 && step < f64::INFINITY) {
+                let fault = wrong_step(step, "above zero".into());
+                let is_repeated = step == 0.0;
+                return Err(if is_repeated {
+                    (lines[k], self.unequal_steps(mean_step, fault))
+                } else {
+                    (lines[k], fault)
+                });
+            }
+            if (step - first_step).abs() > STEP_TOLERANCE * first_step {
+                let needed = format!("{} s, as before", rounded_decimal(first_step));
+                return Err((lines[k], self.unequal_steps(mean_step, wrong_step(step, needed))));
+            }
+        }
+        if times.iter().enumerate().all(|(k, &time)| time == k as f64 * first_step) {
+            return Ok(first_step);
+        }
+        // Steps that drift slowly pass the test above.
+        for (k, &time) in times.iter().enumerate() {
+            let expected = times[0] + k as f64 * mean_step;
+            if (time - expected).abs() > STEP_TOLERANCE * mean_step {
+                let fault = unequal_time_step(rounded_decimal(time), rounded_decimal(expected));
+                return Err((lines[k], self.unequal_steps(mean_step, fault)));
+            }
+        }
+        Ok(rounded_decimal(mean_step))
+    }
+
+    /// Error for a step that differs from the others: `fault`, unless rounding of the times explains it.
+    fn unequal_steps(&self, mean_step: f64, fault: FileFault) -> FileFault {
+        self.rounded_times(mean_step).unwrap_or(fault)
+    }
+
+    /// The error for times that are equally spaced up to rounding; `None` if they are not.
+    fn rounded_times(&self, mean_step: f64) -> Option<FileFault> {
+        let resolution = self.clock.resolution()?;
+        let tolerance = (1.0 + DIGIT_COMPARISON_TOLERANCE) * resolution;
+        let mut min_step = f64::MAX;
+        let mut max_step = 0.0_f64;
+        for pair in self.times.windows(2) {
+            min_step = min_step.min(pair[1] - pair[0]);
+            max_step = max_step.max(pair[1] - pair[0]);
+        }
+        // Two times in one unit of the last digit, or several units in each step.
+        let has_equal_times = mean_step > 0.0 && min_step == 0.0 && resolution < 1.0;
+        let has_coarse_steps = mean_step > MIN_ROUNDED_STEP_DIGITS * resolution;
+        if !(has_equal_times || has_coarse_steps) || max_step - min_step > tolerance {
+            return None;
+        }
+        for (k, time) in self.times.iter().enumerate() {
+            if (time - self.times[0] - k as f64 * mean_step).abs() > tolerance {
+                return None;
+            }
+        }
+        let needed = format!("given (`time_step`): times rounded to {resolution} s do not tell it");
+        let found = format!("near {} s", rounded_decimal(mean_step));
+        Some(FileFault::value("time step", found, needed))
+    }
+}
+
+/// Fault of a time step (s).
+fn wrong_step(found: f64, needed: String) -> FileFault {
+    FileFault::value("time step", format!("{} s", rounded_decimal(found)), needed)
+}
+
+/// `value` rounded to twelve digits, since differences of printed decimals are decimals.
+fn rounded_decimal(value: f64) -> f64 {
+    format!("{value:.11e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]

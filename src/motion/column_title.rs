@@ -1,36 +1,36 @@
 //! The title of a column, and the unit that it names.
 
 use super::AccelerationUnit;
-use super::fault::title_unit;
-use super::unit_name::{LONGEST, SECONDS, is_ratio, is_unit};
-use crate::error::FileFault;
+use super::fault::{FaultResult, other_unit_in_title};
+use super::unit_name::{MAX_UNIT_NAME_BYTES, SECOND_NAMES, is_ratio, is_unit};
 
-/// Names of units, in lower case, that have another meaning without brackets: the least, the input, the main shock.
-const AMBIGUOUS: [&str; 11] =
+/// Names of units, in lower case, that without brackets mean something else: minimum, input, main shock.
+const AMBIGUOUS_UNIT_NAMES: [&str; 11] =
     ["s", "ms", "min", "h", "v", "in", "%", "day", "days", "sample", "samples"];
 /// First words, in lower case, in titles of quantities other than acceleration.
-const OTHER_QUANTITIES: [&str; 5] = ["time", "vel", "velocity", "disp", "displacement"];
+const OTHER_QUANTITY_WORDS: [&str; 5] = ["time", "vel", "velocity", "disp", "displacement"];
 
 /// Error if the title of a column of times names a unit other than the second.
-pub(super) fn check_time(title: &str) -> Result<(), FileFault> {
+pub(super) fn check_time(title: &str) -> FaultResult<()> {
     match time_unit(title) {
-        Some(unit) if !SECONDS.contains(&unit.to_lowercase().trim_end_matches('.')) => {
-            Err(title_unit(title, "s"))
+        Some(unit) if !SECOND_NAMES.contains(&unit.to_lowercase().trim_end_matches('.')) => {
+            Err(other_unit_in_title(title, "s"))
         }
         _ => Ok(()),
     }
 }
 
 /// Error if the title of a column of accelerations names a unit other than `expected`, or another quantity.
-pub(super) fn check_acceleration(title: &str, expected: AccelerationUnit) -> Result<(), FileFault> {
-    let same = |unit: &str| AccelerationUnit::named(unit) == Some(expected);
+pub(super) fn check_acceleration(title: &str, expected: AccelerationUnit) -> FaultResult<()> {
     let word = first_word(title);
     // `T` may be the transverse component.
-    let other = (OTHER_QUANTITIES.contains(&word.as_str())
-        || word == "t" && title.trim_start_matches(['"', '\'']).starts_with('t'))
+    let is_time = word == "t" && title.trim_start_matches(['"', '\'']).starts_with('t');
+    let names_other_quantity = (OTHER_QUANTITY_WORDS.contains(&word.as_str()) || is_time)
         && !title.to_lowercase().contains("acc");
-    if other || acceleration_unit(title).is_some_and(|unit| !same(unit)) {
-        return Err(title_unit(title, &expected.to_string()));
+    let names_other_unit = acceleration_unit(title)
+        .is_some_and(|unit| AccelerationUnit::named(unit) != Some(expected));
+    if names_other_quantity || names_other_unit {
+        return Err(other_unit_in_title(title, &expected.to_string()));
     }
     Ok(())
 }
@@ -38,30 +38,31 @@ pub(super) fn check_acceleration(title: &str, expected: AccelerationUnit) -> Res
 /// The first word of a title, in lower case.
 pub(super) fn first_word(title: &str) -> String {
     let title = title.trim_start_matches(['"', '\'']);
-    let word = title.split(|sign: char| !sign.is_alphanumeric()).next();
+    let word = title.split(|character: char| !character.is_alphanumeric()).next();
     word.unwrap_or(title).to_lowercase()
 }
 
 /// The unit that the title of a column of times names.
 pub(super) fn time_unit(title: &str) -> Option<&str> {
-    bracketed(title).or_else(|| {
-        let known = |unit: &str| {
-            is_unit(unit) && unit != "in" && (unit == title || unit.len() > 1 || unit == "s")
-        };
-        endings(title).find(|unit| known(unit))
+    bracketed_unit(title).or_else(|| {
+        endings(title).find(|&ending| {
+            let may_be_letter = ending == title || ending.len() > 1 || ending == "s";
+            is_unit(ending) && ending != "in" && may_be_letter
+        })
     })
 }
 
 /// The unit that the title of a column of accelerations names.
 pub(super) fn acceleration_unit(title: &str) -> Option<&str> {
-    bracketed(title).or_else(|| {
-        let known = |unit: &str| {
+    bracketed_unit(title).or_else(|| {
+        endings(title).find(|&ending| {
             // Behind a name `m` may be the middle.
-            let clear = !AMBIGUOUS.contains(&unit.to_lowercase().as_str())
-                && (unit == title || unit.len() > 1);
-            AccelerationUnit::named(unit).is_some() || is_ratio(unit) || clear && is_unit(unit)
-        };
-        endings(title).find(|unit| known(unit))
+            let is_clear = !AMBIGUOUS_UNIT_NAMES.contains(&ending.to_lowercase().as_str())
+                && (ending == title || ending.len() > 1);
+            AccelerationUnit::named(ending).is_some()
+                || is_ratio(ending)
+                || is_clear && is_unit(ending)
+        })
     })
 }
 
@@ -72,53 +73,56 @@ pub(super) fn is_unit_alone(title: &str) -> bool {
 }
 
 /// The last unit in brackets in a title: `a (cm/s2)`, `acc[g] filtered`, `a (in cm/s2, corrected)`.
-fn bracketed(title: &str) -> Option<&str> {
-    let groups = groups(title);
-    let pieces = groups.iter().rev().flat_map(|group| group.split([',', ';']));
-    pieces.map(without_words).find(|piece| is_unit(piece))
+fn bracketed_unit(title: &str) -> Option<&str> {
+    let texts = bracketed_texts(title);
+    let parts = texts.iter().rev().flat_map(|text| text.split([',', ';']));
+    parts.map(without_unit_words).find(|part| is_unit(part))
 }
 
 /// A text without the words before a unit: `unit: g`, `in cm/s2`.
-fn without_words(text: &str) -> &str {
+fn without_unit_words(text: &str) -> &str {
     let text = text.trim();
     let words = ["in units of ", "units of ", "units: ", "unit: ", "units ", "unit ", "in "];
     words.iter().find_map(|word| text.strip_prefix(word)).unwrap_or(text).trim()
 }
 
 /// The texts in the outer brackets of a title; the last bracket may be open.
-fn groups(title: &str) -> Vec<&str> {
-    let (mut groups, mut depth, mut begin) = (Vec::new(), 0, 0);
-    for (at, sign) in title.char_indices() {
-        match sign {
+fn bracketed_texts(title: &str) -> Vec<&str> {
+    let mut texts = Vec::new();
+    let mut depth = 0;
+    let mut begin = 0;
+    for (position, character) in title.char_indices() {
+        match character {
             '(' | '[' | '{' | '（' => {
                 if depth == 0 {
-                    begin = at + sign.len_utf8();
+                    begin = position + character.len_utf8();
                 }
                 depth += 1;
             }
             ')' | ']' | '}' | '）' if depth > 0 => {
                 depth -= 1;
                 if depth == 0 {
-                    groups.push(&title[begin..at]);
+                    texts.push(&title[begin..position]);
                 }
             }
             _ => {}
         }
     }
     if depth > 0 {
-        groups.push(&title[begin..]);
+        texts.push(&title[begin..]);
     }
-    groups
+    texts
 }
 
-/// The title and its ends behind a separator, from the longest to the shortest: `a in cm/s2`, `in cm/s2`, `cm/s2`.
+/// The title and the parts behind its separators, the longest first.
 ///
-/// Texts longer than any unit are left out.
+/// Example: `a in cm/s2`, `in cm/s2`, `cm/s2`. Texts longer than any unit are left out.
 fn endings(title: &str) -> impl Iterator<Item = &str> {
     let title = title.trim_matches(['"', '\'', ' ']);
     let separators = title.match_indices([' ', '_', ',', '=', '/', '-']);
-    let ends = separators.map(|(at, sign)| title[at + sign.len()..].trim());
-    std::iter::once(title).chain(ends).filter(|end| end.len() <= LONGEST)
+    let endings =
+        separators.map(|(position, separator)| title[position + separator.len()..].trim());
+    std::iter::once(title).chain(endings).filter(|text| text.len() <= MAX_UNIT_NAME_BYTES)
 }
 
 #[cfg(test)]

@@ -6,11 +6,14 @@
 
 use std::io::Read;
 
-use super::block::{self, Block};
-use super::fault::{no_acceleration, out_of_range, unclear, unprocessed};
-use super::lines::{Lines, Reason, Series, component, read_numbers, record, records};
-use super::{AccelerationUnit, Record, RecordFormat, agreement, csmip};
-use crate::error::{FileFault, Result};
+use super::block::{self, DataBlock};
+use super::csmip::{self, CsmipHeader};
+use super::fault::{FaultResult, not_acceleration, out_of_range, unclear, unprocessed};
+use super::lines::{
+    LineResult, Lines, Series, read_numbers, select_component, to_record, to_records,
+};
+use super::{AccelerationUnit, Record, RecordFormat, agreement};
+use crate::error::Result;
 use crate::text::decimal::finite;
 
 /// The `.V2` and `.V2c` files of the Center for Engineering Strong Motion Data.
@@ -35,7 +38,6 @@ use crate::text::decimal::finite;
 /// not one repeated item is an error. The unit is a whole word, such as `cm/s^2`, `cm/sec/sec`, `gal` or `g`;
 /// anything else (counts, `mgal`) is an error, and so is a file that does not name its unit, unless
 /// [`CosmosFormat::unit`] does.
-/// that does not name its unit, unless [`CosmosFormat::unit`] does.
 ///
 /// A file may hold several channels one after the other. Blocks of velocity and displacement are skipped:
 /// [`channel`](Self::channel) counts acceleration blocks. [`Record::read_all`] returns all channels.
@@ -86,117 +88,127 @@ impl Default for CosmosFormat {
 impl RecordFormat for CosmosFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
         let channels = read(&mut Lines::new(source), self, Some(self.channel));
-        record(name, component(1, channels))
+        to_record(name, select_component(1, channels))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source), self, None))
+        to_records(name, read(&mut Lines::new(source), self, None))
     }
 }
 
-/// Only the channel `wanted`, or all channels.
-fn read(lines: &mut Lines, format: &CosmosFormat, wanted: Option<usize>) -> Reason<Vec<Series>> {
-    let (mut found, mut channels) = (0, Vec::new());
-    let (mut header, mut notes) = (Header::default(), csmip::Notes::default());
-    let (mut uncorrected, mut other) = (None, None);
-    // The line after a block.
-    let mut next = None;
-    while let Some(line) = match next.take() {
+/// Reads the channel with the number `wanted`, or all channels.
+fn read(
+    lines: &mut Lines,
+    format: &CosmosFormat,
+    wanted: Option<usize>,
+) -> LineResult<Vec<Series>> {
+    let mut channel_count = 0;
+    let mut channels = Vec::new();
+    let mut cosmos_header = CosmosHeader::default();
+    let mut csmip_header = CsmipHeader::default();
+    let mut uncorrected_title = None;
+    let mut other_quantity = None;
+    let mut line_after_block = None;
+    while let Some(line) = match line_after_block.take() {
         Some(line) => Some(line),
         None => lines.next()?,
     } {
         let lower = line.to_ascii_lowercase();
-        // A comment.
-        if line.starts_with('|') || header.read(lines, &line, &lower)? {
+        let is_comment = line.starts_with('|');
+        if is_comment || cosmos_header.read(lines, &line, &lower)? {
             continue;
         }
         let block = if csmip::is_title(&lower) {
-            notes.block(&line, format.unit)
-        } else if is_title(&lower, &["accel"]) {
-            header.block(&line, format.unit)
+            csmip_header.block(&line, format.unit)
+        } else if is_title_of(&lower, &["accel"]) {
+            cosmos_header.block(&line, format.unit)
         } else {
-            notes.read(&lower);
-            if other.is_none()
-                && (is_title(&lower, &["vel", "disp"]) || csmip::is_other_title(&lower))
-            {
-                other = Some(lines.refuse(no_acceleration(line.trim())));
+            csmip_header.read(&lower);
+            let is_other = is_title_of(&lower, &["vel", "disp"]) || csmip::is_other_title(&lower);
+            if other_quantity.is_none() && is_other {
+                other_quantity = Some(lines.fault(not_acceleration(line.trim())));
             }
             if lines.number == 1 && lower.contains("uncorrected accelerogram") {
-                uncorrected = Some(line);
+                uncorrected_title = Some(line);
             }
             continue;
         };
-        found += 1;
-        if wanted.is_none_or(|wanted| wanted == found) {
-            let block = block.map_err(|reason| lines.refuse(reason))?;
-            let (samples, after) = block.read(lines)?;
-            let name = header.name.take().unwrap_or_else(|| format!("channel {found}"));
+        channel_count += 1;
+        if wanted.is_none_or(|wanted| wanted == channel_count) {
+            let block = lines.with_line_number(block)?;
+            let (samples, next_line) = block.read(lines)?;
+            let name = cosmos_header.channel_name.take();
+            let name = name.unwrap_or_else(|| format!("channel {channel_count}"));
             channels.push(Series { name, step: block.step, samples });
-            next = after;
+            line_after_block = next_line;
         }
-        if wanted.is_some_and(|wanted| wanted == found) {
+        if wanted.is_some_and(|wanted| wanted == channel_count) {
             return Ok(channels);
         }
-        (header, notes) = (Header::default(), csmip::Notes::default());
+        cosmos_header = CosmosHeader::default();
+        csmip_header = CsmipHeader::default();
     }
-    if let Some(other) = other.filter(|_| found == 0) {
-        return Err(other);
+    if channel_count > 0 && wanted.is_none() {
+        return Ok(channels);
     }
-    match (uncorrected, wanted) {
-        (Some(line), _) if found == 0 => {
-            Err((1, unprocessed(&line, "uncorrected data in unequal steps")))
+    if channel_count == 0 {
+        if let Some(fault) = other_quantity {
+            return Err(fault);
         }
-        (_, None) if found > 0 => Ok(channels),
-        (_, wanted) => Err(lines.refuse(out_of_range("channel", found, wanted.unwrap_or(1)))),
+        if let Some(title) = uncorrected_title {
+            return Err((1, unprocessed(&title, "uncorrected data in unequal steps")));
+        }
     }
+    Err(lines.fault(out_of_range("channel", channel_count, wanted.unwrap_or(1))))
 }
 
-/// Whether a line in lower case is the title of a block of acceleration.
+/// Whether a line in lower case is the title of a block of one of the `quantities`.
 ///
-/// Examples: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
-fn is_title(line: &str, quantities: &[&str]) -> bool {
-    let mut words = line.split([' ', '\t', ',']).filter(|word| !word.is_empty());
-    let mut before = "";
-    words.any(|word| {
-        let key = quantities.iter().any(|begin| before.starts_with(begin))
-            && matches!(word, "pts" | "points");
-        before = word;
-        key
-    })
+/// Examples for `accel`: `7000  acceleration pts,`, `42000 raw accel.   pts,`.
+fn is_title_of(line: &str, quantities: &[&str]) -> bool {
+    let mut previous = "";
+    for word in line.split([' ', '\t', ',']).filter(|word| !word.is_empty()) {
+        let is_count = matches!(word, "pts" | "points");
+        if is_count && quantities.iter().any(|quantity| previous.starts_with(quantity)) {
+            return true;
+        }
+        previous = word;
+    }
+    false
 }
 
-/// Indices from 0 in the real header values.
-///
-/// Interval of the recorder (s), interval of the data (ms), their duration (s) and their peak.
-const RECORDER: usize = 33;
-const INTERVAL: usize = 61;
-const DURATION: usize = 62;
-const PEAK: usize = 63;
-/// Header value that means unknown.
-const UNKNOWN: f64 = -999.0;
+/// Index, from 0, of the recorder's sampling interval (s) in the real header values.
+const RECORDER_INTERVAL_INDEX: usize = 33;
+/// Index, from 0, of the data's sampling interval (ms).
+const DATA_INTERVAL_INDEX: usize = 61;
+/// Index, from 0, of the data's duration (s).
+const DATA_DURATION_INDEX: usize = 62;
+/// Index, from 0, of the data's peak, in their unit.
+const DATA_PEAK_INDEX: usize = 63;
+/// Real header value that means unknown.
+const UNKNOWN_REAL_VALUE: f64 = -999.0;
 
 /// Statements of the header of a channel.
 #[derive(Default)]
-struct Header {
-    /// Name of the channel.
-    name: Option<String>,
-    /// Code of the unit.
-    code: Option<i64>,
+struct CosmosHeader {
+    channel_name: Option<String>,
+    /// Code of the unit, if it is known.
+    unit_code: Option<i64>,
     reals: Vec<f64>,
 }
 
-impl Header {
+impl CosmosHeader {
     /// Reads a line of the header, with the numbers under it; `false` for any other line.
-    fn read(&mut self, lines: &mut Lines, line: &str, lower: &str) -> Reason<bool> {
+    fn read(&mut self, lines: &mut Lines, line: &str, lower: &str) -> LineResult<bool> {
         if lower.contains("real-header values follow") {
-            self.reals = reals(lines, lower)?;
+            self.reals = read_reals(lines, lower)?;
         } else if lower.contains("integer-header values follow") {
-            let Some(line) = lines.next_columns()? else { return Ok(true) };
+            let Some(line) = lines.next_indented()? else { return Ok(true) };
             // The first of ten values is the stage of processing, the third the unit.
             let third = line.split_whitespace().nth(2).and_then(|field| field.parse().ok());
-            self.code = third.filter(|&code| code > 0);
+            self.unit_code = third.filter(|&code| code > 0);
         } else if let Some(name) = channel_name(line) {
-            self.name = Some(name);
+            self.channel_name = Some(name);
         } else {
             return Ok(false);
         }
@@ -205,63 +217,66 @@ impl Header {
 
     /// A real header value; `None` if it is unknown.
     fn real(&self, index: usize) -> Option<f64> {
-        self.reals.get(index).copied().filter(|&value| value != UNKNOWN)
+        self.reals.get(index).copied().filter(|&value| value != UNKNOWN_REAL_VALUE)
     }
 
-    /// The block under a title; `unnamed` is the unit if the title names none.
-    fn block(
-        &self,
-        line: &str,
-        unnamed: Option<AccelerationUnit>,
-    ) -> std::result::Result<Block, FileFault> {
+    /// A real header value; `None` if it is unknown or not positive.
+    fn positive_real(&self, index: usize) -> Option<f64> {
+        self.real(index).filter(|&value| value > 0.0)
+    }
+
+    /// The block under a title; `default_unit` is the unit if the title names none.
+    fn block(&self, line: &str, default_unit: Option<AccelerationUnit>) -> FaultResult<DataBlock> {
         let title = line.to_ascii_lowercase();
         let title = title.as_str();
-        let points = block::points(title, "number of points")?;
+        let points = block::leading_count(title, "number of points")?;
         let (unit, rest) = if let Some((_, text)) = title.split_once("units") {
-            block::unit(line, text.trim_start_matches([' ', '=', ':']))?
+            block::unit_and_rest(line, text.trim_start_matches([' ', '=', ':']))?
         } else {
-            let format = title.find("format").map_or("", |at| &title[at..]);
-            (block::unnamed(title, unnamed)?, format)
+            let format = title.find("format").map_or("", |position| &title[position..]);
+            (block::unit_of_untitled(title, default_unit)?, format)
         };
-        if let Some(code) = self.code.filter(|&code| block::of_code(code) != Some(unit)) {
+        let other_code = self.unit_code.filter(|&code| block::unit_of_code(code) != Some(unit));
+        if let Some(code) = other_code {
             return Err(unclear("unit", &format!("{unit}, and the code {code} of another one")));
         }
-        let columns = block::columns(title, rest)?;
-        let positive = |index| self.real(index).filter(|&value| value > 0.0);
-        let interval = positive(INTERVAL).map(|ms| ms / 1e3);
-        let step = block::step(interval.or_else(|| positive(RECORDER)))?;
-        if let Some(stated) = positive(DURATION) {
+        let format = block::format_of_title(title, rest)?;
+        let data_interval = self.positive_real(DATA_INTERVAL_INDEX).map(|ms| ms / 1e3);
+        let interval = data_interval.or_else(|| self.positive_real(RECORDER_INTERVAL_INDEX));
+        let step = block::positive_step(interval)?;
+        if let Some(stated) = self.positive_real(DATA_DURATION_INDEX) {
             agreement::duration(points, step, stated, 0.0)?;
         }
         // `approx  120 secs`, without its fraction.
-        let approximate = title.split_once("approx").and_then(|(_, text)| {
+        let approximate_duration = title.split_once("approx").and_then(|(_, text)| {
             finite(text.trim_start_matches(['.', ' ', '=']).split_whitespace().next()?)
         });
-        if let Some(stated) = approximate {
+        if let Some(stated) = approximate_duration {
             agreement::duration(points, step, stated, 1.0)?;
         }
-        Ok(Block { points, step, unit, columns, peak: self.real(PEAK) })
+        Ok(DataBlock { points, step, unit, format, peak: self.real(DATA_PEAK_INDEX) })
     }
 }
 
-/// The values under a title of real header values.
-fn reals(lines: &mut Lines, title: &str) -> Reason<Vec<f64>> {
-    let number = block::points(title, "number of header values");
-    let number = number.map_err(|reason| lines.refuse(reason))?;
+/// Reads the values under a title of real header values.
+fn read_reals(lines: &mut Lines, title: &str) -> LineResult<Vec<f64>> {
+    let count = lines.with_line_number(block::leading_count(title, "number of header values"))?;
     let format = title.split_once("format").map_or("", |(_, format)| format);
     let format = format.trim_start_matches([' ', '=', ':']);
-    let columns = block::columns(title, format).map_err(|reason| lines.refuse(reason))?;
-    read_numbers(lines, number, columns)
+    let format = lines.with_line_number(block::format_of_title(title, format))?;
+    read_numbers(lines, count, format)
 }
 
+/// The channel that a line of the header names.
+///
 /// `Chan 1: 90 Deg` of `Sta Chan   1: 90 Deg (Rcrdr Chan  1) Location:Ground`, `CHAN  1:  90 DEG` or `COMP S58W`.
 fn channel_name(line: &str) -> Option<String> {
     let text = line.strip_prefix("Sta ").unwrap_or(line);
-    let begin = text.get(..4)?.to_ascii_lowercase();
-    let named = begin == "chan" && text.contains(':') || begin == "comp" && text.contains(' ');
+    let key = text.get(..4)?.to_ascii_lowercase();
+    let is_name = key == "chan" && text.contains(':') || key == "comp" && text.contains(' ');
     let text = text.split(['(', '=']).next()?;
     // Digits after `COMP S58W` belong to the punched card.
-    let most = if begin == "comp" { 2 } else { usize::MAX };
-    let words: Vec<&str> = text.split_whitespace().take(most).collect();
-    named.then(|| words.join(" "))
+    let max_words = if key == "comp" { 2 } else { usize::MAX };
+    let words: Vec<&str> = text.split_whitespace().take(max_words).collect();
+    is_name.then(|| words.join(" "))
 }

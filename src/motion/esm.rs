@@ -6,11 +6,14 @@
 
 use std::io::Read;
 
-use super::fault::{no_acceleration, not_in_header};
+use super::fault::{FaultResult, not_acceleration};
 use super::header_number::HeaderNumber;
-use super::lines::{Lines, Reason, Series, count, push_numbers, record, records, scaled};
+use super::lines::{
+    LineResult, Lines, Series, push_numbers, required, sample_count, scaled, to_record, to_records,
+    wrong_count,
+};
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::{FileFault, Result};
+use crate::error::Result;
 
 /// The ASCII files of ESM and ITACA (`.ASC`), one component a file.
 ///
@@ -33,39 +36,44 @@ pub struct EsmFormat;
 
 impl RecordFormat for EsmFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source)))
+        to_record(name, read(&mut Lines::new(source)))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
+        to_records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
     }
 }
 
 /// Entries of the header that are used.
 #[derive(Default)]
-struct Header {
+struct EsmHeader {
+    /// Time step, s.
     interval: Option<f64>,
+    /// Number of samples.
     points: Option<usize>,
+    /// Duration, s.
     duration: Option<f64>,
     unit: Option<AccelerationUnit>,
-    /// Peak acceleration, m/s².
+    /// Peak acceleration, m/s²; zero if there is none.
     peak: f64,
+    /// Name of the component.
     stream: String,
 }
 
-impl Header {
-    fn read(&mut self, key: &str, value: &str) -> std::result::Result<(), FileFault> {
-        let not_acceleration = || no_acceleration(&format!("{key}: {value}"));
+impl EsmHeader {
+    /// Stores the value of a line `KEY: value`.
+    fn read(&mut self, key: &str, value: &str) -> FaultResult<()> {
+        let entry = format!("{key}: {value}");
         match key.to_ascii_uppercase().as_str() {
             "SAMPLING_INTERVAL_S" => self.interval = HeaderNumber::TimeStep.read(value)?,
-            "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(count),
+            "NDATA" => self.points = HeaderNumber::Points.read(value)?.and_then(sample_count),
             "DURATION_S" => self.duration = HeaderNumber::Duration.read(value)?,
             "UNITS" => {
-                let unit = AccelerationUnit::named(value).ok_or_else(not_acceleration)?;
-                self.unit = Some(unit);
+                let unit = AccelerationUnit::named(value);
+                self.unit = Some(unit.ok_or_else(|| not_acceleration(&entry))?);
             }
             "DATA_TYPE" if !value.to_ascii_uppercase().contains("ACC") && !value.is_empty() => {
-                return Err(not_acceleration());
+                return Err(not_acceleration(&entry));
             }
             "STREAM" => value.clone_into(&mut self.stream),
             other => {
@@ -79,34 +87,35 @@ impl Header {
         }
         Ok(())
     }
+
+    /// Error unless the samples have the stated duration and peak.
+    fn check(&self, samples: &[f64], step: f64) -> FaultResult<()> {
+        if let Some(stated) = self.duration {
+            agreement::duration(samples.len(), step, stated, 0.0)?;
+        }
+        agreement::peak(samples, self.peak)
+    }
 }
 
-fn read(lines: &mut Lines) -> Reason<Series> {
-    let mut header = Header::default();
+/// Reads the component.
+fn read(lines: &mut Lines) -> LineResult<Series> {
+    let mut header = EsmHeader::default();
     let mut values = Vec::new();
     while let Some(line) = lines.next()? {
-        let understood = match line.split_once(':') {
+        lines.with_line_number(match line.split_once(':') {
             Some((key, value)) if values.is_empty() => header.read(key.trim(), value.trim()),
             _ => push_numbers(&line, &mut values),
-        };
-        understood.map_err(|reason| lines.refuse(reason))?;
+        })?;
     }
-    let missing = |quantity| lines.refuse(not_in_header(quantity));
     let step = header.interval.filter(|&step| step > 0.0);
-    let step = step.ok_or_else(|| missing("sampling interval (SAMPLING_INTERVAL_S)"))?;
-    let needed = header.points.ok_or_else(|| missing("number of samples (NDATA)"))?;
-    let unit = header.unit.ok_or_else(|| missing("unit (UNITS)"))?;
+    let step = required(lines, step, "sampling interval (SAMPLING_INTERVAL_S)")?;
+    let needed = required(lines, header.points, "number of samples (NDATA)")?;
+    let unit = required(lines, header.unit, "unit (UNITS)")?;
     let found = values.len();
     if found != needed {
-        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
+        return Err(lines.fault(wrong_count(found, needed)));
     }
     let samples = scaled(values, unit.in_metres_per_second_squared());
-    let agrees = || {
-        if let Some(stated) = header.duration {
-            agreement::duration(found, step, stated, 0.0)?;
-        }
-        agreement::peak(&samples, header.peak)
-    };
-    agrees().map_err(|reason| lines.refuse(reason))?;
+    lines.with_line_number(header.check(&samples, step))?;
     Ok(Series { name: header.stream, step, samples })
 }

@@ -6,9 +6,9 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 /// Highest order of a filter.
-const HIGHEST_ORDER: u32 = 8;
-/// Quiet time on either side of a filtered record, in units of the order divided by the corner frequency.
-const PADS: f64 = 1.5;
+const MAX_FILTER_ORDER: u32 = 8;
+/// Quiet time on either side of a filtered record, times the corner frequency and divided by the order.
+const PAD_LENGTH_FACTOR: f64 = 1.5;
 
 impl Record {
     /// Removes motion slower than the `corner` frequency (Hz).
@@ -27,7 +27,7 @@ impl Record {
     /// let record = el_centro_1940();
     /// let filtered = record.high_pass(0.1, 4)?;
     /// assert!((filtered.duration() - record.duration() - 2.0 * 60.0).abs() < 0.05);
-    /// // Nothing is left of the drift: the ground comes back to where it was.
+    /// // The drift is removed: the ground returns to its place.
     /// assert!(filtered.at(filtered.duration()).displacement.abs() < 1e-5);
     /// assert!(record.at(record.duration()).displacement.abs() > 5e-3);
     /// # Ok::<(), basemat::Error>(())
@@ -53,8 +53,8 @@ impl Record {
     /// let [low, high] = [record.low_pass(10.0, 4)?, record.high_pass(10.0, 4)?];
     /// // The two gains add up to one.
     /// let whole = record.padded(0.6, 0.6)?;
-    /// for (k, given) in whole.accelerations().iter().enumerate() {
-    ///     assert!((low.accelerations()[k] + high.accelerations()[k] - given).abs() < 1e-13);
+    /// for (k, original) in whole.accelerations().iter().enumerate() {
+    ///     assert!((low.accelerations()[k] + high.accelerations()[k] - original).abs() < 1e-13);
     /// }
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -72,16 +72,16 @@ impl Record {
         require("corner frequency", corner, corner < 0.5 / self.time_step(), needed)?;
         let quantity = "order of the filter";
         let needed = "from 1 to 8";
-        require(quantity, f64::from(order), (1..=HIGHEST_ORDER).contains(&order), needed)?;
-        let quiet = PADS * f64::from(order) / corner;
+        require(quantity, f64::from(order), (1..=MAX_FILTER_ORDER).contains(&order), needed)?;
+        let quiet = PAD_LENGTH_FACTOR * f64::from(order) / corner;
         let padded = self.padded(quiet, quiet)?;
         // The transform is circular: only the quiet pads wrap around.
         let length = padded.len().next_power_of_two();
-        let step = 1.0 / (length as f64 * self.time_step());
+        let frequency_step = 1.0 / (length as f64 * self.time_step());
         let exponent = f64::from(2 * order);
         let mut coefficients = spectrum(padded.accelerations(), length)?;
         for (k, value) in coefficients.iter_mut().enumerate() {
-            *value /= 1.0 + ratio(k as f64 * step).powf(exponent);
+            *value /= 1.0 + ratio(k as f64 * frequency_step).powf(exponent);
         }
         let mut filtered = signal(coefficients, length)?;
         filtered.truncate(padded.len());
@@ -110,31 +110,36 @@ impl Record {
         let quantity = "length of both tapers";
         let needed = "at most the duration";
         require(quantity, beginning + end, beginning + end <= duration * (1.0 + 1e-12), needed)?;
-        let rise = |time: f64, length: f64| {
-            if time < length {
-                0.5 - 0.5 * (std::f64::consts::PI * time.max(0.0) / length).cos()
-            } else {
-                1.0
-            }
-        };
-        let taper = |(k, value): (usize, &f64)| {
+        let mut tapered = Vec::with_capacity(self.len());
+        for (k, value) in self.accelerations().iter().enumerate() {
             let time = k as f64 * self.time_step();
-            value * rise(time, beginning) * rise(duration - time, end)
-        };
-        Self::new(self.time_step(), self.accelerations().iter().enumerate().map(taper).collect())
+            let weight_at_beginning = cosine_rise(time, beginning);
+            tapered.push(value * weight_at_beginning * cosine_rise(duration - time, end));
+        }
+        Self::new(self.time_step(), tapered)
+    }
+}
+
+/// Weight that rises from 0 to 1 along half a period of a cosine of this length (s).
+fn cosine_rise(time: f64, length: f64) -> f64 {
+    if time < length {
+        0.5 - 0.5 * (std::f64::consts::PI * time.max(0.0) / length).cos()
+    } else {
+        1.0
     }
 }
 
 /// Fourier coefficients of samples with zeros up to `length`.
 pub(super) fn spectrum(samples: &[f64], length: usize) -> Result<Vec<Complex<f64>>> {
     let forward = RealFftPlanner::<f64>::new().plan_fft_forward(length);
-    let (mut signal, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+    let mut signal = forward.make_input_vec();
+    let mut spectrum = forward.make_output_vec();
     signal[..samples.len()].copy_from_slice(samples);
-    forward.process(&mut signal, &mut spectrum).map_err(|_| untransformed(length))?;
+    forward.process(&mut signal, &mut spectrum).map_err(|_| failed_transform(length))?;
     Ok(spectrum)
 }
 
-/// The real signal of this length with these coefficients.
+/// The real signal of this length with these Fourier coefficients.
 pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<Vec<f64>> {
     let inverse = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
     let mut signal = inverse.make_output_vec();
@@ -142,7 +147,7 @@ pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<V
     if let Some(last) = spectrum.last_mut() {
         last.im = 0.0;
     }
-    inverse.process(&mut spectrum, &mut signal).map_err(|_| untransformed(length))?;
+    inverse.process(&mut spectrum, &mut signal).map_err(|_| failed_transform(length))?;
     let scale = 1.0 / length as f64;
     for value in &mut signal {
         *value *= scale;
@@ -150,7 +155,8 @@ pub(super) fn signal(mut spectrum: Vec<Complex<f64>>, length: usize) -> Result<V
     Ok(signal)
 }
 
-fn untransformed(length: usize) -> Error {
+/// Error of a length that the Fourier transform does not accept.
+fn failed_transform(length: usize) -> Error {
     let quantity = "number of samples of a Fourier transform";
     Error::Input { quantity, value: length as f64, needed: "one that can be transformed" }
 }

@@ -1,13 +1,13 @@
 //! The trait of file formats, and records read by it.
 
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 use super::Record;
-use crate::error::{FileFault, Result};
+use crate::error::Result;
+use crate::text::file::open_file;
 
-/// A file format of records; implement it for a format of your own.
+/// A file format of records; implement it for other formats.
 ///
 /// The crate's formats are [`ColumnFormat`](super::ColumnFormat),
 /// [`AlongLinesFormat`](super::AlongLinesFormat) (SHAKE), [`PeerFormat`](super::PeerFormat) (`.AT2`),
@@ -21,7 +21,7 @@ pub trait RecordFormat {
     ///
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason, or
-    /// [`Error::part`](crate::Error::part) for a reason of a format of your own.
+    /// [`Error::part`](crate::Error::part) for another reason.
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record>;
 
     /// Reads all components of a file with their names.
@@ -45,8 +45,8 @@ impl Record {
     /// # Errors
     /// [`Error::File`](crate::Error::File) with the line and the reason.
     pub fn read(path: impl AsRef<Path>, format: &dyn RecordFormat) -> Result<Self> {
-        let (name, mut file) = open(path.as_ref())?;
-        format.parse(&name, &mut file)
+        let path = path.as_ref();
+        format.parse(&path.display().to_string(), &mut open_file(path)?)
     }
 
     /// Reads all components of a file with their names, such as `N-S`, `E-W` and `U-D`.
@@ -70,8 +70,8 @@ impl Record {
         path: impl AsRef<Path>,
         format: &dyn RecordFormat,
     ) -> Result<Vec<(String, Self)>> {
-        let (name, mut file) = open(path.as_ref())?;
-        format.parse_all(&name, &mut file)
+        let path = path.as_ref();
+        format.parse_all(&path.display().to_string(), &mut open_file(path)?)
     }
 
     /// Reads a record from any source of bytes; errors call it `name`.
@@ -94,14 +94,5 @@ impl Record {
         format: &dyn RecordFormat,
     ) -> Result<Self> {
         format.parse(name, &mut source)
-    }
-}
-
-/// A file, and its name for errors.
-fn open(path: &Path) -> Result<(String, File)> {
-    let name = path.display().to_string();
-    match File::open(path) {
-        Ok(file) => Ok((name, file)),
-        Err(error) => Err(FileFault::Unreadable(error.kind()).of(name, 0)),
     }
 }

@@ -8,7 +8,7 @@ use crate::text::decimal::in_field;
 use crate::text::words::unknown;
 
 /// Largest number of fields in a line, and largest width of a field, in a format.
-const MOST: usize = 1000;
+const MAX_REPEAT_OR_WIDTH: usize = 1000;
 
 /// A Fortran format of one repeated item, such as `(8F10.5)`, `(1E15.6)` or `(1P8E10.3)`: columns of equal width.
 ///
@@ -33,10 +33,12 @@ pub struct FortranFormat {
     pub(super) scale: u16,
 }
 
-/// Numbers of a line, and the whole number behind them, as cards have it in columns 73 to 80.
+/// Numbers of a line of punched cards, and the number of the card.
+///
+/// The number of a card stands behind the numbers, in columns 73 to 80.
 pub(super) struct Card {
     pub(super) numbers: Vec<f64>,
-    pub(super) card: Option<u64>,
+    pub(super) card_number: Option<u64>,
 }
 
 impl FortranFormat {
@@ -48,24 +50,27 @@ impl FortranFormat {
     /// The numbers of a line in these columns; `None` if the line does not match them.
     ///
     /// Behind the columns may stand the number of a card and nothing else.
-    pub(super) fn card(self, line: &str) -> Option<Card> {
+    pub(super) fn read_card(self, line: &str) -> Option<Card> {
         let end = line.len().min(self.repeat * self.width);
         if !line.is_ascii() {
             return None;
         }
-        let (columns, rest) = line.split_at(end);
-        let fields = self.fields(columns.trim_end())?;
-        let goes_on = rest.starts_with(|sign: char| sign.is_ascii_digit() || sign == '.');
-        if goes_on && !fields.last().is_some_and(|field| self.ends_in_column(field)) {
+        let rest = &line[end..];
+        let fields = self.fields(line[..end].trim_end())?;
+        if continues_number(rest) && !fields.last().is_some_and(|field| self.ends_in_column(field))
+        {
             return None;
         }
-        let card = match rest.trim() {
+        let card_number = match rest.trim() {
             "" => None,
             number => Some(number.parse().ok().filter(|_| !number.starts_with('+'))?),
         };
-        let value = |field: &&str| in_field(field, self.decimals, self.scale);
-        let numbers: Option<Vec<f64>> = fields.iter().map(value).collect();
-        Some(Card { numbers: numbers?, card })
+        Some(Card { numbers: self.numbers(&fields)?, card_number })
+    }
+
+    /// The numbers in the fields of a line; `None` unless all are finite.
+    pub(super) fn numbers(self, fields: &[&str]) -> Option<Vec<f64>> {
+        fields.iter().map(|field| in_field(field, self.decimals, self.scale)).collect()
     }
 
     /// Whether numbers without a point have decimals.
@@ -84,34 +89,41 @@ impl FortranFormat {
     ///
     /// `None` if it is not one repeated item.
     pub(super) fn find(text: &str) -> Option<Self> {
-        let inside = |piece: &str| Self::parse(piece.split_once(')')?.0);
-        let bare = || Self::parse(text.to_ascii_lowercase().split_once("format=")?.1);
-        text.rsplit('(').find_map(inside).or_else(bare)
+        for piece in text.rsplit('(') {
+            if let Some((item, _)) = piece.split_once(')')
+                && let Some(format) = Self::parse(item)
+            {
+                return Some(format);
+            }
+        }
+        Self::parse(text.to_ascii_lowercase().split_once("format=")?.1)
     }
 
-    /// `8F10.5`, `10I8`, `1E15.6E2`, `1P8E10.3`.
+    /// Reads one item, such as `8F10.5`, `10I8`, `1E15.6E2` or `1P8E10.3`.
     fn parse(item: &str) -> Option<Self> {
         let (scale, item) = match item.trim().split_once(['P', 'p']) {
             Some((scale, item)) => (scale.parse().ok().filter(|&scale| scale < 100)?, item),
             None => (0, item.trim()),
         };
-        let letter = item.find(|sign: char| !sign.is_ascii_digit())?;
-        let (repeat, rest) = item.split_at(letter);
+        let letter = item.find(|character: char| !character.is_ascii_digit())?;
+        let repeat = &item[..letter];
+        let rest = &item[letter..];
         let width = rest.strip_prefix(['F', 'f', 'E', 'e', 'G', 'g', 'D', 'd', 'I', 'i'])?;
         let whole_numbers = rest.starts_with(['I', 'i']);
-        let (whole, decimals) = width.split_once('.').unwrap_or((width, "0"));
+        let (width, decimals) = width.split_once('.').unwrap_or((width, "0"));
         // Digits of the exponent follow an E.
         let (decimals, exponent) = decimals.split_once(['E', 'e']).unwrap_or((decimals, ""));
-        if !exponent.bytes().all(|sign| sign.is_ascii_digit()) {
+        if !exponent.bytes().all(|byte| byte.is_ascii_digit()) {
             return None;
         }
         let decimals = decimals.parse().ok().filter(|&decimals: &u16| decimals < 1000)?;
         // In `I8.4` the 4 is the smallest number of digits; none of them are decimals.
         let decimals = if whole_numbers { 0 } else { decimals };
         let repeat = if repeat.is_empty() { 1 } else { repeat.parse().ok()? };
-        let width = whole.parse().ok()?;
-        let known = (1..=MOST).contains(&repeat) && (1..=MOST).contains(&width);
-        known.then_some(Self { repeat, width, decimals, scale })
+        let width = width.parse().ok()?;
+        let is_in_range = (1..=MAX_REPEAT_OR_WIDTH).contains(&repeat)
+            && (1..=MAX_REPEAT_OR_WIDTH).contains(&width);
+        is_in_range.then_some(Self { repeat, width, decimals, scale })
     }
 
     /// Whether `text` is a format and nothing else, with or without `format=` and brackets.
@@ -129,15 +141,15 @@ impl FortranFormat {
             else {
                 return text.is_empty() || Self::parse(text).is_some();
             };
-            let code = !item.is_empty() && item.bytes().all(|sign| sign.is_ascii_digit());
-            if !(code || item.trim() == "*" || Self::parse(item).is_some()) {
+            let is_unit_code = !item.is_empty() && item.bytes().all(|byte| byte.is_ascii_digit());
+            if !(is_unit_code || item.trim() == "*" || Self::parse(item).is_some()) {
                 return false;
             }
             rest = after.to_owned();
         }
     }
 
-    /// The fields of a line, given as it is in the file, without white space at its end.
+    /// The fields of a line of the file, without white space at its end.
     ///
     /// `None` if the line does not match these columns: if it is longer, not ASCII, has white space inside a
     /// number, or has a number that continues after a column's end, which its decimals show.
@@ -145,18 +157,23 @@ impl FortranFormat {
         if !line.is_ascii() || line.len() > self.repeat * self.width {
             return None;
         }
-        let starts = (0..line.len()).step_by(self.width);
-        let fields = starts.map(|start| line[start..line.len().min(start + self.width)].trim());
-        let fields: Vec<_> = fields.collect();
-        let whole = |field: &&str| !field.is_empty() && !field.contains(char::is_whitespace);
-        let ends_there = |(k, field): (usize, &&str)| {
-            let next = line.as_bytes().get((k + 1) * self.width);
-            let goes_on = next.is_some_and(|sign| sign.is_ascii_digit() || *sign == b'.');
-            !goes_on || self.ends_in_column(field)
-        };
-        let kept = fields.iter().all(whole) && fields.iter().enumerate().all(ends_there);
-        kept.then_some(fields)
+        let mut fields = Vec::new();
+        for start in (0..line.len()).step_by(self.width) {
+            let end = line.len().min(start + self.width);
+            let field = line[start..end].trim();
+            let is_whole = !field.is_empty() && !field.contains(char::is_whitespace);
+            if !is_whole || continues_number(&line[end..]) && !self.ends_in_column(field) {
+                return None;
+            }
+            fields.push(field);
+        }
+        Some(fields)
     }
+}
+
+/// Whether the text behind a column may continue the number in it.
+fn continues_number(rest: &str) -> bool {
+    rest.starts_with(|character: char| character.is_ascii_digit() || character == '.')
 }
 
 /// Accepts brackets around the format.
@@ -203,21 +220,23 @@ impl From<FortranFormat> for String {
 mod tests {
     use super::*;
 
+    #[expect(clippy::unnecessary_wraps, reason = "compared with an option")]
+    fn format_of(scale: u16, repeat: usize, width: usize, decimals: u16) -> Option<FortranFormat> {
+        Some(FortranFormat { repeat, width, decimals, scale })
+    }
+
     #[test]
     fn formats_are_found() {
-        let scaled =
-            |scale, repeat, width, decimals| Some(FortranFormat { repeat, width, decimals, scale });
-        let columns = |repeat, width, decimals| scaled(0, repeat, width, decimals);
-        for (text, known) in [
-            ("4 points, in cm/sec2. (8f10.6)", columns(8, 10, 6)),
-            ("units=cm/s^2 (4),Format=(10F8.5)", columns(10, 8, 5)),
-            ("units=cm/sec2(04),Format=(1E15.6)", columns(1, 15, 6)),
-            ("Format= ( 6F13.6 )", columns(6, 13, 6)),
-            ("(E15.7E3)", columns(1, 15, 7)),
-            ("(1F15.6E)", columns(1, 15, 6)),
-            ("(10I8)", columns(10, 8, 0)),
-            ("(10I8.4)", columns(10, 8, 0)),
-            ("(1P8E10.3)", scaled(1, 8, 10, 3)),
+        for (text, expected) in [
+            ("4 points, in cm/sec2. (8f10.6)", format_of(0, 8, 10, 6)),
+            ("units=cm/s^2 (4),Format=(10F8.5)", format_of(0, 10, 8, 5)),
+            ("units=cm/sec2(04),Format=(1E15.6)", format_of(0, 1, 15, 6)),
+            ("Format= ( 6F13.6 )", format_of(0, 6, 13, 6)),
+            ("(E15.7E3)", format_of(0, 1, 15, 7)),
+            ("(1F15.6E)", format_of(0, 1, 15, 6)),
+            ("(10I8)", format_of(0, 10, 8, 0)),
+            ("(10I8.4)", format_of(0, 10, 8, 0)),
+            ("(1P8E10.3)", format_of(1, 8, 10, 3)),
             ("(-1P8E10.3)", None),
             ("(8F10.5E2X)", None),
             ("(8F10.5,2X)", None),
@@ -225,11 +244,11 @@ mod tests {
             ("(4)", None),
             ("(0F8.5) (F0.5)", None),
             ("(99999999999999999999F8.5)", None),
-            ("units=g,Format= 8F10.5", columns(8, 10, 5)),
+            ("units=g,Format= 8F10.5", format_of(0, 8, 10, 5)),
             ("8F10.5", None),
             ("", None),
         ] {
-            assert_eq!(FortranFormat::find(text), known, "{text}");
+            assert_eq!(FortranFormat::find(text), expected, "{text}");
         }
     }
 
@@ -247,7 +266,7 @@ mod tests {
     #[test]
     fn cards_have_a_number_behind_their_columns() {
         let format: FortranFormat = "(2F9.6)".parse().unwrap();
-        let read = |line: &str| format.card(line).map(|card| (card.numbers, card.card));
+        let read = |line: &str| format.read_card(line).map(|card| (card.numbers, card.card_number));
         assert_eq!(read("-0.276388-0.272017"), Some((vec![-0.276_388, -0.272_017], None)));
         assert_eq!(
             read("-0.276388-0.272017       2"),

@@ -38,7 +38,7 @@ pub trait FreeField: Send {
 
     /// Numbers of the soils for which [`at_faces`](FreeField::at_faces) holds, equal only for equal soils.
     ///
-    /// A ground with other numbers (its description's `identity`) is refused. Default: `None`, any soils.
+    /// A ground with other numbers (its description's `identity`) is an error. Default: `None`, any soils.
     fn soils(&self) -> Option<&[f64]> {
         None
     }
@@ -60,31 +60,37 @@ pub trait FreeField: Send {
     /// Velocity `[horizontal, vertical up]` (m/s) at surface point `x` and `time`.
     ///
     /// Simulations use displacements only. `bem::full_plane::VerticalWaves` computes stresses from velocities, and
-    /// a ground of your own may do so.
+    /// other grounds may do so.
     ///
     /// Default: the central difference of displacements 10 µs before and after. A motion of f Hz loses (2πf · 10
     /// µs)²/6 of its velocity (7e-8 at 10 Hz), and rounding adds about 2e-11 of the displacement per second. A
     /// jump or a kink is spread over 20 µs. Implement this method if the velocity is known.
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        differenced(self, x, time)
+        difference_velocity(self, x, time)
     }
 }
 
-/// Half the interval of the difference, s.
-const DIFFERENCE: f64 = 1e-5;
+/// Half the interval of the central difference, s.
+const HALF_DIFFERENCE_INTERVAL: f64 = 1e-5;
 /// Smallest half interval relative to the time, which is itself rounded.
-const ROUNDING: f64 = 1e-13;
+const RELATIVE_HALF_INTERVAL: f64 = 1e-13;
 
-/// Velocity of `field` from its displacements.
-pub(super) fn differenced(field: &(impl FreeField + ?Sized), x: f64, time: f64) -> [f64; 2] {
+/// Velocity of `field` by the central difference of its displacements.
+pub(super) fn difference_velocity(
+    field: &(impl FreeField + ?Sized),
+    x: f64,
+    time: f64,
+) -> [f64; 2] {
     if time.is_nan() || time <= 0.0 {
         return [0.0; 2];
     }
-    let half = DIFFERENCE.max(ROUNDING * time);
-    let (before, after) = (time - half, time + half);
-    let (from, to) = (field.displacement(x, before), field.displacement(x, after));
-    // Not 2 · half, since the two times are rounded.
-    [0, 1].map(|k| (to[k] - from[k]) / (after - before))
+    let half_interval = HALF_DIFFERENCE_INTERVAL.max(RELATIVE_HALF_INTERVAL * time);
+    let start = time - half_interval;
+    let end = time + half_interval;
+    let start_displacement = field.displacement(x, start);
+    let end_displacement = field.displacement(x, end);
+    // Not twice the half interval, since the two times are rounded.
+    [0, 1].map(|k| (end_displacement[k] - start_displacement[k]) / (end - start))
 }
 
 /// Ground that stays at rest, for structures driven by forces only.
@@ -119,7 +125,8 @@ impl FreeField for AtRest {
     }
 }
 
-type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
+/// A function of x and time that returns the horizontal and the vertical component.
+type FieldFunction = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 
 /// Free field from a closure for the displacement, and optionally one for the velocity.
 ///
@@ -138,8 +145,8 @@ type Field = Box<dyn Fn(f64, f64) -> [f64; 2] + Send>;
 /// assert_eq!(exact.velocity(500.0, 2.5), [4.0, 0.0]);
 /// ```
 pub struct FreeFieldFn {
-    displacement: Field,
-    velocity: Option<Field>,
+    displacement: FieldFunction,
+    velocity: Option<FieldFunction>,
 }
 
 impl FreeFieldFn {
@@ -166,7 +173,7 @@ impl FreeField for FreeFieldFn {
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
         match &self.velocity {
-            None => differenced(self, x, time),
+            None => difference_velocity(self, x, time),
             Some(velocity) if time > 0.0 => velocity(x, time),
             Some(_) => [0.0; 2],
         }
@@ -203,13 +210,13 @@ impl From<Record> for VerticalIncidence {
 
 impl FreeField for VerticalIncidence {
     fn displacement(&self, _x: f64, time: f64) -> [f64; 2] {
-        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.at(time).displacement);
-        [at(&self.horizontal), at(&self.vertical)]
+        [&self.horizontal, &self.vertical]
+            .map(|record| record.as_ref().map_or(0.0, |record| record.at(time).displacement))
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        let at = |record: &Option<Record>| record.as_ref().map_or(0.0, |r| r.at(time).velocity);
-        [at(&self.horizontal), at(&self.vertical)]
+        [&self.horizontal, &self.vertical]
+            .map(|record| record.as_ref().map_or(0.0, |record| record.at(time).velocity))
     }
 
     fn records(&self) -> Vec<&Record> {
@@ -236,7 +243,8 @@ impl FreeField for Record {
 /// ```
 /// use basemat::motion::{FreeField, Record, Triaxial};
 /// let shake = Record::new(0.5, vec![1.0, 1.0, 1.0])?;
-/// let (y, up) = (Some(shake.scaled(-0.5)?), Some(shake.scaled(0.25)?));
+/// let y = Some(shake.scaled(-0.5)?);
+/// let up = Some(shake.scaled(0.25)?);
 /// let field = Triaxial { x: Some(shake), y, up };
 /// assert_eq!(field.displacement_at([7.0, -2.0], 1.0), [0.5, -0.25, 0.125]);
 /// assert_eq!(field.displacement(7.0, 1.0), [0.5, 0.125]);
@@ -256,13 +264,13 @@ pub struct Triaxial {
 
 impl FreeField for Triaxial {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        let [along, _, up] = self.displacement_at([x, 0.0], time);
-        [along, up]
+        let displacement = self.displacement_at([x, 0.0], time);
+        [displacement[0], displacement[2]]
     }
 
     fn displacement_at(&self, _place: [f64; 2], time: f64) -> [f64; 3] {
         [&self.x, &self.y, &self.up]
-            .map(|record| record.as_ref().map_or(0.0, |own| own.at(time).displacement))
+            .map(|record| record.as_ref().map_or(0.0, |record| record.at(time).displacement))
     }
 
     fn moves_across(&self) -> bool {
@@ -274,7 +282,8 @@ impl FreeField for Triaxial {
     }
 
     fn velocity(&self, _x: f64, time: f64) -> [f64; 2] {
-        [&self.x, &self.up].map(|record| record.as_ref().map_or(0.0, |own| own.at(time).velocity))
+        [&self.x, &self.up]
+            .map(|record| record.as_ref().map_or(0.0, |record| record.at(time).velocity))
     }
 }
 
@@ -303,8 +312,8 @@ pub struct RickerDisplacement {
     center: f64,
 }
 
-/// Smallest center/sigma: the jump at t = 0 is 3.5e-6 of the peak there.
-const LEAST_DELAY: f64 = 4.0;
+/// Smallest center/sigma: the jump at t = 0 is then 3.5e-6 of the peak.
+const MIN_CENTER_RATIO: f64 = 4.0;
 
 impl RickerDisplacement {
     /// Horizontal pulse of peak `amplitude` at the time `center`.
@@ -319,15 +328,19 @@ impl RickerDisplacement {
         positive("width of the Ricker pulse", sigma)?;
         let quantity = "center of the Ricker pulse";
         let needed = "finite and at least four times its width";
-        require(quantity, center, center.is_finite() && center >= LEAST_DELAY * sigma, needed)?;
+        require(
+            quantity,
+            center,
+            center.is_finite() && center >= MIN_CENTER_RATIO * sigma,
+            needed,
+        )?;
         Ok(Self { amplitude: [amplitude, 0.0], sigma, center })
     }
 
     /// This pulse as vertical motion (positive up).
     #[must_use]
     pub fn vertical(self) -> Self {
-        let [horizontal, vertical] = self.amplitude;
-        Self { amplitude: [vertical, horizontal], ..self }
+        Self { amplitude: [self.amplitude[1], self.amplitude[0]], ..self }
     }
 }
 

@@ -6,11 +6,12 @@
 
 use std::io::Read;
 
-use super::fault::{no_acceleration, not_in_header};
+use super::fault::{FaultResult, not_acceleration};
 use super::fortran_format::FortranFormat;
 use super::header_number::HeaderNumber;
 use super::lines::{
-    Lines, Reason, Series, component, count, read_numbers, record, records, scaled,
+    LineResult, Lines, Series, read_numbers, required, sample_count, scaled, select_component,
+    to_record, to_records,
 };
 use super::unit_name::is_unit;
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
@@ -47,22 +48,27 @@ impl Default for GeoNetFormat {
 
 impl RecordFormat for GeoNetFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, component(self.component, read(&mut Lines::new(source))))
+        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source)))
+        to_records(name, read(&mut Lines::new(source)))
     }
 }
 
+/// Number of lines of text at the beginning of a component.
 const TEXT_LINES: usize = 16;
-const INTEGERS: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 0, scale: 0 };
-const REALS: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 1, scale: 0 };
+const INTEGER_FORMAT: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 0, scale: 0 };
+const REAL_FORMAT: FortranFormat = FortranFormat { repeat: 10, width: 8, decimals: 1, scale: 0 };
+/// Numbers in a line of velocity or displacement.
+const NUMBERS_PER_LINE: f64 = 10.0;
 
 /// Quantities in the lines of text.
 #[derive(Default)]
-struct Header {
+struct GeoNetHeader {
+    /// Name of the component.
     name: String,
+    /// Number of samples.
     points: Option<f64>,
     /// Duration, s.
     duration: Option<f64>,
@@ -74,92 +80,104 @@ struct Header {
     peak: f64,
 }
 
-impl Header {
-    fn read(&mut self, line: &str) -> std::result::Result<(), FileFault> {
+impl GeoNetHeader {
+    /// Stores the quantities of a line.
+    fn read(&mut self, line: &str) -> FaultResult<()> {
         let words: Vec<&str> = line.split_whitespace().collect();
-        let after = |key: &str| {
-            let at = words.iter().position(|word| word.eq_ignore_ascii_case(key))?;
-            finite(words.get(at + 1)?)
-        };
         let lower = line.to_ascii_lowercase();
         if lower.starts_with("number of points") {
-            self.points = after("points");
-            self.duration = after("duration");
+            self.points = number_after("points", &words);
+            self.duration = number_after("duration", &words);
         } else if lower.starts_with("component") {
             words.get(1).copied().unwrap_or("").clone_into(&mut self.name);
         } else if lower.starts_with("acceleration:") && lower.contains("mm/s/s") {
-            self.peak = after("peak").unwrap_or(0.0);
+            self.peak = number_after("peak", &words).unwrap_or(0.0);
             self.unit.get_or_insert(1.0);
         } else if lower.starts_with("acceleration:") && words.iter().any(|word| is_unit(word)) {
-            return Err(no_acceleration(line));
+            return Err(not_acceleration(line));
         } else if let Some((_, text)) = lower.split_once("in units of") {
-            let (value, _) = text.split_once("mm/s/s").unwrap_or(("", ""));
+            let value = text.split_once("mm/s/s").map_or("", |(value, _)| value);
             self.unit = HeaderNumber::Peak.read(value)?;
         }
         // `at intervals of 0.005 s`, `at 0.020 sec intervals`.
         if let Some((_, text)) = lower.split_once("intervals of") {
             self.interval = text.split_whitespace().next().and_then(finite);
         } else if lower.contains("intervals") {
-            self.interval = after("at");
+            self.interval = number_after("at", &words);
         }
         Ok(())
     }
+
+    /// Error unless the samples have the stated number, time step, duration and peak.
+    fn check(&self, samples: &[f64], step: f64) -> FaultResult<()> {
+        let points = samples.len();
+        if let Some(stated) = self.points {
+            agreement::number("number of points", points as f64, stated)?;
+        }
+        if let Some(stated) = self.interval {
+            agreement::number("time step (s)", step, stated)?;
+        }
+        if let Some(stated) = self.duration {
+            agreement::duration(points, step, stated, 0.0)?;
+        }
+        agreement::peak(samples, self.peak * 1e-3)
+    }
 }
 
-fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
+/// The number behind a word of a line.
+fn number_after(key: &str, words: &[&str]) -> Option<f64> {
+    let index = words.iter().position(|word| word.eq_ignore_ascii_case(key))?;
+    finite(words.get(index + 1)?)
+}
+
+/// Reads all components.
+fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
     let mut components = Vec::new();
-    while let Some(first) = lines.next()? {
-        if first.is_empty() {
+    while let Some(first_line) = lines.next()? {
+        if first_line.is_empty() {
             continue;
         }
-        if !first.to_ascii_lowercase().contains("accelerogram") {
-            return Err(lines.refuse(no_acceleration(&first)));
+        if !first_line.to_ascii_lowercase().contains("accelerogram") {
+            return Err(lines.fault(not_acceleration(&first_line)));
         }
         components.push(read_component(lines)?);
     }
     Ok(components)
 }
 
-/// A component after its first line.
-fn read_component(lines: &mut Lines) -> Reason<Series> {
-    let mut header = Header::default();
+/// Reads a component after its first line.
+fn read_component(lines: &mut Lines) -> LineResult<Series> {
+    let mut header = GeoNetHeader::default();
     for _ in 1..TEXT_LINES {
         let Some(line) = lines.next()? else {
-            return Err(lines.refuse(FileFault::missing("header of 16 lines")));
+            return Err(lines.fault(FileFault::missing("header of 16 lines")));
         };
-        header.read(&line).map_err(|reason| lines.refuse(reason))?;
+        lines.with_line_number(header.read(&line))?;
     }
-    let integers = read_numbers(lines, 40, Some(INTEGERS))?;
-    let reals = read_numbers(lines, 60, Some(REALS))?;
-    let missing = |quantity| lines.refuse(not_in_header(quantity));
-    let points = count(integers[33]).ok_or_else(|| missing("number of points (34th integer)"))?;
+    let integers = read_numbers(lines, 40, Some(INTEGER_FORMAT))?;
+    let reals = read_numbers(lines, 60, Some(REAL_FORMAT))?;
+    let points = sample_count(integers[33]);
+    let points = required(lines, points, "number of points (34th integer)")?;
     let step = Some(reals[25]).filter(|&step| step > 0.0);
-    let step = step.ok_or_else(|| missing("sampling interval (26th real)"))?;
-    let unit = header.unit.filter(|&unit| unit > 0.0);
-    let unit = unit.ok_or_else(|| missing("unit (mm/s/s)"))?;
+    let step = required(lines, step, "sampling interval (26th real)")?;
+    let unit = required(lines, header.unit.filter(|&unit| unit > 0.0), "unit (mm/s/s)")?;
     let factor = unit * AccelerationUnit::MillimetrePerSecondSquared.in_metres_per_second_squared();
-    let samples = scaled(read_numbers(lines, points, Some(REALS))?, factor);
-    let agrees = || {
-        if let Some(stated) = header.points {
-            agreement::number("number of points", points as f64, stated)?;
-        }
-        if let Some(stated) = header.interval {
-            agreement::number("time step (s)", step, stated)?;
-        }
-        if let Some(stated) = header.duration {
-            agreement::duration(points, step, stated, 0.0)?;
-        }
-        agreement::peak(&samples, header.peak * 1e-3)
-    };
-    agrees().map_err(|reason| lines.refuse(reason))?;
-    for others in [integers[34], integers[35]] {
-        // Velocity and displacement, in lines of ten.
-        let mut left = others;
-        while left > 0.0
-            && let Some(line) = lines.next()?
-        {
-            left -= if line.is_empty() { 0.0 } else { 10.0 };
-        }
-    }
+    let samples = scaled(read_numbers(lines, points, Some(REAL_FORMAT))?, factor);
+    lines.with_line_number(header.check(&samples, step))?;
+    let velocity_count = integers[34];
+    let displacement_count = integers[35];
+    skip_numbers(lines, velocity_count)?;
+    skip_numbers(lines, displacement_count)?;
     Ok(Series { name: header.name, step, samples })
+}
+
+/// Skips the lines of a block of `count` numbers.
+fn skip_numbers(lines: &mut Lines, count: f64) -> LineResult<()> {
+    let mut remaining = count;
+    while remaining > 0.0
+        && let Some(line) = lines.next()?
+    {
+        remaining -= if line.is_empty() { 0.0 } else { NUMBERS_PER_LINE };
+    }
+    Ok(())
 }

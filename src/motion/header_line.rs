@@ -7,12 +7,13 @@ use super::AccelerationUnit;
 use super::column_title::{
     acceleration_unit, check_acceleration, check_time, first_word, is_unit_alone, time_unit,
 };
+use super::fault::FaultResult;
+use super::lines::is_all_digits;
 use super::unit_name::is_unit;
-use crate::error::FileFault;
 use crate::text::decimal::finite;
 
-/// Most lines before the numbers in which titles are sought.
-const MOST_LINES: usize = 100;
+/// Largest number of lines before the numbers in which titles are sought.
+const MAX_TITLE_LINES: usize = 100;
 
 /// The lines before the numbers of a file with columns.
 #[derive(Default)]
@@ -22,11 +23,11 @@ impl HeaderLines {
     /// Adds a line.
     pub(super) fn add(&mut self, line: &str) {
         let line = line.trim_start_matches('#').trim();
-        // Other marks of a comment; a `%` may begin a unit.
-        let marks = ["% ", "// ", "! ", "; ", "* "];
-        let line = marks.iter().find_map(|mark| line.strip_prefix(mark)).unwrap_or(line);
+        // A `%` without a space may begin a unit.
+        let comment_marks = ["% ", "// ", "! ", "; ", "* "];
+        let line = comment_marks.iter().find_map(|mark| line.strip_prefix(mark)).unwrap_or(line);
         if line.contains(char::is_alphabetic) {
-            if self.0.len() == MOST_LINES {
+            if self.0.len() == MAX_TITLE_LINES {
                 self.0.pop_front();
             }
             self.0.push_back(line.to_owned());
@@ -46,10 +47,8 @@ pub(super) struct ColumnTitles(Vec<LineTitles>);
 
 impl ColumnTitles {
     /// Error if the titles of a column of times, counted from 1, name a unit other than the second.
-    pub(super) fn check_time(&self, column: usize) -> Result<(), FileFault> {
-        let alone = |word: &str| word == "t" || word == "time";
-        let lines = self.0.iter().rev();
-        let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
+    pub(super) fn check_time(&self, column: usize) -> FaultResult<()> {
+        let mut titles = self.titles(column, |first_word| matches!(first_word, "t" | "time"));
         titles.find(|title| time_unit(title).is_some()).map_or(Ok(()), check_time)
     }
 
@@ -58,15 +57,23 @@ impl ColumnTitles {
         &self,
         column: usize,
         expected: AccelerationUnit,
-    ) -> Result<(), FileFault> {
+    ) -> FaultResult<()> {
         if let Some(name) = self.name(column) {
             check_acceleration(name, expected)?;
         }
-        let alone = |word: &str| word.starts_with("acc") || word == "unit" || word == "units";
-        let lines = self.0.iter().rev();
-        let mut titles = lines.filter_map(|line| line.title(column).or_else(|| line.alone(alone)));
+        let mut titles = self.titles(column, |first_word| {
+            first_word.starts_with("acc") || matches!(first_word, "unit" | "units")
+        });
         let title = titles.find(|title| acceleration_unit(title).is_some());
         title.map_or(Ok(()), |title| check_acceleration(title, expected))
+    }
+
+    /// Titles of a column, counted from 1, the last line first.
+    ///
+    /// Includes lines that are one title each, if `is_key` accepts their first word.
+    fn titles(&self, column: usize, is_key: fn(&str) -> bool) -> impl Iterator<Item = &str> {
+        let lines = self.0.iter().rev();
+        lines.filter_map(move |line| line.title(column).or_else(|| line.single_title(is_key)))
     }
 
     /// Whether a line has a title for each column.
@@ -74,8 +81,22 @@ impl ColumnTitles {
         self.0.iter().any(|line| matches!(line, LineTitles::All(_)))
     }
 
+    /// Names of columns of accelerations; an error if a title names a unit other than `expected`.
+    pub(super) fn acceleration_names(
+        &self,
+        columns: &[usize],
+        expected: AccelerationUnit,
+    ) -> FaultResult<Vec<String>> {
+        let mut names = Vec::new();
+        for &column in columns {
+            self.check_acceleration(column, expected)?;
+            names.push(self.name(column).map_or_else(|| format!("column {column}"), str::to_owned));
+        }
+        Ok(names)
+    }
+
     /// The name of a column: its last title that is more than a unit.
-    pub(super) fn name(&self, column: usize) -> Option<&str> {
+    fn name(&self, column: usize) -> Option<&str> {
         let mut titles = self.0.iter().rev().filter_map(|line| line.title(column));
         titles.find(|title| !is_unit_alone(title))
     }
@@ -91,22 +112,19 @@ enum LineTitles {
 
 impl LineTitles {
     fn read(line: &str, columns: &RangeInclusive<usize>) -> Self {
-        let sign = [';', ','].into_iter().find(|&sign| line.contains(sign));
-        let mut readings: Vec<_> =
-            sign.iter().map(|&sign| with_brackets(cells(line, sign))).collect();
+        let separator = [';', ','].into_iter().find(|&separator| line.contains(separator));
+        let mut readings = Vec::new();
+        if let Some(separator) = separator {
+            readings.push(with_brackets(cells(line, separator)));
+        }
         readings.push(titles_of_words(line));
-        readings.push(words(line, |sign| sign == '\t', 1));
+        readings.push(words(line, |character| character == '\t', 1));
         readings.push(words(line, char::is_whitespace, 2));
-        readings.push(behind_brackets(line));
-        let more: Vec<_> = readings.iter().map(|titles| with_units(titles)).collect();
-        readings.extend(more);
+        readings.push(split_behind_brackets(line));
+        let with_units: Vec<_> = readings.iter().map(|titles| with_units(titles)).collect();
+        readings.extend(with_units);
         readings.push(vec![line.to_owned()]);
-        let fits = |titles: &Vec<String>| {
-            let last = titles.iter().rposition(|title| !title.is_empty());
-            last.is_some_and(|last| columns.contains(&(last + 1)))
-                && !titles.iter().any(|title| states_a_number(title))
-        };
-        match readings.into_iter().find(fits) {
+        match readings.into_iter().find(|titles| are_titles_of(columns, titles)) {
             Some(titles) => Self::All(titles),
             None => Self::One(line.to_owned()),
         }
@@ -118,11 +136,18 @@ impl LineTitles {
         titles.get(column.checked_sub(1)?).map(String::as_str).filter(|title| !title.is_empty())
     }
 
-    /// The line, if it is a title alone and its first word is a known one.
-    fn alone(&self, known: fn(&str) -> bool) -> Option<&str> {
+    /// The line, if it is a single title and `is_key` accepts its first word.
+    fn single_title(&self, is_key: fn(&str) -> bool) -> Option<&str> {
         let Self::One(line) = self else { return None };
-        (known(&first_word(line)) && !states_a_number(line)).then_some(line)
+        (is_key(&first_word(line)) && !states_a_number(line)).then_some(line)
     }
+}
+
+/// Whether texts may be the titles of a number of columns in this range.
+fn are_titles_of(columns: &RangeInclusive<usize>, titles: &[String]) -> bool {
+    let last = titles.iter().rposition(|title| !title.is_empty());
+    last.is_some_and(|last| columns.contains(&(last + 1)))
+        && !titles.iter().any(|title| states_a_number(title))
 }
 
 /// The titles in a line, one a word; brackets belong to the word before them.
@@ -135,54 +160,59 @@ pub(super) fn titles_of_words(line: &str) -> Vec<String> {
 /// Brackets keep a cell together.
 fn cells(line: &str, separator: char) -> Vec<String> {
     let mut depth = 0;
-    let apart = line.split(|sign| {
-        depth = depth_after(sign, depth);
-        sign == separator && depth == 0
+    let cells = line.split(|character| {
+        depth = depth_after(character, depth);
+        character == separator && depth == 0
     });
-    apart.map(|cell| cell.trim().to_owned()).collect()
+    cells.map(|cell| cell.trim().to_owned()).collect()
 }
 
-/// The words of a line, with at least `least` separators between them.
+/// The words of a line, with at least `min_separators` between them.
 ///
 /// Brackets keep a word together.
-fn words(line: &str, separates: fn(char) -> bool, least: usize) -> Vec<String> {
-    let (mut words, mut depth, mut gap) = (vec![String::new()], 0, String::new());
-    for sign in line.chars() {
-        depth = depth_after(sign, depth);
-        if separates(sign) && depth == 0 {
-            gap.push(sign);
+fn words(line: &str, is_separator: fn(char) -> bool, min_separators: usize) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut depth = 0;
+    let mut gap = String::new();
+    for character in line.chars() {
+        depth = depth_after(character, depth);
+        if is_separator(character) && depth == 0 {
+            gap.push(character);
             continue;
         }
-        if gap.chars().count() >= least {
+        if gap.chars().count() >= min_separators {
             words.push(String::new());
         } else if let Some(word) = words.last_mut() {
             word.push_str(&gap);
         }
         gap.clear();
         if let Some(word) = words.last_mut() {
-            word.push(sign);
+            word.push(character);
         }
     }
     let words = words.into_iter().map(|word| word.trim().to_owned());
     words.filter(|word| !word.is_empty()).collect()
 }
 
-/// The number of open brackets behind a sign.
-fn depth_after(sign: char, depth: usize) -> usize {
-    match sign {
+/// Number of open brackets behind a character.
+fn depth_after(character: char, depth: usize) -> usize {
+    match character {
         '(' | '[' | '{' | '（' => depth + 1,
         ')' | ']' | '}' | '）' => depth.saturating_sub(1),
         _ => depth,
     }
 }
 
-/// Titles in which brackets belong to the title before them, unless that has brackets of its own.
+/// Characters that open a bracket.
+const OPENING_BRACKETS: [char; 4] = ['(', '[', '{', '（'];
+
+/// Titles with the brackets behind them, unless a title has brackets already.
 fn with_brackets(titles: Vec<String>) -> Vec<String> {
-    let bracket = ['(', '[', '{', '（'];
     let mut merged: Vec<String> = Vec::new();
     for title in titles {
-        match merged.last_mut().filter(|last| !last.is_empty() && !last.contains(bracket)) {
-            Some(last) if title.starts_with(bracket) => {
+        let last = merged.last_mut();
+        match last.filter(|last| !last.is_empty() && !last.contains(OPENING_BRACKETS)) {
+            Some(last) if title.starts_with(OPENING_BRACKETS) => {
                 last.push(' ');
                 last.push_str(&title);
             }
@@ -192,32 +222,33 @@ fn with_brackets(titles: Vec<String>) -> Vec<String> {
     merged
 }
 
-/// Titles in which a unit belongs to the title before it, unless that has a unit of its own: `t in s  a in g`.
+/// Titles with the unit behind them, unless a title has a unit already: `t in s  a in g`.
 fn with_units(titles: &[String]) -> Vec<String> {
     let mut merged: Vec<String> = Vec::new();
     let mut has_unit = true;
     for title in titles {
-        let word = title == "in";
-        let last = merged.last_mut().filter(|_| !has_unit && (word || is_unit(title)));
+        let is_preposition = title == "in";
+        let is_of_unit = is_preposition || is_unit(title);
+        let last = merged.last_mut().filter(|_| !has_unit && is_of_unit);
         if let Some(last) = last {
             last.push(' ');
             last.push_str(title);
-            has_unit = !word;
+            has_unit = !is_preposition;
         } else {
             merged.push(title.clone());
-            has_unit = title.contains(['(', '[', '{', '（']);
+            has_unit = title.contains(OPENING_BRACKETS);
         }
     }
     merged
 }
 
 /// The parts of a line that end with brackets: `Elapsed time [s] Ground acceleration [cm/s2]`.
-fn behind_brackets(line: &str) -> Vec<String> {
+fn split_behind_brackets(line: &str) -> Vec<String> {
     let mut depth = 0;
-    let parts = line.split_inclusive(|sign| {
-        let before = depth;
-        depth = depth_after(sign, depth);
-        before > 0 && depth == 0
+    let parts = line.split_inclusive(|character| {
+        let previous_depth = depth;
+        depth = depth_after(character, depth);
+        previous_depth > 0 && depth == 0
     });
     let parts = parts.map(|part| part.trim_matches([' ', '\t', ',', ';']).to_owned());
     parts.filter(|part| !part.is_empty()).collect()
@@ -225,14 +256,14 @@ fn behind_brackets(line: &str) -> Vec<String> {
 
 /// Whether a text states a value, as `PGA (g) 0.31` does; `CH 1` and `H 090` are names.
 fn states_a_number(text: &str) -> bool {
-    let is_name = |word: &str| {
-        let digits = word.bytes().all(|sign| sign.is_ascii_digit());
-        digits
-            && (word.len() < 3
-                || word.len() == 3 && (word.starts_with('0') || word == "180" || word == "270"))
-    };
     let mut words = text.split([' ', '\t', '=', ':', ',']).filter(|word| !word.is_empty());
-    finite(text).is_some() || words.any(|word| finite(word).is_some() && !is_name(word))
+    finite(text).is_some() || words.any(|word| finite(word).is_some() && !is_channel_number(word))
+}
+
+/// Whether a number may be the number of a channel (at most two digits) or an azimuth.
+fn is_channel_number(word: &str) -> bool {
+    let is_azimuth = word.len() == 3 && (word.starts_with('0') || word == "180" || word == "270");
+    is_all_digits(word) && (word.len() < 3 || is_azimuth)
 }
 
 #[cfg(test)]

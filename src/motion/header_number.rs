@@ -1,16 +1,15 @@
 //! Numbers with units in the headers of records.
 
-use super::fault::unclear;
-use crate::error::FileFault;
+use super::fault::{FaultResult, unclear};
 use crate::text::decimal::finite;
 
 /// Characters around a quantity that have no meaning.
-const PADDING: [char; 6] = [' ', '\t', ',', ';', '=', ':'];
+const SURROUNDING_CHARACTERS: [char; 6] = [' ', '\t', ',', ';', '=', ':'];
 
-/// Names of units, in lower case, and their values in SI units.
-type Units = &'static [(&'static str, f64)];
+/// Names of units, in lower case, and how many of them make the SI unit.
+type UnitTable = &'static [(&'static str, f64)];
 
-const TIME: Units = &[
+const TIME_UNITS: UnitTable = &[
     ("s", 1.0),
     ("", 1.0),
     ("sec", 1.0),
@@ -24,9 +23,10 @@ const TIME: Units = &[
     ("milliseconds", 1e3),
 ];
 
-const FREQUENCY: Units = &[("hz", 1.0), ("", 1.0)];
+const FREQUENCY_UNITS: UnitTable = &[("hz", 1.0), ("", 1.0)];
 
-const NUMBER: Units = &[("", 1.0)];
+/// A number without a unit.
+const NO_UNITS: UnitTable = &[("", 1.0)];
 
 /// Quantities in the header of a file, and their names in errors.
 #[derive(Debug, Clone, Copy)]
@@ -37,12 +37,14 @@ pub(super) enum HeaderNumber {
     Duration,
     /// Frequency, Hz.
     Frequency,
+    /// Number of samples.
     Points,
     /// Largest acceleration, in the unit of its line.
     Peak,
 }
 
 impl HeaderNumber {
+    /// Name for errors.
     pub(super) fn name(self) -> &'static str {
         match self {
             Self::TimeStep => "time step",
@@ -53,19 +55,19 @@ impl HeaderNumber {
         }
     }
 
-    fn units(self) -> Units {
+    fn units(self) -> UnitTable {
         match self {
-            Self::TimeStep | Self::Duration => TIME,
-            Self::Frequency => FREQUENCY,
-            Self::Points | Self::Peak => NUMBER,
+            Self::TimeStep | Self::Duration => TIME_UNITS,
+            Self::Frequency => FREQUENCY_UNITS,
+            Self::Points | Self::Peak => NO_UNITS,
         }
     }
 
     /// The value of `text` in SI units: a number or a fraction, with or without a unit.
     ///
     /// `None` if the text is empty; an error unless all of it is understood.
-    pub(super) fn read(self, text: &str) -> std::result::Result<Option<f64>, FileFault> {
-        let text = text.trim_matches(PADDING);
+    pub(super) fn read(self, text: &str) -> FaultResult<Option<f64>> {
+        let text = text.trim_matches(SURROUNDING_CHARACTERS);
         if text.is_empty() {
             return Ok(None);
         }
@@ -73,38 +75,51 @@ impl HeaderNumber {
         Ok(Some(value))
     }
 
+    /// The value of a number or fraction with one of the units.
     fn parse(self, text: &str) -> Option<f64> {
         // An `E` may begin the exponent or the unit; the first split with a known unit decides.
-        let starts = text.char_indices().filter(|(_, sign)| sign.is_alphabetic() || *sign == '(');
-        starts.map(|(at, _)| at).chain([text.len()]).find_map(|at| {
-            let (number, unit) = text.split_at(at);
-            let number = number.trim_end();
-            let unit =
-                unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit);
-            let unit = unit.strip_suffix('.').unwrap_or(unit).to_ascii_lowercase();
-            let per = self.units().iter().find(|(name, _)| *name == unit)?.1;
-            Some(number_or_fraction(number)? / per)
-        })
+        for (position, character) in text.char_indices() {
+            if (character.is_alphabetic() || character == '(')
+                && let Some(value) = self.parse_split(text, position)
+            {
+                return Some(value);
+            }
+        }
+        self.parse_split(text, text.len())
+    }
+
+    /// The value of a text whose unit begins at `position`.
+    fn parse_split(self, text: &str, position: usize) -> Option<f64> {
+        let number = &text[..position];
+        let unit = &text[position..];
+        let bare = unit.strip_prefix('(').and_then(|unit| unit.strip_suffix(')')).unwrap_or(unit);
+        let name = bare.strip_suffix('.').unwrap_or(bare).to_ascii_lowercase();
+        let units_per_si_unit = self.units().iter().find(|(unit, _)| *unit == name)?.1;
+        Some(number_or_fraction(number.trim_end())? / units_per_si_unit)
     }
 }
 
-/// `0.01`, `1/100`.
+/// The value of `0.01` or `1/100`.
 fn number_or_fraction(text: &str) -> Option<f64> {
     let value = match text.split_once('/') {
-        Some((above, below)) => finite(above.trim_end())? / finite(below.trim_start())?,
+        Some((numerator, denominator)) => {
+            finite(numerator.trim_end())? / finite(denominator.trim_start())?
+        }
         None => finite(text)?,
     };
     value.is_finite().then_some(value)
 }
 
-/// Place of the comma or semicolon that ends the first clause, or the text's end.
+/// Position of the comma or semicolon that ends the first clause, or the text's end.
 ///
 /// A separator with a digit behind it is part of a number.
 pub(super) fn clause_end(text: &str) -> usize {
-    let separators = text.match_indices([',', ';']).map(|(at, _)| at);
-    let mut ends =
-        separators.filter(|at| !text[at + 1..].starts_with(|sign: char| sign.is_ascii_digit()));
-    ends.next().unwrap_or(text.len())
+    for (position, _) in text.match_indices([',', ';']) {
+        if !text[position + 1..].starts_with(|character: char| character.is_ascii_digit()) {
+            return position;
+        }
+    }
+    text.len()
 }
 
 #[cfg(test)]

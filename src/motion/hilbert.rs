@@ -1,4 +1,4 @@
-//! Hilbert transform of samples, over all time: neither periodic nor cut.
+//! Hilbert transform of samples over all time, not of their periodic continuation.
 //!
 //! (H f)(t) = 1/π ⨍ f(τ)/(t − τ) dτ takes cos to sin. For samples f_j with the step h, zero outside,
 //! it is at the samples
@@ -22,19 +22,21 @@ impl Record {
     /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative,
     /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
     pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
-        let samples = |quantity, time: f64| -> Result<usize> {
-            let count = (not_negative(quantity, time)? / self.time_step()).ceil();
-            check_samples(count + self.len() as f64)?;
-            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-            Ok(count as usize)
-        };
-        let before = samples("quiet time before the record", before)?;
-        let after = samples("quiet time after the record", after)?;
+        let before = self.quiet_samples("quiet time before the record", before)?;
+        let after = self.quiet_samples("quiet time after the record", after)?;
         check_samples((before + self.len() + after) as f64)?;
         let mut padded = vec![0.0; before];
         padded.extend_from_slice(self.accelerations());
         padded.resize(padded.len() + after, 0.0);
         Self::new(self.time_step(), padded)
+    }
+
+    /// Number of samples of a quiet time (s).
+    fn quiet_samples(&self, quantity: &'static str, time: f64) -> Result<usize> {
+        let count = (not_negative(quantity, time)? / self.time_step()).ceil();
+        check_samples(count + self.len() as f64)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+        Ok(count as usize)
     }
 
     /// Shifts every harmonic of the acceleration by a quarter of a period: cos becomes sin.
@@ -56,15 +58,17 @@ impl Record {
 /// The transform at the samples, and at `around` more times before and after.
 pub(super) fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
     let count = samples.len() + 2 * around;
-    // The kernel is indexed by the distance of output and input, starting at the smallest.
-    let least = around + samples.len() - 1;
+    // Index k of the kernel is a distance of output and input of k − zero_distance.
+    let zero_distance = around + samples.len() - 1;
     let distances = count + samples.len() - 1;
     let length = distances.next_power_of_two();
-    let weight = |index: usize| {
-        let is_odd = index.abs_diff(least) % 2 == 1;
-        if is_odd { 2.0 / (PI * (index as f64 - least as f64)) } else { 0.0 }
-    };
-    let kernel = spectrum(&(0..distances).map(weight).collect::<Vec<_>>(), length)?;
+    let mut kernel = vec![0.0; distances];
+    for (index, weight) in kernel.iter_mut().enumerate() {
+        if index.abs_diff(zero_distance) % 2 == 1 {
+            *weight = 2.0 / (PI * (index as f64 - zero_distance as f64));
+        }
+    }
+    let kernel = spectrum(&kernel, length)?;
     let mut product = spectrum(samples, length)?;
     for (value, factor) in product.iter_mut().zip(&kernel) {
         *value *= factor;
@@ -81,15 +85,17 @@ mod tests {
     /// H[1/(1+t²)] = t/(1+t²), and its tails outside the samples.
     #[test]
     fn lorentzian_has_its_closed_form() {
-        let (half, step) = (16_000, 0.125);
+        let half = 16_000;
+        let step = 0.125;
         let times: Vec<f64> = (-half..=half).map(|k| f64::from(k) * step).collect();
         let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
         let found = hilbert(&samples, 0).unwrap();
         for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
             // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
             // The part above the highest frequency of the samples: exp(−π/step).
-            let slack = 2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
-            assert!((found - t / (1.0 + t * t)).abs() < slack, "{t}: {found}");
+            let tolerance =
+                2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
+            assert!((found - t / (1.0 + t * t)).abs() < tolerance, "{t}: {found}");
         }
     }
 

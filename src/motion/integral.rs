@@ -30,7 +30,8 @@ impl Motion {
 pub(super) fn integrate(step: f64, acceleration: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let mut velocity = Vec::with_capacity(acceleration.len());
     let mut displacement = Vec::with_capacity(acceleration.len());
-    let (mut v, mut u) = (0.0, 0.0);
+    let mut v = 0.0;
+    let mut u = 0.0;
     velocity.push(v);
     displacement.push(u);
     for pair in acceleration.windows(2) {
@@ -46,14 +47,15 @@ pub(super) fn integrate(step: f64, acceleration: &[f64]) -> (Vec<f64>, Vec<f64>)
 ///
 /// Without cancellation: the larger root first, the other from their product.
 pub(crate) fn quadratic_roots_within(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
-    let inside = |root: f64| (root > 0.0 && root < end).then_some(root);
     let discriminant = c1 * c1 - 4.0 * c0 * c2;
     if discriminant < 0.0 {
         return [None, None];
     }
     let sum = -(c1 + discriminant.sqrt().copysign(c1)) / 2.0;
-    // sum is zero only if c₁ and c₀c₂ are; a division by zero gives a root that is not inside
-    match (inside(sum / c2), inside(c0 / sum)) {
+    // The sum is zero only if c₁ and c₀c₂ are. A division by zero gives no root within the interval.
+    let larger = Some(sum / c2).filter(|&root| root > 0.0 && root < end);
+    let smaller = Some(c0 / sum).filter(|&root| root > 0.0 && root < end);
+    match (larger, smaller) {
         (Some(first), Some(second)) if first > second => [Some(second), Some(first)],
         (None, Some(second)) => [Some(second), None],
         (first, second) => [first, second],

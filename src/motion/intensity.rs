@@ -9,24 +9,28 @@ impl Record {
     ///
     /// The largest magnitudes during the record, also between samples.
     pub fn peaks(&self) -> Motion {
-        let between = |slope: fn(Motion, f64) -> [f64; 3], of: fn(Motion) -> f64| {
-            (0..self.len() - 1).flat_map(move |index| {
-                let (start, jerk) = (self.sample(index), self.jerk(index));
-                let [c0, c1, c2] = slope(start, jerk);
-                let turns = quadratic_roots_within(c0, c1, c2, self.time_step());
-                turns.into_iter().flatten().map(move |elapsed| of(start.after(elapsed, jerk)))
-            })
-        };
-        let velocities = between(|start, jerk| [start.acceleration, jerk, 0.0], |at| at.velocity);
-        let displacements = between(
-            |start, jerk| [start.velocity, start.acceleration, jerk / 2.0],
-            |at| at.displacement,
-        );
-        Motion {
-            acceleration: self.peak_acceleration(),
-            velocity: largest(self.velocities().iter().copied().chain(velocities)),
-            displacement: largest(self.displacements().iter().copied().chain(displacements)),
+        let mut velocity = largest(self.velocities().iter().copied());
+        let mut displacement = largest(self.displacements().iter().copied());
+        for index in 0..self.len() - 1 {
+            let start = self.sample(index);
+            let jerk = self.jerk(index);
+            let a = start.acceleration;
+            let v = start.velocity;
+            // The velocity has an extreme where the acceleration vanishes.
+            for elapsed in self.roots_in_step(a, jerk, 0.0) {
+                velocity = velocity.max(start.after(elapsed, jerk).velocity.abs());
+            }
+            // The displacement has an extreme where the velocity vanishes.
+            for elapsed in self.roots_in_step(v, a, jerk / 2.0) {
+                displacement = displacement.max(start.after(elapsed, jerk).displacement.abs());
+            }
         }
+        Motion { acceleration: self.peak_acceleration(), velocity, displacement }
+    }
+
+    /// Roots of c₀ + c₁ s + c₂ s² within a time step.
+    fn roots_in_step(&self, c0: f64, c1: f64, c2: f64) -> impl Iterator<Item = f64> {
+        quadratic_roots_within(c0, c1, c2, self.time_step()).into_iter().flatten()
     }
 
     /// Largest |a|, m/s².
@@ -67,33 +71,34 @@ impl Record {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `from` ≤ `to` ≤ 1 and the record is not zero throughout.
     pub fn significant_times(&self, from: f64, to: f64) -> Result<[f64; 2]> {
-        for (value, least, most) in [(from, 0.0, 1.0), (to, from, 1.0)] {
-            let quantity = "fraction of the Arias intensity";
-            let needed = "from 0 to 1, the second not below the first";
-            require(quantity, value, (least..=most).contains(&value), needed)?;
-        }
+        let quantity = "fraction of the Arias intensity";
+        let needed = "from 0 to 1, the second not below the first";
+        require(quantity, from, (0.0..=1.0).contains(&from), needed)?;
+        require(quantity, to, (from..=1.0).contains(&to), needed)?;
         let peak = positive("peak acceleration of the record", self.peak_acceleration())?;
         // Relative to the peak: squares of tiny numbers vanish.
-        let square = |a: f64| (a / peak) * (a / peak);
+        let squares: Vec<f64> =
+            self.accelerations().iter().map(|a| (a / peak) * (a / peak)).collect();
         let mut sums = vec![0.0];
-        for a in self.accelerations().windows(2) {
-            sums.push(sums[sums.len() - 1] + f64::midpoint(square(a[0]), square(a[1])));
+        for pair in squares.windows(2) {
+            sums.push(sums[sums.len() - 1] + f64::midpoint(pair[0], pair[1]));
         }
         let total = sums[sums.len() - 1];
-        let reached = |fraction: f64| {
-            let wanted = fraction * total;
-            let after = sums.partition_point(|&sum| sum < wanted).min(sums.len() - 1);
-            if after == 0 {
-                return 0.0;
-            }
-            let part = (wanted - sums[after - 1]) / (sums[after] - sums[after - 1]);
-            (after as f64 - 1.0 + part.clamp(0.0, 1.0)) * self.time_step()
-        };
-        Ok([reached(from), reached(to)])
+        Ok([from, to].map(|fraction| self.time_of_sum(fraction * total, &sums)))
+    }
+
+    /// Time (s) at which `sums`, linear between samples, reach a value.
+    fn time_of_sum(&self, value: f64, sums: &[f64]) -> f64 {
+        let next = sums.partition_point(|&sum| sum < value).min(sums.len() - 1);
+        if next == 0 {
+            return 0.0;
+        }
+        let part = (value - sums[next - 1]) / (sums[next] - sums[next - 1]);
+        (next as f64 - 1.0 + part.clamp(0.0, 1.0)) * self.time_step()
     }
 }
 
 /// Largest absolute value.
 fn largest(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |most: f64, value| most.max(value.abs()))
+    values.fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }

@@ -6,9 +6,11 @@
 use std::io::Read;
 
 use super::column_title::check_acceleration;
-use super::fault::{not_in_header, unclear};
+use super::fault::{FaultResult, unclear};
 use super::header_number::HeaderNumber;
-use super::lines::{Lines, Reason, Series, push_numbers, record, records, scaled};
+use super::lines::{
+    LineResult, Lines, Series, push_numbers, required, scaled, to_record, to_records, wrong_count,
+};
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
 use crate::error::{FileFault, Result};
 use crate::text::decimal::finite;
@@ -37,18 +39,20 @@ pub struct KNetFormat;
 
 impl RecordFormat for KNetFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source)))
+        to_record(name, read(&mut Lines::new(source)))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
+        to_records(name, read(&mut Lines::new(source)).map(|series| vec![series]))
     }
 }
 
-/// Entries that the header must have.
+/// Entries of the header that are used.
 #[derive(Default)]
-struct Header {
+struct KNetHeader {
+    /// Sampling frequency, Hz.
     frequency: Option<f64>,
+    /// Duration, s.
     duration: Option<f64>,
     /// Gal per count.
     scale: Option<f64>,
@@ -58,84 +62,91 @@ struct Header {
     direction: String,
 }
 
-fn read(lines: &mut Lines) -> Reason<Series> {
-    let mut header = Header::default();
+/// Reads the component.
+fn read(lines: &mut Lines) -> LineResult<Series> {
+    let mut header = KNetHeader::default();
     loop {
         let Some(line) = lines.next()? else {
-            return Err(lines.refuse(FileFault::missing("line `Memo.`")));
+            return Err(lines.fault(FileFault::missing("line `Memo.`")));
         };
         if line.to_ascii_lowercase().starts_with("memo") {
             break;
         }
-        let understood = header.read(&line);
-        understood.map_err(|reason| lines.refuse(reason))?;
+        lines.with_line_number(header.read(&line))?;
     }
-    let need =
-        |value: Option<f64>, quantity| value.ok_or_else(|| lines.refuse(not_in_header(quantity)));
-    let frequency = need(header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
-    let duration = need(header.duration, "duration (`Duration Time(s)`)")?;
-    let scale = need(header.scale, "scale (`Scale Factor`, gal per count)")?;
+    let frequency = required(lines, header.frequency, "sampling frequency (`Sampling Freq(Hz)`)")?;
+    let duration = required(lines, header.duration, "duration (`Duration Time(s)`)")?;
+    let scale = required(lines, header.scale, "scale (`Scale Factor`, gal per count)")?;
 
-    let mut values = Vec::new();
+    let mut counts = Vec::new();
     while let Some(line) = lines.next()? {
-        push_numbers(&line, &mut values).map_err(|reason| lines.refuse(reason))?;
+        lines.with_line_number(push_numbers(&line, &mut counts))?;
     }
-    let found = values.len();
+    let found = counts.len();
     let needed = (duration * frequency).round();
     if needed != found as f64 {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-        let needed = needed as usize;
-        return Err(lines.refuse(FileFault::count("samples", found, needed.to_string())));
+        return Err(lines.fault(wrong_count(found, needed as usize)));
     }
     if found < 2 {
-        return Err(lines.refuse(FileFault::count("samples", found, "at least 2")));
+        return Err(lines.fault(FileFault::count("samples", found, "at least 2")));
     }
     let gal = AccelerationUnit::Gal.in_metres_per_second_squared();
-    let samples = scaled(values, scale * gal);
+    let samples = scaled(counts, scale * gal);
     let peak = header.peak.unwrap_or(0.0) * gal;
-    agreement::peak(&samples, peak).map_err(|reason| lines.refuse(reason))?;
+    lines.with_line_number(agreement::peak(&samples, peak))?;
     Ok(Series { name: header.direction, step: 1.0 / frequency, samples })
 }
 
-impl Header {
-    /// Stores the value of a header line with a needed key.
-    fn read(&mut self, line: &str) -> std::result::Result<(), FileFault> {
+impl KNetHeader {
+    /// Stores the value of a header line whose key is used.
+    fn read(&mut self, line: &str) -> FaultResult<()> {
         let lower = line.to_ascii_lowercase();
-        let positive = |quantity: HeaderNumber, unit: &str| match lower.find(unit) {
-            Some(at) => {
-                let value = quantity.read(&line[at + unit.len()..])?;
-                Ok(value.filter(|&value| value > 0.0))
-            }
-            None => Ok::<_, FileFault>(None),
-        };
-        let (known, value) = if lower.starts_with("sampling freq") {
-            (&mut self.frequency, positive(HeaderNumber::Frequency, "(hz)")?)
+        if lower.starts_with("sampling freq") {
+            let frequency = positive_after("(hz)", line, HeaderNumber::Frequency)?;
+            store(&mut self.frequency, frequency, line)
         } else if lower.starts_with("duration time") {
-            (&mut self.duration, positive(HeaderNumber::Duration, "(s)")?)
+            let duration = positive_after("(s)", line, HeaderNumber::Duration)?;
+            store(&mut self.duration, duration, line)
         } else if lower.starts_with("scale factor") {
-            (&mut self.scale, scale(line["scale factor".len()..].trim())?)
+            let scale = gal_per_count(line["scale factor".len()..].trim())?;
+            store(&mut self.scale, scale, line)
         } else if lower.starts_with("max") && lower.contains("acc") {
             check_acceleration(line, AccelerationUnit::Gal)?;
-            (&mut self.peak, positive(HeaderNumber::Peak, "(gal)")?)
+            let peak = positive_after("(gal)", line, HeaderNumber::Peak)?;
+            store(&mut self.peak, peak, line)
         } else if lower.starts_with("dir.") {
             line["dir.".len()..].trim().clone_into(&mut self.direction);
-            return Ok(());
+            Ok(())
         } else {
-            return Ok(());
-        };
-        if known.is_some() && *known != value {
-            return Err(unclear("repeated line", line));
+            Ok(())
         }
-        *known = value;
-        Ok(())
     }
 }
 
+/// The positive number behind a unit in lower case; `None` without the unit or without such a number.
+fn positive_after(unit: &str, line: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
+    let Some(position) = line.to_ascii_lowercase().find(unit) else { return Ok(None) };
+    let value = quantity.read(&line[position + unit.len()..])?;
+    Ok(value.filter(|&value| value > 0.0))
+}
+
+/// Stores a value in an entry of the header; an error if a line before had another value.
+fn store(entry: &mut Option<f64>, value: Option<f64>, line: &str) -> FaultResult<()> {
+    if entry.is_some() && *entry != value {
+        return Err(unclear("repeated line", line));
+    }
+    *entry = value;
+    Ok(())
+}
+
 /// Gal per count: `3920(gal)/6182761`. `None` if the text has another form or is not a scale.
-fn scale(text: &str) -> std::result::Result<Option<f64>, FileFault> {
-    let Some(at) = text.to_ascii_lowercase().find("(gal)/") else { return Ok(None) };
-    let (range, counts) = (&text[..at], &text[at + "(gal)/".len()..]);
-    let value = |side: &str| finite(side.trim()).ok_or_else(|| unclear("scale factor", text));
-    let scale = value(range)? / value(counts)?;
+fn gal_per_count(text: &str) -> FaultResult<Option<f64>> {
+    let Some(position) = text.to_ascii_lowercase().find("(gal)/") else { return Ok(None) };
+    let range = finite(text[..position].trim());
+    let range = range.ok_or_else(|| unclear("scale factor", text))?;
+    let counts = finite(text[position + "(gal)/".len()..].trim());
+    let counts = counts.ok_or_else(|| unclear("scale factor", text))?;
+    let scale = range / counts;
     Ok((scale.is_finite() && scale != 0.0).then_some(scale))
 }

@@ -8,17 +8,22 @@ use std::io::Read;
 
 use super::clock::Clock;
 use super::column_title::check_acceleration;
-use super::fault::{drifting, not_a_number, not_in_header, unequal_columns};
+use super::fault::{FaultResult, not_a_number, not_in_header, unequal_columns, unequal_time_step};
 use super::header_number::HeaderNumber;
-use super::lines::{Lines, Reason, Series, component, number, record, records};
+use super::lines::{
+    LineResult, Lines, Series, finite_number, select_component, to_record, to_records,
+};
 use super::{AccelerationUnit, Record, RecordFormat, agreement};
-use crate::error::{FileFault, Result};
+use crate::error::Result;
 
-const GAL: AccelerationUnit = AccelerationUnit::Gal;
-/// Difference of a time from equal steps that counts as rounding, in units of the times' last digit.
+/// Unit of the samples and of their peaks.
+const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::Gal;
+/// Largest difference of a time from equal steps by rounding, in units of the times' last digit.
 ///
 /// Half a unit for this time and half a unit for the first time, but less than both together.
-const ROUNDING: f64 = 0.99;
+const TIME_ROUNDING_DIGITS: f64 = 0.99;
+/// Largest difference of an exact time from equal steps, relative to the step.
+const STEP_TOLERANCE: f64 = 0.01;
 
 /// The CSV files of the Japanese networks K-NET and KiK-net.
 ///
@@ -54,28 +59,31 @@ impl Default for KNetCsvFormat {
 
 impl RecordFormat for KNetCsvFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, component(self.component, read(&mut Lines::new(source))))
+        to_record(name, select_component(self.component, read(&mut Lines::new(source))))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source)))
+        to_records(name, read(&mut Lines::new(source)))
     }
 }
 
 /// Entries of the header that are used.
 #[derive(Default)]
-struct Header {
+struct KNetCsvHeader {
+    /// Sampling frequency, Hz.
     frequency: Option<f64>,
+    /// Duration, s.
     duration: Option<f64>,
     /// Peaks, gal.
     peaks: Vec<f64>,
-    /// Names of the columns.
-    names: Vec<String>,
+    /// Fields of the last line, which names the columns.
+    column_names: Vec<String>,
 }
 
-impl Header {
-    fn read(&mut self, fields: &[&str]) -> std::result::Result<(), FileFault> {
-        let [key, values @ ..] = fields else { return Ok(()) };
+impl KNetCsvHeader {
+    /// Stores the values of a line `#Key,value`.
+    fn read(&mut self, fields: &[&str]) -> FaultResult<()> {
+        let Some((key, values)) = fields.split_first() else { return Ok(()) };
         let value = values.first().copied().unwrap_or("");
         let key = key.trim_start_matches('#').trim_start().to_ascii_lowercase();
         if key.starts_with("sampling freq") {
@@ -83,26 +91,27 @@ impl Header {
         } else if key.starts_with("duration time") {
             self.duration = HeaderNumber::Duration.read(value)?;
         } else if key.starts_with("max") && key.contains("acc") {
-            check_acceleration(&key, GAL)?;
+            check_acceleration(&key, SAMPLE_UNIT)?;
             self.peaks.clear();
             for value in values {
                 self.peaks.extend(HeaderNumber::Peak.read(value)?);
             }
         }
-        self.names = fields.iter().map(|&name| name.to_owned()).collect();
+        self.column_names = fields.iter().map(|&name| name.to_owned()).collect();
         Ok(())
     }
 
-    /// Peak of the component in a column from 1, gal; zero if there is none.
-    fn peak(&self, column: usize) -> f64 {
+    /// Peak of a component, counted from 0, gal; zero if there is none.
+    fn peak(&self, component: usize) -> f64 {
         // A single peak may belong to any component.
-        let index = column.checked_sub(1).filter(|_| self.peaks.len() + 1 == self.names.len());
-        index.and_then(|index| self.peaks.get(index).copied()).unwrap_or(0.0)
+        let has_all_peaks = self.peaks.len() + 1 == self.column_names.len();
+        self.peaks.get(component).copied().filter(|_| has_all_peaks).unwrap_or(0.0)
     }
 }
 
-fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
-    let mut header = Header::default();
+/// Reads all components.
+fn read(lines: &mut Lines) -> LineResult<Vec<Series>> {
+    let mut header = KNetCsvHeader::default();
     let mut clock = Clock::default();
     let mut times = Vec::new();
     let mut columns: Vec<Vec<f64>> = Vec::new();
@@ -116,52 +125,55 @@ fn read(lines: &mut Lines) -> Reason<Vec<Series>> {
         let time = if line.starts_with('#') { None } else { clock.read(fields[0]) };
         let Some(time) = time else {
             if columns.is_empty() {
-                header.read(&fields).map_err(|reason| lines.refuse(reason))?;
+                lines.with_line_number(header.read(&fields))?;
                 continue;
             }
-            return Err(lines.refuse(not_a_number(fields[0])));
+            return Err(lines.fault(not_a_number(fields[0])));
         };
+        let needed = header.column_names.len();
         if columns.is_empty() {
-            columns.resize(header.names.len().saturating_sub(1), Vec::new());
+            columns.resize(needed.saturating_sub(1), Vec::new());
         }
-        let (found, expected) = (fields.len(), header.names.len());
-        if found != expected || expected < 2 {
-            return Err(lines.refuse(unequal_columns(found, expected)));
+        if fields.len() != needed || needed < 2 {
+            return Err(lines.fault(unequal_columns(fields.len(), needed)));
         }
         times.push(time);
-        for (k, column) in columns.iter_mut().enumerate() {
-            let value = number(fields[k + 1]).map_err(|reason| lines.refuse(reason))?;
-            column.push(value * GAL.in_metres_per_second_squared());
+        for (column, field) in columns.iter_mut().zip(&fields[1..]) {
+            let value = lines.with_line_number(finite_number(field))?;
+            column.push(value * SAMPLE_UNIT.in_metres_per_second_squared());
         }
     }
-    check(&header, &times, clock.resolution().unwrap_or(0.0), &columns)
-        .map_err(|reason| lines.refuse(reason))
+    lines.with_line_number(components(&header, &times, clock.resolution().unwrap_or(0.0), &columns))
 }
 
-/// Error unless header, times and samples agree; returns the components.
-fn check(
-    header: &Header,
+/// The components; an error unless header, times and samples agree.
+///
+/// `resolution`: unit of the last digit of the times, s.
+fn components(
+    header: &KNetCsvHeader,
     times: &[f64],
     resolution: f64,
     columns: &[Vec<f64>],
-) -> std::result::Result<Vec<Series>, FileFault> {
-    let missing = || not_in_header("sampling frequency (`Sampling Freq(Hz)`)");
-    let frequency = header.frequency.filter(|&frequency| frequency > 0.0).ok_or_else(missing)?;
+) -> FaultResult<Vec<Series>> {
+    let frequency = header.frequency.filter(|&frequency| frequency > 0.0);
+    let frequency =
+        frequency.ok_or_else(|| not_in_header("sampling frequency (`Sampling Freq(Hz)`)"))?;
     let step = 1.0 / frequency;
     for (k, &time) in times.iter().enumerate() {
         let expected = times[0] + k as f64 * step;
-        if (time - expected).abs() > ROUNDING * resolution + 0.01 * step {
-            return Err(drifting(time, expected));
+        if (time - expected).abs() > TIME_ROUNDING_DIGITS * resolution + STEP_TOLERANCE * step {
+            return Err(unequal_time_step(time, expected));
         }
     }
     if let Some(stated) = header.duration {
         agreement::duration(times.len(), step, stated, 0.0)?;
     }
     let mut components = Vec::new();
-    for (k, samples) in columns.iter().enumerate() {
-        let name = &header.names[k + 1];
-        check_acceleration(name, GAL)?;
-        agreement::peak(samples, header.peak(k + 1) * GAL.in_metres_per_second_squared())?;
+    for (component, samples) in columns.iter().enumerate() {
+        let name = &header.column_names[component + 1];
+        check_acceleration(name, SAMPLE_UNIT)?;
+        let peak = header.peak(component) * SAMPLE_UNIT.in_metres_per_second_squared();
+        agreement::peak(samples, peak)?;
         components.push(Series { name: name.clone(), step, samples: samples.clone() });
     }
     Ok(components)

@@ -5,6 +5,19 @@
 //! three directions, [`RickerDisplacement`] a pulse in closed form, [`FreeFieldFn`] from closures, [`AtRest`]
 //! without motion.
 
+// For authors of a record format: write a file like `esm.rs` (one sample a line) or `afad.rs` (columns), with
+// `read(lines) -> LineResult<Series>`, and use
+//
+// * `lines`: the lines of a file (`Lines`), their numbers (`push_numbers`, `read_numbers`), `required` values of a
+//   header, and the results `Series`, `to_record` and `to_records`;
+// * `fortran_format`: numbers in columns of fixed width, which may touch;
+// * `header_number`: a quantity of a header with its unit; `unit_name`: names of units of acceleration;
+// * `column_title` and `header_line`: titles of columns, and the units that they name;
+// * `agreement`: number of samples, duration and peak that a file states twice;
+// * `block`: the titles of COSMOS and CSMIP that describe a block of numbers; `clock`: columns of times;
+// * `fault`: errors that several formats have.
+//
+// `reader` and `along_lines` read tables and series without a header; `number_table` distinguishes these two.
 mod afad;
 mod agreement;
 mod along_lines;

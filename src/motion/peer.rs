@@ -2,20 +2,26 @@
 //!
 //! Layout: Pacific Earthquake Engineering Research Center, *PEER Strong Motion Database* and *NGA-West2* (peer.berkeley.edu,
 //! `.AT2`): four lines of header, of which the third names the unit and the fourth number of points and time step, then
-//! five numbers a line as `5E15.7`; the headers of older files vary. Nothing is stated twice but the number of samples.
+//! five numbers a line as `5E15.7`; the headers of older files vary. Only the number of samples is stated twice.
 
 use std::io::Read;
 
-use super::fault::{no_acceleration, not_in_header, unclear};
+use super::fault::{FaultResult, not_acceleration, not_in_header, unclear};
 use super::header_number::{HeaderNumber, clause_end};
-use super::lines::{Lines, Reason, Series, count, end_of_numbers, read_numbers, record, scaled};
+use super::lines::{
+    LineResult, Lines, Series, end_of_numbers, read_numbers, required, sample_count, scaled,
+    to_record,
+};
 use super::{AccelerationUnit, Record, RecordFormat, STANDARD_GRAVITY};
-use crate::error::{FileFault, Result};
+use crate::error::Result;
 use crate::text::decimal::finite;
 
-const G: AccelerationUnit = AccelerationUnit::StandardGravity;
+/// Unit of the samples.
+const SAMPLE_UNIT: AccelerationUnit = AccelerationUnit::StandardGravity;
 /// Number of first lines that must contain the number of points and the time step.
-const HEADER_LINES: usize = 12;
+const MAX_HEADER_LINES: usize = 12;
+/// Largest relative difference of a value of gravity in a header from standard gravity.
+const GRAVITY_TOLERANCE: f64 = 1e-2;
 
 /// The `.AT2` files of the Pacific Earthquake Engineering Research Center.
 ///
@@ -45,66 +51,84 @@ pub struct PeerFormat;
 
 impl RecordFormat for PeerFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, read(&mut Lines::new(source)))
+        to_record(name, read(&mut Lines::new(source)))
     }
 }
 
-fn read(lines: &mut Lines) -> Reason<Series> {
-    let missing = || not_in_header("number of points and time step (NPTS, DT)");
-    let mut in_g = false;
-    let (points, step) = loop {
+/// Reads the component.
+fn read(lines: &mut Lines) -> LineResult<Series> {
+    let header = read_header(lines)?;
+    let factor = SAMPLE_UNIT.in_metres_per_second_squared();
+    let values = read_numbers(lines, header.points, None)?;
+    end_of_numbers(lines, header.points)?;
+    Ok(Series { name: String::new(), step: header.step, samples: scaled(values, factor) })
+}
+
+/// Quantities in the last line of the header.
+struct PeerHeader {
+    /// Number of samples.
+    points: usize,
+    /// Time step, s.
+    step: f64,
+}
+
+/// Reads the lines of the header; an error unless they state that the accelerations are in g.
+fn read_header(lines: &mut Lines) -> LineResult<PeerHeader> {
+    let quantities = "number of points and time step (NPTS, DT)";
+    let mut is_in_g = false;
+    loop {
         let line = match lines.next()? {
-            Some(line) if lines.number <= HEADER_LINES => line.to_ascii_uppercase(),
-            _ => return Err(lines.refuse(missing())),
+            Some(line) if lines.number <= MAX_HEADER_LINES => line.to_ascii_uppercase(),
+            _ => return Err(lines.fault(not_in_header(quantities))),
         };
         match acceleration_in_g(&line) {
-            Some(false) => {
-                return Err(lines.refuse(no_acceleration(&line)));
-            }
-            said => in_g |= said.is_some(),
+            Some(false) => return Err(lines.fault(not_acceleration(&line))),
+            Some(true) => is_in_g = true,
+            None => {}
         }
         if has_word(&line, "NPTS") && has_word(&line, "DT") {
-            let header = header(&line).map_err(|reason| lines.refuse(reason))?;
-            break header.ok_or_else(|| lines.refuse(missing()))?;
+            let header = lines.with_line_number(points_and_step(&line))?;
+            let header = required(lines, header, quantities)?;
+            if is_in_g {
+                return Ok(header);
+            }
+            return Err(lines.fault(not_in_header("unit (UNITS OF G)")));
         }
-    };
-    if !in_g {
-        return Err(lines.refuse(not_in_header("unit (UNITS OF G)")));
     }
-    let factor = G.in_metres_per_second_squared();
-    let values = read_numbers(lines, points, None)?;
-    end_of_numbers(lines, points)?;
-    Ok(Series { name: String::new(), step, samples: scaled(values, factor) })
+}
+
+/// A unit in a line of the header, with the text around it.
+struct StatedUnit<'a> {
+    before: &'a str,
+    name: &'a str,
+    after: &'a str,
+}
+
+/// The unit behind a key: `UNITS OF G`, `UNITS ARE (G)`.
+fn unit_behind<'a>(key: &str, line: &'a str) -> Option<StatedUnit<'a>> {
+    let (before, rest) = line.split_once(key)?;
+    let rest = rest.trim_start().trim_start_matches('(').trim_start();
+    let end = rest.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(rest.len());
+    Some(StatedUnit { before, name: &rest[..end], after: &rest[end..] })
 }
 
 /// Whether a line of the header, in upper case, states accelerations in g, or another quantity.
 ///
 /// `None` if it states neither.
 fn acceleration_in_g(line: &str) -> Option<bool> {
-    let kind = ["ACCELERATION", "VELOCITY", "DISPLACEMENT"].map(|kind| line.contains(kind));
-    // The text before `key`, the word after it, and the text after that word.
-    let word = |key| {
-        let (before, after) = line.split_once(key)?;
-        // `UNITS ARE (G)`.
-        let after = after.trim_start().trim_start_matches('(').trim_start();
-        let end = after.find([' ', '\t', '.', ',', ';', '(', ')']).unwrap_or(after.len());
-        Some((before, &after[..end], &after[end..]))
-    };
-    let stated =
-        ["UNITS OF", "UNITS ARE", "UNITS=", "UNITS =", "UNITS:"].into_iter().find_map(word);
-    let unit = match stated {
-        None if kind[0] => word(" IN ").or_else(|| word("(")).filter(|(_, unit, _)| is_unit(unit)),
-        stated => stated,
-    };
-    match (kind, unit) {
-        ([_, false, false], Some((before, unit, rest))) => {
-            let times = multiplies(before) || has_factor(rest);
-            Some(AccelerationUnit::named(unit) == Some(G) && !times)
-        }
-        ([_, false, false], None) => None,
-        // A title may well mention velocity.
-        (_, unit) => (unit.is_some() || line.contains("TIME")).then_some(false),
+    let keys = ["UNITS OF", "UNITS ARE", "UNITS=", "UNITS =", "UNITS:"];
+    let mut unit = keys.into_iter().find_map(|key| unit_behind(key, line));
+    if unit.is_none() && line.contains("ACCELERATION") {
+        unit = unit_behind(" IN ", line).or_else(|| unit_behind("(", line));
+        unit = unit.filter(|unit| may_be_unit(unit.name));
     }
+    if line.contains("VELOCITY") || line.contains("DISPLACEMENT") {
+        // A title may well mention velocity.
+        return (unit.is_some() || line.contains("TIME")).then_some(false);
+    }
+    let unit = unit?;
+    let is_multiple = mentions_factor(unit.before) || has_factor(unit.after);
+    Some(AccelerationUnit::named(unit.name) == Some(SAMPLE_UNIT) && !is_multiple)
 }
 
 /// Whether the text behind a unit may state that numbers are a multiple of it.
@@ -113,89 +137,95 @@ fn acceleration_in_g(line: &str) -> Option<bool> {
 /// count.
 fn has_factor(rest: &str) -> bool {
     let rest = rest.split_once("FILTER").map_or(rest, |(before, _)| before).trim();
-    let gravity = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
-    if let Some((gravity, rest)) = gravity {
-        let value = gravity.split_whitespace().next().and_then(finite);
-        let known = value.is_some_and(|value| {
-            let near = |unit: f64| (value * unit / STANDARD_GRAVITY - 1.0).abs() < 1e-2;
-            near(1.0) || near(1e-2)
-        });
-        return !known || has_factor(rest);
+    let in_brackets = rest.strip_prefix('(').and_then(|rest| rest.split_once(')'));
+    if let Some((text, rest)) = in_brackets {
+        let value = text.split_whitespace().next().and_then(finite);
+        return !value.is_some_and(is_gravity) || has_factor(rest);
     }
-    let apart = rest.is_empty() || rest.starts_with(['.', ',', ';', ')']);
+    let is_separate = rest.is_empty() || rest.starts_with(['.', ',', ';', ')']);
     // The number of points is read elsewhere.
     let rest = rest.split_once("NPTS").map_or(rest, |(before, _)| before);
-    let other = |sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*');
-    !apart || rest.contains(other) || multiplies(rest) || has_word(rest, "SCALE")
+    !is_separate
+        || rest.contains(|sign: char| sign.is_ascii_digit() || matches!(sign, '%' | '*'))
+        || mentions_factor(rest)
+        || has_word(rest, "SCALE")
+}
+
+/// Whether a value is gravity, in m/s² or in cm/s².
+fn is_gravity(value: f64) -> bool {
+    [1.0, 1e-2].iter().any(|unit| (value * unit / STANDARD_GRAVITY - 1.0).abs() < GRAVITY_TOLERANCE)
 }
 
 /// Whether a word after ACCELERATION may be meant as its unit.
-fn is_unit(word: &str) -> bool {
+fn may_be_unit(word: &str) -> bool {
     AccelerationUnit::named(word).is_some() || word.contains("/S")
 }
 
-/// Whether a text mentions multiplication: `TIMES`, `1000 X`.
-fn multiplies(text: &str) -> bool {
+/// Whether a text mentions a factor: `TIMES`, `1000 X`, `* 10`.
+fn mentions_factor(text: &str) -> bool {
     let words = ["TIMES", "SCALED", "FACTOR", "MULTIPLIED", "DIVIDED"];
-    let number = |word: &str| finite(word).is_some();
+    if words.iter().any(|word| has_word(text, word)) {
+        return true;
+    }
+    for (position, _) in text.match_indices('*') {
+        let before = text[..position].trim_end();
+        let after = text[position + 1..].trim_start();
+        if before.ends_with(|sign: char| sign.is_ascii_digit())
+            || after.starts_with(|sign: char| sign.is_ascii_digit())
+        {
+            return true;
+        }
+    }
     let mut pairs = text.split_whitespace().zip(text.split_whitespace().skip(1));
-    let digit = |sign: char| sign.is_ascii_digit();
-    let starred = text.match_indices('*').any(|(at, _)| {
-        text[..at].trim_end().ends_with(digit) || text[at + 1..].trim_start().starts_with(digit)
-    });
-    starred
-        || words.iter().any(|word| has_word(text, word))
-        || pairs.any(|(a, b)| (number(a) && b == "X") || (a == "X" && number(b)))
+    pairs.any(|(first, second)| {
+        finite(first).is_some() && second == "X" || first == "X" && finite(second).is_some()
+    })
 }
 
 /// Whether `word` is a word of `line`.
 fn has_word(line: &str, word: &str) -> bool {
-    line.split(|sign: char| !sign.is_alphanumeric()).any(|found| found == word)
+    line.split(|character: char| !character.is_alphanumeric()).any(|found| found == word)
 }
 
-/// Number of points and time step, s.
-fn header(line: &str) -> std::result::Result<Option<(usize, f64)>, FileFault> {
+/// Number of points and time step in the last line of the header.
+fn points_and_step(line: &str) -> FaultResult<Option<PeerHeader>> {
     let (points, step) = if line.contains(['=', ':']) {
-        (
-            assigned(line, "NPTS", HeaderNumber::Points)?,
-            assigned(line, "DT", HeaderNumber::TimeStep)?,
-        )
+        let points = assigned_value(line, "NPTS", HeaderNumber::Points)?;
+        (points, assigned_value(line, "DT", HeaderNumber::TimeStep)?)
     } else {
-        listed(line)?
+        listed_values(line)?
     };
-    if multiplies(line) || has_word(line, "SCALE") {
+    if mentions_factor(line) || has_word(line, "SCALE") {
         return Err(unclear("scale of the numbers", line));
     }
-    let step = step.filter(|&step| step > 0.0);
-    Ok(points.and_then(count).zip(step))
+    let header = points.and_then(sample_count).zip(step.filter(|&step| step > 0.0));
+    Ok(header.map(|(points, step)| PeerHeader { points, step }))
 }
 
 /// The value of a key in `NPTS= 4, DT= .01 SEC`; `ORIGINAL DT` is another key than `DT`.
-fn assigned(
-    line: &str,
-    key: &str,
-    quantity: HeaderNumber,
-) -> std::result::Result<Option<f64>, FileFault> {
+fn assigned_value(line: &str, key: &str, quantity: HeaderNumber) -> FaultResult<Option<f64>> {
     let mut pieces = line.split(['=', ':']).peekable();
     let mut found = None;
     // The key at the end of the previous piece.
     let mut name = pieces.next().map_or("", last_clause);
     while let Some(piece) = pieces.next() {
-        // The last piece contains only a value.
         let clause = clause_end(piece);
-        let (value, next) = match (pieces.peek(), clause < piece.len()) {
-            (None, _) => (&piece[..clause], ""),
-            (Some(_), true) => (&piece[..clause], last_clause(piece)),
+        let is_last = pieces.peek().is_none();
+        let (value, next_name) = if is_last {
+            (&piece[..clause], "")
+        } else if clause < piece.len() {
+            (&piece[..clause], last_clause(piece))
+        } else {
             // Without a separator the last word is the next key.
-            (Some(_), false) => piece.trim_end().rsplit_once([' ', '\t']).unwrap_or((piece, "")),
+            piece.trim_end().rsplit_once([' ', '\t']).unwrap_or((piece, ""))
         };
         if name == key
             && let Some(value) = quantity.read(value)?
-            && let Some(before) = found.replace(value).filter(|&before| before != value)
+            && let Some(other) = found.replace(value).filter(|&previous| previous != value)
         {
-            return Err(unclear(quantity.name(), &format!("{before} and {value}")));
+            return Err(unclear(quantity.name(), &format!("{other} and {value}")));
         }
-        name = next;
+        name = next_name;
     }
     Ok(found)
 }
@@ -206,14 +236,15 @@ fn last_clause(text: &str) -> &str {
 }
 
 /// Points and step of `4  .01  NPTS, DT`, perhaps with the unit of time at the end.
-fn listed(line: &str) -> std::result::Result<(Option<f64>, Option<f64>), FileFault> {
-    const GAPS: [char; 3] = [' ', '\t', ','];
+fn listed_values(line: &str) -> FaultResult<(Option<f64>, Option<f64>)> {
+    let separators = [' ', '\t', ','];
     let (values, keys) = line.split_once("NPTS").unwrap_or((line, ""));
-    let values = values.trim_matches(GAPS);
-    let (points, step) = values.split_once(GAPS).unwrap_or((values, ""));
-    let not_understood = || unclear("order of number of points and time step", line);
-    let unit = keys.trim_matches(GAPS).strip_prefix("DT").ok_or_else(not_understood)?;
-    let step = format!("{} {}", step.trim_start_matches(GAPS), unit.trim_matches(GAPS));
+    let values = values.trim_matches(separators);
+    let (points, step) = values.split_once(separators).unwrap_or((values, ""));
+    let unit = keys.trim_matches(separators).strip_prefix("DT");
+    let unit = unit.ok_or_else(|| unclear("order of number of points and time step", line))?;
+    let step = step.trim_start_matches(separators);
+    let step = format!("{step} {}", unit.trim_matches(separators));
     Ok((HeaderNumber::Points.read(points)?, HeaderNumber::TimeStep.read(&step)?))
 }
 
@@ -223,7 +254,7 @@ mod tests {
 
     #[test]
     fn headers_say_what_the_numbers_are() {
-        for (line, known) in [
+        for (line, expected) in [
             ("ACCELERATION TIME SERIES IN UNITS OF G", Some(true)),
             ("ACCELERATION TIME HISTORY IN UNITS OF G.", Some(true)),
             (
@@ -256,7 +287,7 @@ mod tests {
             ("STUDY OF VELOCITY PULSES", None),
             ("", None),
         ] {
-            assert_eq!(acceleration_in_g(line), known, "{line}");
+            assert_eq!(acceleration_in_g(line), expected, "{line}");
         }
     }
 }

@@ -27,13 +27,13 @@ use crate::fundamental::Rayleigh;
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// Smallest ratio of a prescribed component to the other component.
+/// Smallest ratio of a prescribed component to the largest component.
 ///
 /// Near the angles at which the prescribed component vanishes, the other grows without bound.
-const SMALLEST: f64 = 0.1;
+const MIN_PRESCRIBED_RATIO: f64 = 0.1;
 
-/// Values of Rayleigh's function below this, in units of 1/c₂⁴, are rounding of zero.
-const VANISHING: f64 = 1e-14;
+/// Largest value of Rayleigh's function, in units of 1/c₂⁴, that is rounding of zero.
+const RAYLEIGH_ZERO_TOLERANCE: f64 = 1e-14;
 
 /// A plane harmonic wave, and the motion of the half-plane's surface under it.
 ///
@@ -67,7 +67,7 @@ impl PlaneWave {
     /// with a Poisson's ratio of zero, where all amplitudes are 0/0.
     pub fn sv(soil: Soil, angle: f64) -> Result<Self> {
         let speed = soil.shear_wave_speed();
-        let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
+        let Slownesses { p, a, b, g, rayleigh } = Slownesses::new(soil, angle, speed)?;
         let scale = Complex::real(1.0 / speed) / rayleigh;
         Ok(Self {
             slowness: p,
@@ -85,8 +85,8 @@ impl PlaneWave {
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
     pub fn sh(soil: Soil, angle: f64) -> Result<Self> {
         let slowness = check_angle(angle)?.sin() / soil.shear_wave_speed();
-        let [horizontal, vertical] = [Complex::default(); 2];
-        Ok(Self { slowness, horizontal, vertical, across: 2.0 })
+        let none = Complex::default();
+        Ok(Self { slowness, horizontal: none, vertical: none, across: 2.0 })
     }
 
     /// P wave from below, as for [`PlaneWave::sv`].
@@ -94,9 +94,10 @@ impl PlaneWave {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless |`angle`| < π/2.
     pub fn p(soil: Soil, angle: f64) -> Result<Self> {
-        let (speed, shear) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
-        let (p, a, b, g, rayleigh) = slownesses(soil, angle, speed)?;
-        let scale = Complex::real(speed / (shear * shear)) / rayleigh;
+        let speed = soil.pressure_wave_speed();
+        let shear_speed = soil.shear_wave_speed();
+        let Slownesses { p, a, b, g, rayleigh } = Slownesses::new(soil, angle, speed)?;
+        let scale = Complex::real(speed / (shear_speed * shear_speed)) / rayleigh;
         Ok(Self {
             slowness: p,
             horizontal: (a * b).scale(4.0 * p) * scale,
@@ -107,10 +108,10 @@ impl PlaneWave {
 
     /// Rayleigh wave to the right, of unit horizontal displacement.
     pub fn rayleigh(soil: Soil) -> Self {
-        let shear = soil.shear_wave_speed();
-        let slowness = Rayleigh::new(soil).arrival() / shear;
+        let shear_speed = soil.shear_wave_speed();
+        let slowness = Rayleigh::new(soil).arrival() / shear_speed;
         let decay = (slowness * slowness - soil.pressure_wave_speed().powi(-2)).sqrt();
-        let g = shear.powi(-2) - 2.0 * slowness * slowness;
+        let g = shear_speed.powi(-2) - 2.0 * slowness * slowness;
         let vertical = Complex::new(0.0, -2.0 * slowness * decay / g);
         Self { slowness, horizontal: Complex::real(1.0), vertical, across: 0.0 }
     }
@@ -199,9 +200,13 @@ impl PlaneWave {
             let field = OutOfPhase::new(record, is_vertical, ratio)?;
             return TravellingWave::new(field, self.apparent_velocity(), origin);
         }
-        let (given, other) = (Some(record.clone()), Some(record.scaled(ratio.re)?));
-        let [horizontal, vertical] = if is_vertical { [other, given] } else { [given, other] };
-        let field = VerticalIncidence { horizontal, vertical };
+        let prescribed = Some(record.clone());
+        let other = Some(record.scaled(ratio.re)?);
+        let field = if is_vertical {
+            VerticalIncidence { horizontal: other, vertical: prescribed }
+        } else {
+            VerticalIncidence { horizontal: prescribed, vertical: other }
+        };
         TravellingWave::new(field, self.apparent_velocity(), origin)
     }
 
@@ -226,31 +231,51 @@ fn check_angle(angle: f64) -> Result<f64> {
     require("angle of incidence", angle, angle.abs() < FRAC_PI_2, needed)
 }
 
-/// p, a, b, g and R of the table above, for a wave of this speed.
-fn slownesses(soil: Soil, angle: f64, speed: f64) -> Result<(f64, Complex, Complex, f64, Complex)> {
-    let p = check_angle(angle)?.sin() / speed;
-    let vertical = |c: f64| {
-        // The wave's own vertical slowness, without cancellation.
-        let own = angle.cos() / speed;
-        if c == speed { Complex::real(own) } else { Complex::real(c.powi(-2) - p * p).sqrt() }
-    };
-    let (a, b) = (vertical(soil.pressure_wave_speed()), vertical(soil.shear_wave_speed()));
-    let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
-    let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
-    let is_regular = rayleigh.abs() > VANISHING * soil.shear_wave_speed().powi(-4);
-    require("angle of incidence", angle, is_regular, "not the critical angle")?;
-    Ok((p, a, b, g, rayleigh))
+/// The symbols of the table above, for one wave.
+struct Slownesses {
+    p: f64,
+    a: Complex,
+    b: Complex,
+    g: f64,
+    /// R, which is not zero.
+    rayleigh: Complex,
 }
 
-/// `other` over `given`, unless `given` is too small a fraction of it.
-fn ratio(quantity: &'static str, other: Complex, given: Complex) -> Result<Complex> {
-    check_prescribed(quantity, given.abs(), other.abs())?;
-    Ok(other / given)
+impl Slownesses {
+    /// Of a P or an S wave of this speed (m/s), at `angle` (rad) from the vertical.
+    fn new(soil: Soil, angle: f64, speed: f64) -> Result<Self> {
+        let p = check_angle(angle)?.sin() / speed;
+        let a = vertical_slowness(soil.pressure_wave_speed(), p, angle, speed);
+        let b = vertical_slowness(soil.shear_wave_speed(), p, angle, speed);
+        let g = soil.shear_wave_speed().powi(-2) - 2.0 * p * p;
+        let rayleigh = Complex::real(g * g) + (a * b).scale(4.0 * p * p);
+        let zero = RAYLEIGH_ZERO_TOLERANCE * soil.shear_wave_speed().powi(-4);
+        require("angle of incidence", angle, rayleigh.abs() > zero, "not the critical angle")?;
+        Ok(Self { p, a, b, g, rayleigh })
+    }
 }
 
-/// Error if `given` is too small a fraction of the larger component.
-pub(crate) fn check_prescribed(quantity: &'static str, given: f64, other: f64) -> Result<()> {
-    let largest = other.max(given);
-    let share = if largest == 0.0 { 0.0 } else { given / largest };
-    require(quantity, share, share > SMALLEST, "above 0.1 to be prescribed").map(drop)
+/// Vertical slowness of a wave of speed `c` that belongs to an incident wave of this `angle` and `speed`.
+fn vertical_slowness(c: f64, p: f64, angle: f64, speed: f64) -> Complex {
+    let is_incident = c == speed;
+    if is_incident {
+        // Without cancellation.
+        Complex::real(angle.cos() / speed)
+    } else {
+        Complex::real(c.powi(-2) - p * p).sqrt()
+    }
+}
+
+/// Ratio of the other component to the prescribed one, unless that is too small.
+fn ratio(quantity: &'static str, other: Complex, prescribed: Complex) -> Result<Complex> {
+    check_prescribed(quantity, prescribed.abs(), other.abs())?;
+    Ok(other / prescribed)
+}
+
+/// Error if the prescribed component is too small a fraction of the larger component.
+pub(crate) fn check_prescribed(quantity: &'static str, prescribed: f64, other: f64) -> Result<()> {
+    let largest = other.max(prescribed);
+    let fraction = if largest == 0.0 { 0.0 } else { prescribed / largest };
+    let is_large_enough = fraction > MIN_PRESCRIBED_RATIO;
+    require(quantity, fraction, is_large_enough, "above 0.1 to be prescribed").map(drop)
 }

@@ -1,26 +1,19 @@
 //! Reader of text files with columns of acceleration, usually with a column of time.
 //!
-//! Layout: none of an agency; comma-separated values after RFC 4180, and what spreadsheets and scripts print.
+//! No agency defines this layout: comma-separated values after RFC 4180, and tables of spreadsheets and scripts.
 
 use std::io::Read;
 
-use super::clock::Clock;
-use super::fault::{along_lines, drifting, header_line, unequal_columns};
-use super::header_line::{ColumnTitles, HeaderLines};
+use super::clock::TimeColumn;
+use super::fault::{FaultResult, may_be_one_series, unequal_columns, unexpected_header_line};
+use super::header_line::HeaderLines;
 use super::lines::{
-    Fields, Lines, Reason, Series, component, first_word, in_header, is_failure, is_header, record,
-    records,
+    LineFields, LineResult, Lines, Series, first_word, has_spreadsheet_error, is_header,
+    line_or_header_fault, select_component, to_record, to_records, wrong_count,
 };
 use super::number_table::NumberTable;
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
-
-/// Largest difference of a sample from equal steps, relative to the step.
-///
-/// Wide enough for times printed with two digits of the step.
-const STEP_TOLERANCE: f64 = 0.01;
-/// Smallest step, in units of the last digit of the times, at which rounding explains unequal steps.
-const COARSE: f64 = 3.0;
 
 /// Layout of a record in a text file: its columns and its unit.
 ///
@@ -46,8 +39,8 @@ const COARSE: f64 = 3.0;
 /// columns counts, comments included; of several lines that name a unit for a column, the last one counts.
 /// [`equally_spaced`](Self::equally_spaced) reads files without a time column. All their lines must have equally many
 /// columns. Without titles they may be one series along the lines: then one of them must count, have times or be
-/// constant, or the numbers must jump from line to line, or `samples` be known. A file cut within its last number looks like a complete one: set `samples` where
-/// their number is known.
+/// constant, or the numbers must jump from line to line, or `samples` be known. A file cut within its last number looks
+/// like a complete one: set `samples` where their number is known.
 ///
 /// ```
 /// use basemat::motion::{AccelerationUnit, ColumnFormat, Record};
@@ -123,35 +116,35 @@ impl ColumnFormat {
 impl RecordFormat for ColumnFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
         let columns = read(&mut Lines::new(source), self, false);
-        record(name, component(1, columns))
+        to_record(name, select_component(1, columns))
     }
 
     /// All columns except the times, whatever `acceleration_column` is.
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source), self, true))
+        to_records(name, read(&mut Lines::new(source), self, true))
     }
 }
 
-/// The columns of accelerations: all, or the one of the format.
-fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Series>> {
-    let table = Table::read(lines, format, all)?;
+/// Reads the columns of accelerations: all, or the one of the format.
+fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Vec<Series>> {
+    let table = ColumnTable::read(lines, format, all)?;
     let last_line = table.lines.last().copied().unwrap_or(0);
     let found = table.lines.len();
     if found < 2 {
         return Err((last_line, FileFault::count("samples", found, "at least 2")));
     }
     if let Some(needed) = format.samples.filter(|&needed| needed != found) {
-        return Err((last_line, FileFault::count("samples", found, needed.to_string())));
+        return Err((last_line, wrong_count(found, needed)));
     }
     let step = match format.time_step {
         Some(step) => {
             // A known number of samples confirms the columns.
             if format.samples.is_none() && table.is_one_series(all) {
-                return Err((table.lines[0], along_lines(table.width)));
+                return Err((table.lines[0], may_be_one_series(table.width)));
             }
             step
         }
-        None => table.equal_step()?,
+        None => table.times.equal_step(&table.lines)?,
     };
     let columns = table.names.into_iter().zip(table.columns);
     Ok(columns.map(|(name, samples)| Series { name, step, samples }).collect())
@@ -159,205 +152,157 @@ fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Vec<Serie
 
 /// Lines of numbers, column by column.
 #[derive(Default)]
-struct Table {
+struct ColumnTable {
     /// Number of each line in the file.
     lines: Vec<usize>,
-    /// Times of the lines, s.
-    times: Vec<f64>,
-    clock: Clock,
+    times: TimeColumn,
+    /// Numbers of the columns of accelerations, counted from 1.
+    chosen: Vec<usize>,
+    /// Names of the chosen columns.
     names: Vec<String>,
-    /// Accelerations, m/s².
+    /// Accelerations in the chosen columns, m/s².
     columns: Vec<Vec<f64>>,
-    /// Number of fields in a line.
+    /// Number of fields in the first line, without the empty ones at its end.
     width: usize,
+    /// Number of fields that all lines must have.
+    expected_fields: Option<usize>,
     /// Whether titles or words in the lines show that the columns differ.
     has_words: bool,
     /// All numbers of lines without times.
     numbers: NumberTable,
 }
 
-impl Table {
+impl ColumnTable {
     /// Whether lines without times may hold one series, of which a column would be a small part.
     ///
     /// Columns are accepted if they have titles, if one of them counts, has times or a constant, or if the numbers jump
     /// over the line ends, unless they continue there. If `all` columns are read, no number is lost.
     fn is_one_series(&self, all: bool) -> bool {
         let numbers = &self.numbers;
-        let columns = all
+        let are_columns = all
             || self.has_words
             || numbers.even_column().is_some()
             || numbers.jumps_over_line_ends();
-        self.width > 1 && (!columns || numbers.continues_along_lines())
+        self.width > 1 && (!are_columns || numbers.continues_along_lines())
     }
 
-    /// All lines of numbers.
-    fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> Reason<Self> {
+    /// Reads all lines.
+    fn read(lines: &mut Lines, format: &ColumnFormat, all: bool) -> LineResult<Self> {
         let mut table = Self::default();
-        let factor = format.unit.in_metres_per_second_squared();
-        let mut header_may_come = true;
         let mut header = HeaderLines::default();
-        let mut chosen = Vec::new();
-        let mut columns = None;
+        let mut title_may_come = true;
         while let Some(text) = lines.next()? {
-            let passed = lines.number <= format.header_lines;
-            if text.is_empty() || passed || text.starts_with('#') && !is_failure(&text) {
-                if columns.is_none() {
+            let is_skipped = lines.number <= format.header_lines;
+            let is_comment = text.starts_with('#') && !has_spreadsheet_error(&text);
+            let is_first = table.expected_fields.is_none();
+            if text.is_empty() || is_skipped || is_comment {
+                if is_first {
                     header.add(&text);
                 }
                 continue;
             }
-            let fields = Fields::split(&text);
-            let is_header = header_may_come && is_header(&fields);
-            header_may_come = false;
-            if is_header {
+            let fields = LineFields::split(&text);
+            let is_title = title_may_come && is_header(&fields);
+            title_may_come = false;
+            if is_title {
                 header.add(&text);
                 continue;
             }
-            let found = fields.texts.len();
-            let filled = fields.filled();
-            let refuse = |why| lines.refuse(in_header(why, &fields, columns.is_none()));
-            if columns.is_none() {
-                chosen = chosen_columns(format, all, filled);
-                // Without times, only this check distinguishes `Station 7` from a sample.
-                if let Some(field) = first_word(&fields).filter(|_| format.time_step.is_some()) {
-                    return Err(lines.refuse(header_line(field)));
+            // Without times, only this check distinguishes `Station 7` from a sample.
+            if is_first
+                && format.time_step.is_some()
+                && let Some(word) = first_word(&fields)
+            {
+                return Err(lines.fault(unexpected_header_line(word)));
+            }
+            let read = table.read_values(&fields, format, all);
+            lines.with_line_number(
+                read.map_err(|fault| line_or_header_fault(fault, &fields, is_first)),
+            )?;
+            if is_first {
+                let titles = header.titles(&(fields.filled_count()..=fields.texts.len()));
+                if format.time_step.is_none() {
+                    lines.with_line_number(titles.check_time(format.time_column))?;
                 }
-            }
-            if format.time_step.is_none() {
-                table
-                    .times
-                    .push(fields.time(format.time_column, &mut table.clock).map_err(refuse)?);
-            }
-            if !all && format.acceleration_column.is_none() && filled > 1 {
-                let needed = "1 (name the column of the acceleration, or read the values along the lines: \
-                     `AlongLinesFormat`, in Python `along_lines`)";
-                return Err(refuse(FileFault::count("columns", filled, needed)));
-            }
-            for (k, &column) in chosen.iter().enumerate() {
-                let value = fields.number(column).map_err(refuse)?;
-                if k == table.columns.len() {
-                    table.columns.push(Vec::new());
-                }
-                table.columns[k].push(value * factor);
-            }
-            if columns.is_none() {
-                let titles = header.titles(&(filled..=found));
-                table.names = names(format, &titles, &chosen).map_err(|why| lines.refuse(why))?;
+                let names = titles.acceleration_names(&table.chosen, format.unit);
+                table.names = lines.with_line_number(names)?;
                 table.has_words = titles.name_all_columns();
-                table.width = filled;
             }
-            // The cells behind the last comma may be empty in all lines.
-            let found = if all { filled } else { found };
-            let expected = *columns.get_or_insert(found);
-            let must_agree = all || format.time_step.is_some() || fields.may_be_shifted();
-            if found != expected && must_agree {
-                return Err(lines.refuse(unequal_columns(found, expected)));
-            }
-            if format.time_step.is_some() {
-                let numbers: std::result::Result<Vec<f64>, FileFault> =
-                    (1..=table.width).map(|column| fields.number(column)).collect();
-                match numbers {
-                    Ok(numbers) => table.numbers.push(&numbers),
-                    Err(_) => table.has_words = true,
-                }
-            }
+            lines.with_line_number(table.check_fields(&fields, format, all))?;
             table.lines.push(lines.number);
         }
         Ok(table)
     }
 
-    /// The common time step.
-    fn equal_step(&self) -> Reason<f64> {
-        let times = &self.times;
-        let first = times[1] - times[0];
-        let last = times.len() - 1;
-        let mean = (times[last] - times[0]) / last as f64;
-        let unequal = |k: usize, why: FileFault| (self.lines[k], self.rounded(mean).unwrap_or(why));
-        for k in 1..=last {
-            let found = times[k] - times[k - 1];
-            // the difference of huge times may be infinite
-            if !(found > 0.0 && found < f64::INFINITY) {
-                let why = time_step(found, "above zero".into());
-                return Err(if found == 0.0 { unequal(k, why) } else { (self.lines[k], why) });
-            }
-            if (found - first).abs() > STEP_TOLERANCE * first {
-                let needed = format!("{} s, as before", decimal(first));
-                return Err(unequal(k, time_step(found, needed)));
-            }
+    /// Appends the time and the accelerations of a line.
+    fn read_values(
+        &mut self,
+        fields: &LineFields,
+        format: &ColumnFormat,
+        all: bool,
+    ) -> FaultResult<()> {
+        let filled = fields.filled_count();
+        if self.expected_fields.is_none() {
+            self.width = filled;
+            self.chosen = acceleration_columns(format, all, filled);
+            self.columns = vec![Vec::new(); self.chosen.len()];
         }
-        let exact = |(k, &time): (usize, &f64)| time == k as f64 * first;
-        if times.iter().enumerate().all(exact) {
-            return Ok(first);
+        if format.time_step.is_none() {
+            let time = fields.time(format.time_column, &mut self.times.clock)?;
+            self.times.push(time);
         }
-        // steps that drift slowly pass the test above
-        for (k, &time) in times.iter().enumerate() {
-            let expected = times[0] + k as f64 * mean;
-            if (time - expected).abs() > STEP_TOLERANCE * mean {
-                return Err(unequal(k, drifting(decimal(time), decimal(expected))));
-            }
+        if !all && format.acceleration_column.is_none() && filled > 1 {
+            let needed = "1 (name the column of the acceleration, or read the values along the lines: \
+                 `AlongLinesFormat`, in Python `along_lines`)";
+            return Err(FileFault::count("columns", filled, needed));
         }
-        Ok(decimal(mean))
+        let factor = format.unit.in_metres_per_second_squared();
+        for (samples, &column) in self.columns.iter_mut().zip(&self.chosen) {
+            samples.push(fields.number(column)? * factor);
+        }
+        Ok(())
     }
 
-    /// The error for times that are equally spaced up to rounding; `None` if they are not.
-    fn rounded(&self, mean: f64) -> Option<FileFault> {
-        let resolution = self.clock.resolution()?;
-        let begin = self.times[0];
-        let near = |(k, time): (usize, &f64)| {
-            (time - begin - k as f64 * mean).abs() <= (1.0 + 1e-6) * resolution
-        };
-        let steps = self.times.windows(2).map(|pair| pair[1] - pair[0]);
-        let (least, most) = steps
-            .fold((f64::MAX, 0.0_f64), |(least, most), step| (least.min(step), most.max(step)));
-        // Two times in one unit of the last digit, or several units in each step.
-        let coarse = mean > 0.0 && least == 0.0 && resolution < 1.0;
-        let equal = (coarse || mean > COARSE * resolution)
-            && most - least <= (1.0 + 1e-6) * resolution
-            && self.times.iter().enumerate().all(near);
-        equal.then(|| {
-            let needed =
-                format!("given (`time_step`): times rounded to {resolution} s do not tell it");
-            FileFault::value("time step", format!("near {} s", decimal(mean)), needed)
-        })
+    /// Error if a line has another number of fields than the first one, where that may shift its columns.
+    ///
+    /// In a file without times it also collects the numbers of the line.
+    fn check_fields(
+        &mut self,
+        fields: &LineFields,
+        format: &ColumnFormat,
+        all: bool,
+    ) -> FaultResult<()> {
+        let has_times = format.time_step.is_none();
+        // The cells behind the last comma may be empty in all lines.
+        let found = if all { fields.filled_count() } else { fields.texts.len() };
+        let expected = *self.expected_fields.get_or_insert(found);
+        let must_agree = all || !has_times || fields.may_be_shifted();
+        if found != expected && must_agree {
+            return Err(unequal_columns(found, expected));
+        }
+        if !has_times {
+            let numbers: FaultResult<Vec<f64>> =
+                (1..=self.width).map(|column| fields.number(column)).collect();
+            match numbers {
+                Ok(numbers) => self.numbers.push(&numbers),
+                Err(_) => self.has_words = true,
+            }
+        }
+        Ok(())
     }
 }
 
-/// Columns of accelerations among the `found` ones of the first line.
-fn chosen_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> {
+/// Numbers of the columns of accelerations among the `found` ones of the first line.
+fn acceleration_columns(format: &ColumnFormat, all: bool, found: usize) -> Vec<usize> {
     if !all {
         return vec![format.acceleration_column.unwrap_or(1)];
     }
-    let is_time = |column| format.time_step.is_none() && column == format.time_column;
-    (1..=found).filter(|&column| !is_time(column)).collect()
+    let time_column = format.time_step.is_none().then_some(format.time_column);
+    (1..=found).filter(|&column| time_column != Some(column)).collect()
 }
 
-/// Names of the chosen columns; an error if a title names another unit.
-fn names(
-    format: &ColumnFormat,
-    titles: &ColumnTitles,
-    chosen: &[usize],
-) -> std::result::Result<Vec<String>, FileFault> {
-    if format.time_step.is_none() {
-        titles.check_time(format.time_column)?;
-    }
-    let name = |&column: &usize| {
-        titles.check_acceleration(column, format.unit)?;
-        Ok(titles.name(column).map_or_else(|| format!("column {column}"), str::to_owned))
-    };
-    chosen.iter().map(name).collect()
-}
-
-/// A time step (s) that is not as it must be.
-fn time_step(found: f64, needed: String) -> FileFault {
-    FileFault::value("time step", format!("{} s", decimal(found)), needed)
-}
-
-/// `value` rounded to twelve digits: differences of printed decimals are decimals.
-fn decimal(value: f64) -> f64 {
-    format!("{value:.11e}").parse().unwrap_or(value)
-}
-
-const TEXT: &str = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
+/// Record of El Centro, with times in s and accelerations in g.
+const EL_CENTRO_CSV: &str = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
 
 /// El Centro 1940-05-18, component North–South, in the version of textbooks.
 ///
@@ -376,6 +321,6 @@ pub fn el_centro_1940() -> Record {
         samples: Some(1560),
         ..ColumnFormat::new(AccelerationUnit::StandardGravity)
     };
-    Record::from_reader("El Centro 1940", TEXT.as_bytes(), &format)
+    Record::from_reader("El Centro 1940", EL_CENTRO_CSV.as_bytes(), &format)
         .expect("the embedded record is valid")
 }

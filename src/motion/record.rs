@@ -1,9 +1,9 @@
-//! Equally spaced records of ground acceleration: their parts, their integrals, and CSV.
+//! Records of ground acceleration at equal time steps.
 
 use super::Baseline;
 use super::integral::{Motion, integrate};
 use crate::error::{MemoryError, Result, all_finite, at_least, finite, memory, positive, require};
-use crate::text::column::{Cell, line};
+use crate::text::column::{NumberCell, cell_line};
 use crate::text::csv::Csv;
 
 /// Error for more samples than fit into memory, with their two integrals.
@@ -149,18 +149,18 @@ impl Record {
     pub fn resampled(&self, time_step: f64) -> Result<Self> {
         positive("new time step of the record", time_step)?;
         let duration = self.duration();
-        // slack for a step that divides the duration up to rounding
+        // A step that divides the duration up to rounding adds no interval.
         let intervals = (duration / time_step - 1e-9).ceil().max(1.0);
         check_samples(intervals)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         let count = intervals as usize;
-        let sample = |k: usize| {
+        let mut samples = Vec::with_capacity(count + 1);
+        for k in 0..=count {
             let time = k as f64 * time_step;
-            let rounded =
-                if time - duration < 1e-8 * time_step { time.min(duration) } else { time };
-            self.at(rounded).acceleration
-        };
-        Self::new(time_step, (0..=count).map(sample).collect())
+            let is_within = time - duration < 1e-8 * time_step;
+            samples.push(self.at(if is_within { time.min(duration) } else { time }).acceleration);
+        }
+        Self::new(time_step, samples)
     }
 
     /// Record with all samples multiplied by `factor`, which may be negative.
@@ -184,8 +184,8 @@ impl Record {
     /// [`Error::Input`](crate::Error::Input) unless `peak` is positive and the record is not zero throughout.
     pub fn scaled_to_peak(&self, peak: f64) -> Result<Self> {
         positive("wanted peak acceleration", peak)?;
-        let present = positive("peak acceleration of the record", self.peak_acceleration())?;
-        self.scaled(peak / present)
+        let present_peak = positive("peak acceleration of the record", self.peak_acceleration())?;
+        self.scaled(peak / present_peak)
     }
 
     /// Record with its baseline treated.
@@ -240,8 +240,8 @@ impl Record {
     }
 }
 
-/// Distance of a time from a sample, in steps, that counts as rounding.
-const SLACK: f64 = 1e-6;
+/// Largest distance of a time from a sample, in steps, that counts as rounding.
+const SAMPLE_TIME_TOLERANCE: f64 = 1e-6;
 
 impl Record {
     /// The part between two times (s).
@@ -264,16 +264,18 @@ impl Record {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 ≤ `start` < `end` and `end` is not after the last sample.
     pub fn trimmed(&self, start: f64, end: f64) -> Result<Self> {
-        let (step, last) = (self.time_step(), self.len() - 1);
+        let step = self.time_step();
+        let last = self.len() - 1;
         let needed = "from zero to before the last sample";
         require("start of the part", start, start >= 0.0 && start < self.duration(), needed)?;
-        let needed = "after its start, not after the last sample";
-        require("end of the part", end, end > start && end / step <= last as f64 + SLACK, needed)?;
+        let is_inside = end > start && end / step <= last as f64 + SAMPLE_TIME_TOLERANCE;
+        require("end of the part", end, is_inside, "after its start, not after the last sample")?;
+        let first = (start / step + SAMPLE_TIME_TOLERANCE).floor();
+        let end = (end / step - SAMPLE_TIME_TOLERANCE).ceil().max(0.0);
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
-        let (first, end) = {
-            let first = ((start / step + SLACK).floor() as usize).min(last - 1);
-            (first, ((end / step - SLACK).ceil().max(0.0) as usize).clamp(first + 1, last))
-        };
+        let first = (first as usize).min(last - 1);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=last")]
+        let end = (end as usize).clamp(first + 1, last);
         Self::new(step, self.accelerations()[first..=end].to_vec())
     }
 }
@@ -296,7 +298,7 @@ impl Record {
     pub fn csv(&self) -> Csv {
         let mut text = "time_s,acceleration_m_per_s2\n".to_owned();
         for (k, acceleration) in self.accelerations().iter().enumerate() {
-            text += &line([k as f64 * self.time_step(), *acceleration].map(Cell));
+            text += &cell_line([k as f64 * self.time_step(), *acceleration].map(NumberCell));
         }
         Csv(text)
     }

@@ -6,10 +6,11 @@
 
 use std::io::Read;
 
-use super::block::is_raw;
-use super::fault::{no_acceleration, not_in_header, unprocessed};
+use super::block::is_raw_unit;
+use super::fault::{FaultResult, not_acceleration, not_in_header, unprocessed};
 use super::lines::{
-    Lines, Reason, Series, component, count, push_numbers, record, records, scaled,
+    LineResult, Lines, Series, push_numbers, sample_count, scaled, select_component, to_record,
+    to_records, wrong_count,
 };
 use super::{AccelerationUnit, Record, RecordFormat};
 use crate::error::{FileFault, Result};
@@ -48,81 +49,84 @@ impl Default for SlistFormat {
 
 impl RecordFormat for SlistFormat {
     fn parse(&self, name: &str, source: &mut dyn Read) -> Result<Record> {
-        record(name, component(self.component, read(&mut Lines::new(source), self.unit)))
+        to_record(name, select_component(self.component, read(&mut Lines::new(source), self.unit)))
     }
 
     fn parse_all(&self, name: &str, source: &mut dyn Read) -> Result<Vec<(String, Record)>> {
-        records(name, read(&mut Lines::new(source), self.unit))
+        to_records(name, read(&mut Lines::new(source), self.unit))
     }
 }
 
-/// Header of a series.
-struct Header {
+/// The line before the samples of a series.
+struct SlistHeader {
     name: String,
+    /// Number of samples.
     samples: usize,
     /// Time step, s.
     step: f64,
     unit: AccelerationUnit,
 }
 
-impl Header {
-    fn read(line: &str, known: Option<AccelerationUnit>) -> std::result::Result<Self, FileFault> {
+impl SlistHeader {
+    /// Reads a line; `expected` is the unit if the line names none, and the only one it may name.
+    fn read(line: &str, expected: Option<AccelerationUnit>) -> FaultResult<Self> {
         let fields: Vec<&str> = line.split(',').map(str::trim).collect();
         let name = fields[0].strip_prefix("TIMESERIES").map(str::trim);
         let name = name.ok_or_else(|| FileFault::format(quoted(line), "a line `TIMESERIES …`"))?;
-        let number = |index: usize, word: &str| {
-            let field: &str = fields.get(index)?;
-            finite(field.strip_suffix(word)?.trim_end())
-        };
-        let samples = number(1, "samples").and_then(count);
+        let samples = number_before("samples", fields.get(1)).and_then(sample_count);
         let samples = samples.ok_or_else(|| not_in_header("number of samples"))?;
-        let rate = number(2, "sps").filter(|&rate| rate > 0.0);
+        let rate = number_before("sps", fields.get(2)).filter(|&rate| rate > 0.0);
         let rate = rate.ok_or_else(|| not_in_header("number of samples a second (sps)"))?;
         let layout = fields.get(4).copied().unwrap_or("");
         if layout != "SLIST" {
             return Err(FileFault::format(quoted(layout), "SLIST, samples along the lines"));
         }
         let unit = match fields.get(6).copied().unwrap_or("") {
-            "" => known.ok_or_else(|| not_in_header("unit"))?,
-            name if is_raw(&name.to_lowercase()) => {
+            "" => expected.ok_or_else(|| not_in_header("unit"))?,
+            name if is_raw_unit(&name.to_lowercase()) => {
                 return Err(unprocessed(line, "counts of a recorder"));
             }
             name => {
                 let unit = AccelerationUnit::named(name);
-                let unit = unit.filter(|unit| known.is_none_or(|known| known == *unit));
-                unit.ok_or_else(|| no_acceleration(name))?
+                let unit = unit.filter(|unit| expected.is_none_or(|expected| expected == *unit));
+                unit.ok_or_else(|| not_acceleration(name))?
             }
         };
         Ok(Self { name: name.to_owned(), samples, step: 1.0 / rate, unit })
     }
 }
 
-fn read(lines: &mut Lines, known: Option<AccelerationUnit>) -> Reason<Vec<Series>> {
-    let mut all: Vec<Series> = Vec::new();
-    let mut next = lines.next()?;
-    while let Some(line) = next {
+/// The number before a word that ends a field: `4 samples`.
+fn number_before(word: &str, field: Option<&&str>) -> Option<f64> {
+    finite(field?.strip_suffix(word)?.trim_end())
+}
+
+/// Reads all series; `expected` is the unit of headers that name none.
+fn read(lines: &mut Lines, expected: Option<AccelerationUnit>) -> LineResult<Vec<Series>> {
+    let mut all_series: Vec<Series> = Vec::new();
+    let mut next_line = lines.next()?;
+    while let Some(line) = next_line {
         if line.is_empty() {
-            next = lines.next()?;
+            next_line = lines.next()?;
             continue;
         }
-        let header = Header::read(&line, known).map_err(|why| lines.refuse(why))?;
-        if all.iter().any(|series| series.name == header.name) {
+        let header = lines.with_line_number(SlistHeader::read(&line, expected))?;
+        if all_series.iter().any(|series| series.name == header.name) {
             let found = format!("second piece of {}", quoted(&header.name));
             let needed = "series without gaps: one piece of each";
-            return Err(lines.refuse(FileFault::format(found, needed)));
+            return Err(lines.fault(FileFault::format(found, needed)));
         }
         let mut values = Vec::new();
-        next = lines.next()?;
-        while let Some(line) = next.take_if(|line| !line.starts_with("TIMESERIES")) {
-            push_numbers(&line, &mut values).map_err(|why| lines.refuse(why))?;
-            next = lines.next()?;
+        next_line = lines.next()?;
+        while let Some(line) = next_line.take_if(|line| !line.starts_with("TIMESERIES")) {
+            lines.with_line_number(push_numbers(&line, &mut values))?;
+            next_line = lines.next()?;
         }
         if values.len() != header.samples {
-            let needed = header.samples.to_string();
-            return Err(lines.refuse(FileFault::count("samples", values.len(), needed)));
+            return Err(lines.fault(wrong_count(values.len(), header.samples)));
         }
         let samples = scaled(values, header.unit.in_metres_per_second_squared());
-        all.push(Series { name: header.name, step: header.step, samples });
+        all_series.push(Series { name: header.name, step: header.step, samples });
     }
-    Ok(all)
+    Ok(all_series)
 }

@@ -15,10 +15,10 @@ use crate::error::{Observer, Result, Watch, damping_ratio, positive, require};
 /// Smallest number of substeps in a period.
 const SUBSTEPS_PER_PERIOD: f64 = 40.0;
 /// Largest number of substeps in all; shorter periods are an error.
-const MOST_SUBSTEPS: f64 = 1e9;
+const MAX_SUBSTEPS: f64 = 1e9;
 
-/// Substeps between two calls of an observer.
-const HEARD: usize = 1 << 20;
+/// Number of substeps between two calls of an observer.
+const SUBSTEPS_PER_REPORT: usize = 1 << 20;
 
 /// Largest response of one oscillator during a record and one period after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,10 +57,10 @@ pub struct CoarseSpectrum {
 impl fmt::Display for CoarseSpectrum {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { period, time_step } = self;
-        let least = SAMPLES_PER_PERIOD * time_step;
+        let min_period = SAMPLES_PER_PERIOD * time_step;
         write!(
             f,
-            "below a period of {least:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
+            "below a period of {min_period:.3} s the spectrum is not exact, at {period:.3} s by far: the record has fewer \
              than ten time steps of {time_step} s in a period; a floor's spectrum needs a run with a shorter step"
         )
     }
@@ -79,7 +79,8 @@ impl Record {
     /// # Ok::<(), &str>(())
     /// ```
     pub fn coarse_spectrum(&self, periods: &[f64]) -> Option<CoarseSpectrum> {
-        let (period, time_step) = (periods.iter().copied().reduce(f64::min)?, self.time_step());
+        let period = periods.iter().copied().reduce(f64::min)?;
+        let time_step = self.time_step();
         let is_coarse = period < SAMPLES_PER_PERIOD * time_step * (1.0 - 1e-9);
         is_coarse.then_some(CoarseSpectrum { period, time_step })
     }
@@ -111,76 +112,108 @@ impl Record {
         observer: &mut Observer<'_>,
     ) -> Result<Vec<SpectralOrdinate>> {
         let total = self.len().saturating_mul(periods.len());
-        let watch = &mut Watch::new("response spectrum", total, observer);
+        let progress = &mut Watch::new("response spectrum", total, observer);
         damping_ratio("damping ratio of a response spectrum", damping)?;
-        let mut found = Vec::with_capacity(periods.len());
+        let mut spectrum = Vec::with_capacity(periods.len());
         for (number, &period) in periods.iter().enumerate() {
-            let mut after = |sample: usize| watch.reach(self.len() * number + sample);
-            found.push(self.ordinate(period, damping, &mut after)?);
-            after(self.len())?;
+            let mut report = |sample: usize| progress.reach(self.len() * number + sample);
+            spectrum.push(self.spectral_ordinate(period, damping, &mut report)?);
+            report(self.len())?;
         }
-        Ok(found)
+        Ok(spectrum)
     }
 
     /// Response of one oscillator.
     ///
-    /// After each block of substeps it calls `after` with the number of samples done.
-    fn ordinate(
+    /// After each block of substeps it calls `report` with the number of samples done.
+    fn spectral_ordinate(
         &self,
         period: f64,
         damping: f64,
-        after: &mut dyn FnMut(usize) -> Result<()>,
+        report: &mut dyn FnMut(usize) -> Result<()>,
     ) -> Result<SpectralOrdinate> {
         positive("period of a response spectrum", period)?;
         let substeps = (SUBSTEPS_PER_PERIOD * self.time_step() / period).ceil().max(1.0);
         let frequency = std::f64::consts::TAU / period;
-        let known = substeps * (self.len() as f64 + period / self.time_step()) < MOST_SUBSTEPS;
-        let quantity = "period of a response spectrum";
+        let total = substeps * (self.len() as f64 + period / self.time_step());
+        let is_possible = total < MAX_SUBSTEPS && (frequency * frequency).is_finite();
         let needed = "neither so short nor so long that 1e9 substeps would not do";
-        require(quantity, period, known && (frequency * frequency).is_finite(), needed)?;
+        require("period of a response spectrum", period, is_possible, needed)?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
-        let (substeps, free) = (substeps as usize, (period / self.time_step()).ceil() as usize);
-        let oscillator = Oscillator::new(frequency, damping, self.time_step() / substeps as f64);
-        let mut motion = Response { displacement: 0.0, velocity: 0.0 };
-        let (mut displacement, mut acceleration) = (0.0_f64, 0.0_f64);
-        let mut made = 0;
-        let mut march = |sample: usize, ground: f64, slope: f64| -> Result<()> {
-            for k in 0..substeps {
-                made += 1;
-                if made % HEARD == 0 {
-                    after(sample)?;
-                }
-                let now = ground + slope * (k as f64 / substeps as f64);
-                let next = oscillator.next(motion, now, slope / substeps as f64);
-                let then = now + slope / substeps as f64;
-                let ends = [(motion, now), (next, then)];
-                displacement = displacement.max(largest_between(
-                    ends.map(|(m, _)| [m.displacement, oscillator.step * m.velocity]),
-                ));
-                acceleration = acceleration
-                    .max(largest_between(ends.map(|(m, ground)| oscillator.total(m, ground))));
-                motion = next;
-            }
-            Ok(())
+        let substeps = substeps as usize;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 1e9")]
+        let free_steps = (period / self.time_step()).ceil() as usize;
+        let mut march = OscillatorMarch {
+            oscillator: Oscillator::new(frequency, damping, self.time_step() / substeps as f64),
+            substeps,
+            substeps_done: 0,
+            motion: RelativeMotion { displacement: 0.0, velocity: 0.0 },
+            max_displacement: 0.0,
+            max_acceleration: 0.0,
         };
         for (sample, pair) in self.accelerations().windows(2).enumerate() {
-            march(sample, pair[0], pair[1] - pair[0])?;
+            march.step(pair[0], pair[1] - pair[0], &mut || report(sample))?;
         }
-        for _ in 0..free {
-            march(self.len(), 0.0, 0.0)?;
+        for _ in 0..free_steps {
+            march.step(0.0, 0.0, &mut || report(self.len()))?;
         }
+        let displacement = march.max_displacement;
         Ok(SpectralOrdinate {
             period,
             displacement,
             pseudo_velocity: frequency * displacement,
             pseudo_acceleration: frequency * frequency * displacement,
-            acceleration,
+            acceleration: march.max_acceleration,
         })
     }
 }
 
+/// Motion of an oscillator through a record, and its largest responses so far.
+struct OscillatorMarch {
+    oscillator: Oscillator,
+    /// Number of substeps in a time step of the record.
+    substeps: usize,
+    substeps_done: usize,
+    motion: RelativeMotion,
+    max_displacement: f64,
+    max_acceleration: f64,
+}
+
+impl OscillatorMarch {
+    /// Advances by one time step, in which the ground's acceleration grows from `ground` by `growth`.
+    fn step(
+        &mut self,
+        ground: f64,
+        growth: f64,
+        report: &mut dyn FnMut() -> Result<()>,
+    ) -> Result<()> {
+        let oscillator = &self.oscillator;
+        let substep_growth = growth / self.substeps as f64;
+        for k in 0..self.substeps {
+            self.substeps_done += 1;
+            if self.substeps_done % SUBSTEPS_PER_REPORT == 0 {
+                report()?;
+            }
+            let ground_at_start = ground + growth * (k as f64 / self.substeps as f64);
+            let ground_at_end = ground_at_start + substep_growth;
+            let next = oscillator.next(self.motion, ground_at_start, substep_growth);
+            let displacements = [self.motion, next]
+                .map(|motion| [motion.displacement, oscillator.step * motion.velocity]);
+            let accelerations = [
+                oscillator.total_acceleration(self.motion, ground_at_start),
+                oscillator.total_acceleration(next, ground_at_end),
+            ];
+            self.max_displacement = self.max_displacement.max(max_of_cubic(displacements));
+            self.max_acceleration = self.max_acceleration.max(max_of_cubic(accelerations));
+            self.motion = next;
+        }
+        Ok(())
+    }
+}
+
+/// Motion of an oscillator relative to the ground.
 #[derive(Clone, Copy)]
-struct Response {
+struct RelativeMotion {
     displacement: f64,
     velocity: f64,
 }
@@ -189,9 +222,11 @@ struct Response {
 struct Oscillator {
     frequency: f64,
     damping: f64,
+    /// Substep h, s.
     step: f64,
-    /// e^{−ζωh} cos ω_d h and e^{−ζωh} sin(ω_d h)/ω_d.
+    /// e^{−ζωh} cos ω_d h.
     cosine: f64,
+    /// e^{−ζωh} sin(ω_d h)/ω_d.
     sine: f64,
 }
 
@@ -204,8 +239,8 @@ impl Oscillator {
         Self { frequency, damping, step, cosine, sine }
     }
 
-    /// Response a substep later; the ground's acceleration is `ground` now and grows by `growth`.
-    fn next(&self, motion: Response, ground: f64, growth: f64) -> Response {
+    /// Motion a substep later; the ground's acceleration is `ground` now and grows by `growth`.
+    fn next(&self, motion: RelativeMotion, ground: f64, growth: f64) -> RelativeMotion {
         let Self { frequency, damping, step, cosine, sine } = *self;
         let square = frequency * frequency;
         let half_width = damping * frequency;
@@ -214,15 +249,15 @@ impl Oscillator {
         let p = -ground / square - 2.0 * damping * q / frequency;
         let u = motion.displacement - p;
         let v = motion.velocity - q;
-        let swing = v + half_width * u;
-        let displacement = cosine * u + sine * swing;
+        let damped_velocity = v + half_width * u;
+        let displacement = cosine * u + sine * damped_velocity;
         let velocity = cosine * v - sine * (half_width * v + square * u);
-        Response { displacement: displacement + p + q * step, velocity: velocity + q }
+        RelativeMotion { displacement: displacement + p + q * step, velocity: velocity + q }
     }
 
     /// Total acceleration, and its rate times the substep.
-    fn total(&self, motion: Response, ground: f64) -> [f64; 2] {
-        let Response { displacement: u, velocity: v } = motion;
+    fn total_acceleration(&self, motion: RelativeMotion, ground: f64) -> [f64; 2] {
+        let RelativeMotion { displacement: u, velocity: v } = motion;
         let square = self.frequency * self.frequency;
         let total = -square * u - 2.0 * self.damping * self.frequency * v;
         let relative = total - ground;
@@ -233,14 +268,15 @@ impl Oscillator {
 /// Largest magnitude of a cubic over [0, 1].
 ///
 /// The cubic has the values and slopes `[value, slope]` at its two ends.
-fn largest_between(ends: [[f64; 2]; 2]) -> f64 {
+fn max_of_cubic(ends: [[f64; 2]; 2]) -> f64 {
     let [[f0, s0], [f1, s1]] = ends;
     let at_ends = f0.abs().max(f1.abs());
     if s0 * s1 >= 0.0 {
         return at_ends;
     }
     // f = f0 + s0 x + b x² + c x³; one root of f' lies between.
-    let (b, c) = (3.0 * (f1 - f0) - 2.0 * s0 - s1, 2.0 * (f0 - f1) + s0 + s1);
+    let b = 3.0 * (f1 - f0) - 2.0 * s0 - s1;
+    let c = 2.0 * (f0 - f1) + s0 + s1;
     super::quadratic_roots_within(s0, 2.0 * b, 3.0 * c, 1.0)
         .into_iter()
         .flatten()

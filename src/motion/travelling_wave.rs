@@ -1,7 +1,7 @@
 //! Free fields that run along the surface.
 
 use super::Record;
-use super::free_field::{FreeField, differenced};
+use super::free_field::{FreeField, difference_velocity};
 #[cfg(feature = "embedded")]
 use crate::error::require_part;
 use crate::error::{Result, finite, require};
@@ -23,8 +23,10 @@ pub struct TravellingWave {
     field: Box<dyn FreeField>,
     slowness: f64,
     origin: f64,
-    /// Cosine and sine of the azimuth.
-    direction: [f64; 2],
+    /// Cosine of the azimuth.
+    cos: f64,
+    /// Sine of the azimuth.
+    sin: f64,
 }
 
 short_debug! {
@@ -49,7 +51,7 @@ impl TravellingWave {
         let needed = "not zero (infinite: everywhere at once)";
         require("apparent velocity", apparent_velocity, slowness.is_finite(), needed)?;
         let origin = finite("origin of a wave", origin)?;
-        Ok(Self { field: Box::new(field), slowness, origin, direction: [1.0, 0.0] })
+        Ok(Self { field: Box::new(field), slowness, origin, cos: 1.0, sin: 0.0 })
     }
 
     /// Rotates this wave about the vertical axis, for a ground in plan.
@@ -78,8 +80,8 @@ impl TravellingWave {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless `azimuth` is finite.
     pub fn with_azimuth(self, azimuth: f64) -> Result<Self> {
-        let (sin, cos) = finite("azimuth of a wave", azimuth)?.sin_cos();
-        Ok(Self { direction: [cos, sin], ..self })
+        finite("azimuth of a wave", azimuth)?;
+        Ok(Self { cos: azimuth.cos(), sin: azimuth.sin(), ..self })
     }
 
     /// Slowness (s/m) along x and origin (m) of a wave that runs along x.
@@ -87,33 +89,32 @@ impl TravellingWave {
     pub(crate) fn along(&self) -> Result<[f64; 2]> {
         let needed = "none: waves of a ground in the plane run along x and move it along x and up";
         require_part("motion of a wave along y", !self.moves_across(), needed)?;
-        let [cos, _] = self.direction;
-        Ok([self.slowness * cos, self.origin * cos])
+        Ok([self.slowness * self.cos, self.origin * self.cos])
     }
 
     /// Time (s) that the wave takes from `origin` to a place.
     fn delay(&self, [x, y]: [f64; 2]) -> f64 {
-        let [cos, sin] = self.direction;
-        self.slowness * (cos * x + sin * y - self.origin)
+        self.slowness * (self.cos * x + self.sin * y - self.origin)
     }
 }
 
 impl FreeField for TravellingWave {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        let [along, _, up] = self.displacement_at([x, 0.0], time);
-        [along, up]
+        let displacement = self.displacement_at([x, 0.0], time);
+        [displacement[0], displacement[2]]
     }
 
-    fn displacement_at(&self, place: [f64; 2], time: f64) -> [f64; 3] {
-        let ([cos, sin], [x, y]) = (self.direction, place);
-        let own = [self.origin, cos * y - sin * x];
-        let [along, across, up] = self.field.displacement_at(own, time - self.delay(place));
+    fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
+        let Self { cos, sin, .. } = *self;
+        let place_in_field = [self.origin, cos * y - sin * x];
+        let [along, across, up] =
+            self.field.displacement_at(place_in_field, time - self.delay([x, y]));
         [cos * along - sin * across, sin * along + cos * across, up]
     }
 
     fn moves_across(&self) -> bool {
         // The sine of π is not exactly zero.
-        self.direction[1].abs() > f64::EPSILON || self.field.moves_across()
+        self.sin.abs() > f64::EPSILON || self.field.moves_across()
     }
 
     fn records(&self) -> Vec<&Record> {
@@ -121,10 +122,10 @@ impl FreeField for TravellingWave {
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        if self.direction == [1.0, 0.0] {
+        if self.cos == 1.0 && self.sin == 0.0 {
             self.field.velocity(self.origin, time - self.delay([x, 0.0]))
         } else {
-            differenced(self, x, time)
+            difference_velocity(self, x, time)
         }
     }
 }

@@ -8,10 +8,10 @@ use crate::text::decimal::finite;
 use crate::text::words::unknown;
 
 /// Names of the second, in lower case.
-pub(super) const SECONDS: [&str; 5] = ["s", "sec", "secs", "second", "seconds"];
+pub(super) const SECOND_NAMES: [&str; 5] = ["s", "sec", "secs", "second", "seconds"];
 
 /// Names of the lengths in units of acceleration, in lower case.
-const LENGTHS: [(&str, AccelerationUnit); 14] = [
+const LENGTH_NAMES: [(&str, AccelerationUnit); 14] = [
     ("m", AccelerationUnit::MetrePerSecondSquared),
     ("meter", AccelerationUnit::MetrePerSecondSquared),
     ("meters", AccelerationUnit::MetrePerSecondSquared),
@@ -29,25 +29,23 @@ const LENGTHS: [(&str, AccelerationUnit); 14] = [
 ];
 
 /// Units of other quantities than acceleration, and multiples of g and gal, in lower case, between strokes.
-const OTHERS: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|milliseconds|µs|μs|min|mins|minute|\
+const OTHER_UNIT_NAMES: &str = "s|sec|secs|second|seconds|ms|msec|msecs|millisecond|milliseconds|µs|μs|min|mins|minute|\
     minutes|h|hr|hrs|hour|hours|day|days|sample|samples|hz|m|cm|mm|km|in|inch|inches|ft|feet|mg|milli-g|millig|\
     milli g|mgal|mgals|milligal|%|%g|count|counts|cnt|cnts|v|volt|volts|mv|mvolts|kine|kines";
 
-/// Longest name of a unit, bytes.
-///
-/// Longer texts are not compared with the names.
-pub(super) const LONGEST: usize = 48;
+/// Largest length of a unit's name, bytes; longer texts are not compared.
+pub(super) const MAX_UNIT_NAME_BYTES: usize = 48;
 
 impl AccelerationUnit {
     /// The unit with this whole name in files, in upper or lower case: `cm/s2`, `m s^-2`, `g`.
     pub(super) fn named(name: &str) -> Option<Self> {
-        if name.len() > LONGEST {
+        if name.len() > MAX_UNIT_NAME_BYTES {
             return None;
         }
         match name.trim().trim_end_matches('.').to_lowercase().as_str() {
             "g" | "g's" | "gs" => Some(Self::StandardGravity),
             "gal" | "gals" => Some(Self::Gal),
-            _ => rate(name).filter(|&(_, power)| power == 2).map(|(unit, _)| unit),
+            _ => length_per_time(name).filter(|&(_, power)| power == 2).map(|(unit, _)| unit),
         }
     }
 }
@@ -74,60 +72,65 @@ impl FromStr for AccelerationUnit {
 /// Whether a text is the name of a unit, of acceleration or another one; a letter alone only in lower case.
 pub(super) fn is_unit(text: &str) -> bool {
     let text = text.trim().trim_end_matches('.');
-    if text.len() > LONGEST {
+    if text.len() > MAX_UNIT_NAME_BYTES {
         return false;
     }
     let lower = text.to_lowercase();
-    let other = is_other(&lower) && (text.len() > 1 || lower == text);
-    other || AccelerationUnit::named(text).is_some() || is_ratio(text) || is_multiple(text)
+    let is_other = is_other_unit(&lower) && (text.len() > 1 || lower == text);
+    is_other || AccelerationUnit::named(text).is_some() || is_ratio(text) || is_multiple(text)
 }
 
-fn is_other(name: &str) -> bool {
-    OTHERS.split('|').any(|other| other == name)
+/// Whether a name in lower case is among [`OTHER_UNIT_NAMES`].
+fn is_other_unit(name: &str) -> bool {
+    OTHER_UNIT_NAMES.split('|').any(|other| other == name)
 }
 
 /// Whether a text is a ratio of units: `cm/s`, `m/s3`, `rad/s2`, `V/g`.
 pub(super) fn is_ratio(text: &str) -> bool {
-    if text.len() > LONGEST {
+    if text.len() > MAX_UNIT_NAME_BYTES {
         return false;
     }
     let lower = text.to_lowercase();
-    let known = |part: &str| {
-        let part = part.trim().trim_end_matches(['2', '3', '²', '³']).trim_end_matches('^');
-        // `H/V` is a ratio of components.
-        part != "h" && (is_other(part) || ["g", "gal", "rad", "deg"].contains(&part))
-    };
-    rate(text).is_some() || lower.contains('/') && lower.split('/').all(known)
+    length_per_time(text).is_some() || lower.contains('/') && lower.split('/').all(is_unit_power)
+}
+
+/// Whether a text in lower case is a unit or its square or cube.
+fn is_unit_power(text: &str) -> bool {
+    let unit = text.trim().trim_end_matches(['2', '3', '²', '³']).trim_end_matches('^');
+    // `H/V` is a ratio of components.
+    unit != "h" && (is_other_unit(unit) || ["g", "gal", "rad", "deg"].contains(&unit))
 }
 
 /// A length over a power of the second: the unit of acceleration with this length, and the power.
-fn rate(name: &str) -> Option<(AccelerationUnit, u32)> {
+fn length_per_time(name: &str) -> Option<(AccelerationUnit, u32)> {
     let name = name.trim().trim_end_matches('.');
-    let mut joined = String::new();
+    let mut compact = String::new();
     let spelled = name.to_lowercase().replace("**", "");
     let spelled = ["_per_", " per "].iter().fold(spelled, |text, per| text.replace(per, "/"));
-    let mut parted = false;
-    for sign in spelled.chars() {
-        match sign {
+    let mut has_separator = false;
+    for character in spelled.chars() {
+        match character {
             // A `²` that is not in UTF-8 is read as U+FFFD.
-            '²' | '\u{fffd}' => joined.push('2'),
-            '³' => joined.push('3'),
-            '¹' => joined.push('1'),
-            '⁻' | '−' => joined.push('-'),
-            ' ' | '\t' | '_' | '.' | '·' | '⋅' | '*' => parted = true,
+            '²' | '\u{fffd}' => compact.push('2'),
+            '³' => compact.push('3'),
+            '¹' => compact.push('1'),
+            '⁻' | '−' => compact.push('-'),
+            ' ' | '\t' | '_' | '.' | '·' | '⋅' | '*' => has_separator = true,
             '^' | '(' | ')' | '{' | '}' | '$' => {}
-            other => joined.push(other),
+            other => compact.push(other),
         }
     }
     // `MS-2` is a channel, `ms-2` a unit.
-    let bare = spelled == name;
-    LENGTHS.iter().find_map(|&(length, unit)| {
-        let rest = joined.strip_prefix(length)?;
+    let is_lower_case = spelled == name;
+    LENGTH_NAMES.iter().find_map(|&(length, unit)| {
+        let rest = compact.strip_prefix(length)?;
         let power = match rest.strip_prefix('/') {
-            Some(rest) => divided(rest),
-            None => match rest.strip_prefix('p').filter(|_| bare) {
-                Some(rest) => divided(rest),
-                None if parted || bare && length.len() <= 2 && length != "in" => multiplied(rest),
+            Some(rest) => power_of_divisor(rest),
+            None => match rest.strip_prefix('p').filter(|_| is_lower_case) {
+                Some(rest) => power_of_divisor(rest),
+                None if has_separator || is_lower_case && length.len() <= 2 && length != "in" => {
+                    negative_power(rest)
+                }
                 None => None,
             },
         };
@@ -135,19 +138,19 @@ fn rate(name: &str) -> Option<(AccelerationUnit, u32)> {
     })
 }
 
-/// The power of the second behind a length and a stroke: 2 of `s2`, `s/s` or `s-2`.
-fn divided(text: &str) -> Option<u32> {
-    SECONDS.iter().find_map(|second| match text.strip_prefix(second)? {
+/// The power of the second by which a length is divided: 2 of `s2`, `s/s` or `s-2`.
+fn power_of_divisor(text: &str) -> Option<u32> {
+    SECOND_NAMES.iter().find_map(|second| match text.strip_prefix(second)? {
         "" => Some(1),
         "2" | "-2" => Some(2),
         "3" | "-3" => Some(3),
-        rest => SECONDS.contains(&rest.trim_start_matches('/')).then_some(2),
+        rest => SECOND_NAMES.contains(&rest.trim_start_matches('/')).then_some(2),
     })
 }
 
 /// The power of the second that multiplies a length, with its sign changed: 2 of `s-2`.
-fn multiplied(text: &str) -> Option<u32> {
-    SECONDS.iter().find_map(|second| match text.strip_prefix(second)? {
+fn negative_power(text: &str) -> Option<u32> {
+    SECOND_NAMES.iter().find_map(|second| match text.strip_prefix(second)? {
         "-1" => Some(1),
         "2" | "-2" => Some(2),
         "3" | "-3" => Some(3),
@@ -158,26 +161,33 @@ fn multiplied(text: &str) -> Option<u32> {
 /// Whether a text is a unit of acceleration with a factor: `10^-3 g`, `g/1000`, `m/s2 x 100`, `% of g`.
 fn is_multiple(text: &str) -> bool {
     let lower = text.to_lowercase();
-    let words = ["%", "percent", "per cent", "milli"];
-    let named = words.iter().filter_map(|word| lower.strip_prefix(word)).any(|rest| {
-        let rest = rest.trim_start();
-        AccelerationUnit::named(rest.strip_prefix("of ").unwrap_or(rest)).is_some()
-    });
-    let signs = |text: &str, first: &[char]| {
-        let text = text.trim();
-        text.contains(|sign: char| sign.is_ascii_digit())
-            && text.chars().all(|sign| sign.is_ascii_digit() || "+-.^*/x×·e ".contains(sign))
-            && (text.starts_with(first) || text.contains(['^', '*', 'x', '×']))
-    };
-    named
-        || lower.char_indices().skip(1).any(|(at, _)| {
-            let (head, tail) = lower.split_at(at);
-            // `50g` is the level of a centrifuge.
-            let small = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
-            AccelerationUnit::named(tail).is_some() && (small || signs(head, &[]))
-                || AccelerationUnit::named(head).is_some()
-                    && signs(tail, &['/', '*', 'x', '×', '·'])
-        })
+    for word in ["%", "percent", "per cent", "milli"] {
+        if let Some(rest) = lower.strip_prefix(word) {
+            let rest = rest.trim_start();
+            let unit = rest.strip_prefix("of ").unwrap_or(rest);
+            if AccelerationUnit::named(unit).is_some() {
+                return true;
+            }
+        }
+    }
+    lower.char_indices().skip(1).any(|(position, _)| {
+        let head = &lower[..position];
+        let tail = &lower[position..];
+        // `50g` is the level of a centrifuge.
+        let is_small = finite(head.trim()).is_some_and(|factor| factor.abs() < 1.0);
+        let has_factor_before = is_small || is_factor(head, &[]);
+        let has_factor_behind = is_factor(tail, &['/', '*', 'x', '×', '·']);
+        AccelerationUnit::named(tail).is_some() && has_factor_before
+            || AccelerationUnit::named(head).is_some() && has_factor_behind
+    })
+}
+
+/// Whether a text is a factor: a number that begins with one of the `operators`, or contains one.
+fn is_factor(text: &str, operators: &[char]) -> bool {
+    let text = text.trim();
+    text.contains(|character: char| character.is_ascii_digit())
+        && text.chars().all(|sign| sign.is_ascii_digit() || "+-.^*/x×·e ".contains(sign))
+        && (text.starts_with(operators) || text.contains(['^', '*', 'x', '×']))
 }
 
 #[cfg(test)]

@@ -2,33 +2,35 @@
 
 use std::fmt::Write;
 
-use super::deformed::{OPACITY, SOIL, SURFACE, bounds, check_dimension, places};
-use super::marks::{self, ASIDE, hex};
-use super::shown::shown;
+use super::deformed::{FACE_OPACITY, SOIL_COLOR, SURFACE_COLOR, bounds, check_dimension, places};
+use super::marks::{self, KEY_LEFT, PixelBox, hex};
+use super::shown::ShownStates;
 use super::svg::{Svg, changes, escaped, polygon};
-use super::text_width::{fitted, short, width};
+use super::text_width::{fitted, length_text, short, width};
 use super::trench;
-use super::view::View;
+use super::view::StructureView;
 use crate::error::{Result, positive, require, require_part};
 use crate::geometry::far_ends;
 use crate::results::{DeformedShape, TimeSeries};
 
-const WIDTH: f64 = 940.0;
-const HEIGHT: f64 = 640.0;
-/// Box of the structure, pixels: left, top, right, bottom.
-const BOX: [f64; 4] = [40.0, 60.0, 690.0, 520.0];
+/// Width of the picture, pixels.
+const PICTURE_WIDTH: f64 = 940.0;
+/// Height of the picture, pixels.
+const PICTURE_HEIGHT: f64 = 640.0;
+/// Rectangle of the structure.
+const STRUCTURE_BOX: PixelBox = PixelBox { left: 40.0, top: 60.0, right: 690.0, bottom: 520.0 };
 /// Largest number of frames: browsers cannot play larger files smoothly.
-const MOST_FRAMES: usize = 600;
-/// Largest number of changes of the clock.
-const MOST_TIMES: usize = 150;
+const MAX_FRAMES: usize = 600;
+/// Largest number of texts of the clock.
+const MAX_CLOCK_TEXTS: usize = 150;
 /// Width of the soil drawn beside a trench, over the width of the trench.
-const ROOM: f64 = 0.15;
+const TRENCH_SIDE_RATIO: f64 = 0.15;
 
 /// The structure in motion with the contact modes of its base, as an animation.
 ///
 /// Displacements are relative to the ground and multiplied by `magnification`. The picture contains the surface of the
-/// soil, the contact mode of every element below it or behind walls, a clock, and a bar with the scales of lengths and of displacements.
-/// One second of the run takes `slowness` seconds.
+/// soil, the contact mode of every element below it or behind walls, a clock, and a bar with the scales of
+/// lengths and of displacements. One second of the run takes `slowness` seconds.
 ///
 /// In plan the view is from the front, the right and above, with one scale for all lengths. Shells and sides of solids
 /// hide most of what lies behind them. The elements are drawn below the structure, and again in a small plan at the side.
@@ -52,37 +54,41 @@ pub fn animation(
     let frames: Vec<_> = time_series.motion_frames().collect();
     require_part("animation", frames.len() > 1, "tell the recorder to keep the motion, and run")?;
     let needed = "600 or fewer: keep fewer of them";
-    require("frames of an animation", frames.len() as f64, frames.len() <= MOST_FRAMES, needed)?;
+    require("frames of an animation", frames.len() as f64, frames.len() <= MAX_FRAMES, needed)?;
     check_dimension(shape, time_series)?;
     let times: Vec<f64> = frames.iter().map(|frame| frame.time).collect();
-    let view = View::whole(time_series.up());
-    let seen = |frame| Ok(view.all(&places(shape, frame, magnification)?));
-    let moved: Vec<Vec<[f64; 2]>> = frames.iter().map(seen).collect::<Result<_>>()?;
+    let view = StructureView::whole(time_series.up());
+    let mut moved: Vec<Vec<[f64; 2]>> = Vec::with_capacity(frames.len());
+    for frame in &frames {
+        moved.push(view.all(&places(shape, frame, magnification)?));
+    }
     let duration = format!("{:.3}s", (times[times.len() - 1] - times[0]) * slowness);
 
     let mut out = head(title);
     let screen = match view {
-        View::Slanted => {
+        StructureView::Slanted => {
             let floor = Floor::new(time_series);
             let screen = Screen::around(&moved, &view.all(&floor.corners(floor.margin)));
             out += &floor.draw(time_series, &screen, frames.len(), &duration);
             screen
         }
-        View::AlongX | View::AlongY => {
+        StructureView::AlongX | StructureView::AlongY => {
             let trench = trench::outline(time_series.elements());
-            let mut others = vec![[moved[0][0][0], 0.0]];
+            let mut surface = vec![[moved[0][0][0], 0.0]];
             if let Some([first, .., last]) = trench {
-                // Room for marks.
-                let side = ROOM * (last[0] - first[0]);
-                others.extend([[first[0] - side, 0.0], [last[0] + side, 0.0]]);
+                // Space for the marks of the walls.
+                let side = TRENCH_SIDE_RATIO * (last[0] - first[0]);
+                surface.extend([[first[0] - side, 0.0], [last[0] + side, 0.0]]);
             }
-            let screen = Screen::around(&moved, &others);
+            let screen = Screen::around(&moved, &surface);
             out += &screen.ground(trench);
             out += &marks::base(
                 time_series,
-                (screen.scale, |own| screen.place(own)),
-                BOX[3],
-                (frames.len(), &duration),
+                screen.scale,
+                |place| screen.place(place),
+                STRUCTURE_BOX.bottom,
+                frames.len(),
+                &duration,
             );
             screen
         }
@@ -95,9 +101,13 @@ pub fn animation(
 
 /// Scale and origin of metres on the screen.
 struct Screen {
+    /// Pixels per metre.
     scale: f64,
+    /// Left end of the structure, pixels.
     left: f64,
+    /// Lower end of the structure, pixels.
     bottom: f64,
+    /// The point at the left and lower ends, m.
     origin: [f64; 2],
 }
 
@@ -108,17 +118,23 @@ impl Screen {
         all.extend(others);
         let bounds = bounds(&all);
         let sides = bounds.map(|[low, high]| (high - low).max(1e-6));
-        let [left, top, right, bottom] = BOX;
+        let PixelBox { left, top, right, bottom } = STRUCTURE_BOX;
         let scale = ((right - left) / sides[0]).min((bottom - top) / sides[1]);
         let left = left + 0.5 * (right - left - scale * sides[0]);
         Self { scale, left, bottom, origin: bounds.map(|[low, _]| low) }
     }
 
+    /// Pixels of a place in m.
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [
             self.left + self.scale * (x - self.origin[0]),
             self.bottom - self.scale * (y - self.origin[1]),
         ]
+    }
+
+    /// Pixels of corners (x, height, y) on the floor, in the slanted view.
+    fn corners(&self, corners: [[f64; 3]; 4]) -> [[f64; 2]; 4] {
+        corners.map(|corner| self.place(StructureView::Slanted.project(corner)))
     }
 
     /// The cells at all instants; those that are faces hide what was drawn before.
@@ -129,12 +145,14 @@ impl Screen {
         moved: &[Vec<[f64; 2]>],
         duration: &str,
     ) -> String {
-        let (at_once, fill) = if are_faces { (1, "#fff") } else { (cells.len().max(1), "none") };
+        // Faces are drawn one by one, so that each hides those behind it.
+        let cells_per_path = if are_faces { 1 } else { cells.len().max(1) };
+        let fill = if are_faces { "#fff" } else { "none" };
         let mut out = format!(
-            "<g fill=\"{fill}\" fill-opacity=\"{OPACITY}\" stroke=\"#1f77b4\" stroke-width=\"1.2\" \
+            "<g fill=\"{fill}\" fill-opacity=\"{FACE_OPACITY}\" stroke=\"#1f77b4\" stroke-width=\"1.2\" \
              stroke-linejoin=\"round\">\n"
         );
-        for cells in cells.chunks(at_once) {
+        for cells in cells.chunks(cells_per_path) {
             let paths: Vec<String> = moved.iter().map(|places| self.path(cells, places)).collect();
             let _ = writeln!(
                 out,
@@ -152,8 +170,9 @@ impl Screen {
         let mut path = String::new();
         for corners in cells {
             for (k, &corner) in corners.iter().enumerate() {
-                let [x, y] = self.place(places[corner]);
-                let _ = write!(path, "{}{x:.1} {y:.1}", if k == 0 { 'M' } else { 'L' });
+                let place = self.place(places[corner]);
+                let command = if k == 0 { 'M' } else { 'L' };
+                let _ = write!(path, "{command}{:.1} {:.1}", place[0], place[1]);
             }
             if corners.len() > 2 {
                 path.push('Z');
@@ -164,38 +183,39 @@ impl Screen {
 
     /// The soil and its surface, with the outline of a trench.
     fn ground(&self, trench: Option<[[f64; 2]; 4]>) -> String {
-        let [left, _, right, bottom] = BOX;
-        let [_, surface] = self.place([0.0; 2]);
-        let mut cut = String::new();
-        for [x, y] in trench.iter().flatten().map(|own| self.place(*own)) {
-            let _ = write!(cut, "L{x:.1} {y:.1}");
+        let PixelBox { left, right, bottom, .. } = STRUCTURE_BOX;
+        let surface = self.place([0.0; 2])[1];
+        let mut trench_path = String::new();
+        for [x, y] in trench.iter().flatten().map(|corner| self.place(*corner)) {
+            let _ = write!(trench_path, "L{x:.1} {y:.1}");
         }
         format!(
             "<rect x=\"{left}\" y=\"{surface:.1}\" width=\"{}\" height=\"{:.1}\" fill=\"{}\"/>\n\
-             <path stroke=\"{}\" stroke-width=\"1.5\" fill=\"#fff\" d=\"M{left} {surface:.1}{cut}H{right}\"/>\n",
+             <path stroke=\"{}\" stroke-width=\"1.5\" fill=\"#fff\" d=\"M{left} {surface:.1}{trench_path}H{right}\"/>\n",
             right - left,
             bottom + 30.0 - surface,
-            hex(SOIL),
-            hex(SURFACE)
+            hex(SOIL_COLOR),
+            hex(SURFACE_COLOR)
         )
     }
 
     /// A bar with its length in metres, for the structure and for its displacements.
     fn bar(&self, magnification: f64) -> String {
-        let length = round_below(150.0 / self.scale);
-        let (end, y) = (ASIDE + self.scale * length, 300.0);
+        let length = round_down(150.0 / self.scale);
+        let end = KEY_LEFT + self.scale * length;
+        let y = 300.0;
         format!(
             "<path fill=\"none\" stroke=\"#444\" stroke-width=\"2\" \
-             d=\"M{ASIDE} {}v10M{ASIDE} {y}H{end:.1}M{end:.1} {}v10\"/>\n\
-             <text x=\"{ASIDE}\" y=\"{}\">structure: {}</text>\n\
-             <text x=\"{ASIDE}\" y=\"{}\">displacements: {}</text>\n\
-             <text x=\"{ASIDE}\" y=\"{}\">(magnified × {})</text>\n",
+             d=\"M{KEY_LEFT} {}v10M{KEY_LEFT} {y}H{end:.1}M{end:.1} {}v10\"/>\n\
+             <text x=\"{KEY_LEFT}\" y=\"{}\">structure: {}</text>\n\
+             <text x=\"{KEY_LEFT}\" y=\"{}\">displacements: {}</text>\n\
+             <text x=\"{KEY_LEFT}\" y=\"{}\">(magnified × {})</text>\n",
             y - 5.0,
             y - 5.0,
             y + 24.0,
-            metres(length),
+            length_text(length),
             y + 44.0,
-            metres(length / magnification),
+            length_text(length / magnification),
             y + 64.0,
             short(magnification)
         )
@@ -203,31 +223,23 @@ impl Screen {
 }
 
 /// Rounds down to 1, 2 or 5 times a power of ten.
-fn round_below(most: f64) -> f64 {
-    let power = 10.0_f64.powf(most.log10().floor());
-    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= most);
+fn round_down(value: f64) -> f64 {
+    let power = 10.0_f64.powf(value.log10().floor());
+    let factor = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= value);
     factor.unwrap_or(1.0) * power
 }
 
-/// A length in m or mm.
-fn metres(length: f64) -> String {
-    if length < 0.5 {
-        format!("{} mm", short(1e3 * length))
-    } else {
-        format!("{} m", short(length))
-    }
-}
-
+/// The beginning of the file, with the title.
 fn head(title: &str) -> String {
     // Font sizes here are SVG sizes; sizes in plotters are 1.24 times as large.
-    let title = fitted(title, 25, WIDTH - 40.0);
+    let title = fitted(title, 25, PICTURE_WIDTH - 40.0);
     let title = escaped(&title);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-         width=\"{WIDTH}\" height=\"{HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {PICTURE_WIDTH} {PICTURE_HEIGHT}\" \
+         width=\"{PICTURE_WIDTH}\" height=\"{PICTURE_HEIGHT}\" font-family=\"sans-serif\" font-size=\"14\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
          <text x=\"{}\" y=\"34\" font-size=\"20\" text-anchor=\"middle\">{title}</text>\n",
-        0.5 * WIDTH
+        0.5 * PICTURE_WIDTH
     )
 }
 
@@ -239,13 +251,13 @@ struct Floor {
     margin: f64,
 }
 
-/// Box of the plan at the side, pixels: left, top, right, bottom.
-const SIDE: [f64; 4] = [ASIDE, 440.0, 915.0, 585.0];
+/// Rectangle of the plan at the side.
+const PLAN_BOX: PixelBox = PixelBox { left: KEY_LEFT, top: 440.0, right: 915.0, bottom: 585.0 };
 
 impl Floor {
     fn new(time_series: &TimeSeries) -> Self {
-        let along = far_ends(time_series.elements().iter().map(|own| own.ends()[0]));
-        let across = far_ends(time_series.elements().iter().map(|own| own.ends()[1]));
+        let along = far_ends(time_series.elements().iter().map(|element| element.ends()[0]));
+        let across = far_ends(time_series.elements().iter().map(|element| element.ends()[1]));
         let side = (along[1] - along[0]).max(across[1] - across[0]);
         Self { ends: [along, across], margin: 0.15 * side }
     }
@@ -265,33 +277,38 @@ impl Floor {
         frames: usize,
         duration: &str,
     ) -> String {
-        let seen = |place: [f64; 3]| screen.place(View::Slanted.project(place));
-        let soil = polygon(&self.corners(self.margin).map(seen));
-        let mut out =
-            format!("<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n", hex(SOIL), hex(SURFACE));
+        let soil = polygon(&screen.corners(self.corners(self.margin)));
+        let mut out = format!(
+            "<path d=\"{soil}\" fill=\"{}\" stroke=\"{}\"/>\n",
+            hex(SOIL_COLOR),
+            hex(SURFACE_COLOR)
+        );
         self.draw_axes(screen, &mut out);
         let [[left, _], [_, back]] = self.ends;
         let contact: Vec<_> = time_series.contact_frames().collect();
         if contact.len() != frames {
             return out;
         }
-        let (shown, modes) = shown(&contact, true);
-        out += &marks::key(modes);
+        let states = ShownStates::new(&contact, true);
+        out += &marks::key(states.in_key.clone());
         let _ = writeln!(
             out,
             "<text x=\"{}\" y=\"{}\" font-size=\"12\">contact from above, x to the right</text>",
-            SIDE[0],
-            SIDE[1] - 8.0
+            PLAN_BOX.left,
+            PLAN_BOX.top - 8.0
         );
-        let [wide, high] = self.ends.map(|[low, high]| high - low);
-        let scale = ((SIDE[2] - SIDE[0]) / wide).min((SIDE[3] - SIDE[1]) / high);
-        let plan =
-            |[x, _, y]: [f64; 3]| [SIDE[0] + scale * (x - left), SIDE[1] + scale * (back - y)];
+        let sides = self.ends.map(|[low, high]| high - low);
+        let scale = ((PLAN_BOX.right - PLAN_BOX.left) / sides[0])
+            .min((PLAN_BOX.bottom - PLAN_BOX.top) / sides[1]);
         for (e, element) in time_series.elements().iter().enumerate() {
             let corners = Self { ends: element.ends(), margin: 0.0 }.corners(0.0);
-            let colors: Vec<String> = shown.iter().map(|modes| hex(modes[e].color())).collect();
+            let in_plan = corners.map(|[x, _, y]| {
+                [PLAN_BOX.left + scale * (x - left), PLAN_BOX.top + scale * (back - y)]
+            });
+            let colors: Vec<String> =
+                states.by_frame.iter().map(|frame| hex(frame[e].color())).collect();
             let change = changes("fill", &colors, duration);
-            for cell in [polygon(&corners.map(seen)), polygon(&corners.map(plan))] {
+            for cell in [polygon(&screen.corners(corners)), polygon(&in_plan)] {
                 let _ = writeln!(
                     out,
                     "<path d=\"{cell}\" fill=\"{}\" stroke=\"#fff\" stroke-width=\"0.6\">{change}</path>",
@@ -305,20 +322,20 @@ impl Floor {
     /// Draws the axes x and y beside the soil.
     fn draw_axes(&self, screen: &Screen, out: &mut String) {
         let [[left, right], [front, back]] = self.ends;
-        let away = 0.6 * self.margin;
+        let distance = 0.6 * self.margin;
         for (name, from, to) in [
-            ("x", [left, 0.0, front - away], [right, 0.0, front - away]),
-            ("y", [right + away, 0.0, front], [right + away, 0.0, back]),
+            ("x", [left, 0.0, front - distance], [right, 0.0, front - distance]),
+            ("y", [right + distance, 0.0, front], [right + distance, 0.0, back]),
         ] {
             let [[x, y], [to_x, to_y]] =
-                [from, to].map(|place| screen.place(View::Slanted.project(place)));
+                [from, to].map(|place| screen.place(StructureView::Slanted.project(place)));
             let _ = writeln!(
                 out,
                 "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"{}\"/>\
                  <circle cx=\"{to_x:.1}\" cy=\"{to_y:.1}\" r=\"3\" fill=\"{}\"/>\
                  <text x=\"{:.1}\" y=\"{:.1}\">{name}</text>",
-                hex(SURFACE),
-                hex(SURFACE),
+                hex(SURFACE_COLOR),
+                hex(SURFACE_COLOR),
                 to_x + 7.0,
                 to_y + 5.0
             );
@@ -328,10 +345,13 @@ impl Floor {
 
 /// The running time: a bar, and a sequence of texts, because SMIL cannot count.
 fn clock(times: &[f64], duration: &str) -> String {
-    let (begin, end) = (times[0], times[times.len() - 1]);
-    let (first, last) = (format!("{begin:.2} s"), format!("{end:.2} s"));
-    let room = 30.0 + width(&first, 18).max(width(&last, 18));
-    let (left, length, y) = (room, WIDTH - 2.0 * room, 600.0);
+    let begin = times[0];
+    let end = times[times.len() - 1];
+    let first = format!("{begin:.2} s");
+    let last = format!("{end:.2} s");
+    let left = 30.0 + width(&first, 18).max(width(&last, 18));
+    let length = PICTURE_WIDTH - 2.0 * left;
+    let y = 600.0;
     let mut out = format!(
         "<rect x=\"{left:.1}\" y=\"{y}\" width=\"{length:.1}\" height=\"8\" fill=\"#ddd\"/>\
          <rect x=\"{left:.1}\" y=\"{y}\" width=\"0\" height=\"8\" fill=\"#444\">\
@@ -345,23 +365,27 @@ fn clock(times: &[f64], duration: &str) -> String {
         y + 9.0
     );
     // The last frame has no duration, so texts begin at the other frames.
-    let every = (times.len() - 1).div_ceil(MOST_TIMES);
-    let shown: Vec<f64> = times[..times.len() - 1].iter().copied().step_by(every).collect();
-    let share = |time: f64| ((time - begin) / (end - begin)).clamp(0.0, 1.0);
+    let frames_per_text = (times.len() - 1).div_ceil(MAX_CLOCK_TEXTS);
+    let shown: Vec<f64> =
+        times[..times.len() - 1].iter().copied().step_by(frames_per_text).collect();
+    // Fractions of the run at which texts begin, and its end.
+    let mut fractions: Vec<f64> =
+        shown.iter().map(|time| ((time - begin) / (end - begin)).clamp(0.0, 1.0)).collect();
+    fractions.push(1.0);
     for (k, &time) in shown.iter().enumerate() {
-        let from = share(time);
-        let until = shown.get(k + 1).map_or(1.0, |&next| share(next));
-        // Visible from the start, or from the text's own time.
-        let (still, states, moments) = if k == 0 {
+        let from = fractions[k];
+        let until = fractions[k + 1];
+        let is_visible_at_start = k == 0;
+        let (without_animation, states, key_times) = if is_visible_at_start {
             ("visible", "visible;hidden", format!("0;{until:.5}"))
         } else {
             ("hidden", "hidden;visible;hidden", format!("0;{from:.5};{until:.5}"))
         };
         let _ = writeln!(
             out,
-            "<text x=\"{ASIDE}\" y=\"400\" font-size=\"20\" visibility=\"{still}\">t = {time:.2} s\
+            "<text x=\"{KEY_LEFT}\" y=\"400\" font-size=\"20\" visibility=\"{without_animation}\">t = {time:.2} s\
              <animate attributeName=\"visibility\" calcMode=\"discrete\" dur=\"{duration}\" \
-             repeatCount=\"indefinite\" values=\"{states}\" keyTimes=\"{moments}\"/></text>"
+             repeatCount=\"indefinite\" values=\"{states}\" keyTimes=\"{key_times}\"/></text>"
         );
     }
     out

@@ -1,18 +1,19 @@
-//! Contact along the base: modes over time, and the envelope of pressure.
+//! Pictures of the contact along the base: modes over time, and the envelope of pressure.
 
-use super::axes::{Axis, chart, draw_curve, range_of};
-use super::base_axis::{BaseAxis, label_breaks, unrolled};
-use super::drawing::{COLORS, Stroke};
-use super::key::{Key, Sample};
+use super::axes::{ChartAxis, chart, draw_curve};
+use super::base_axis::{BaseAxis, label_gaps, unrolled};
+use super::drawing::{CURVE_COLORS, Stroke, range_of};
+use super::key::{KeySample, PictureKey};
 use super::plan::largest_pressures;
-use super::shown::{Shown, shown};
+use super::shown::{ElementState, ShownStates};
 use super::svg::{Sheet, Svg};
+use crate::bem::ContactElement;
 use crate::error::{Result, require_part};
-use crate::results::{ElementEnvelope, Run, TimeSeries};
+use crate::results::{ContactFrame, ElementEnvelope, Run, TimeSeries};
 use plotters::prelude::*;
 
 /// Largest number of columns of the map, about one per pixel.
-const COLUMNS: usize = 1000;
+const MAX_MAP_COLUMNS: usize = 1000;
 
 /// Picture of the contact mode of every element over time.
 ///
@@ -32,33 +33,27 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     let elements = unrolled(time_series.elements().iter().copied());
     let needed = "tell the recorder to keep the contact";
     require_part("map of contact modes", !elements.is_empty() && frames.len() > 1, needed)?;
-    let (begin, end) = (frames[0].time, frames[frames.len() - 1].time);
-    let every = (frames.len() - 1).div_ceil(COLUMNS).max(1);
-    let (shown, key) = shown(&frames, false);
-    let key = key.into_iter().map(|what| (what.name(), Sample::Area(what.color())));
+    let begin = frames[0].time;
+    let end = frames[frames.len() - 1].time;
+    let frames_per_column = (frames.len() - 1).div_ceil(MAX_MAP_COLUMNS).max(1);
+    let states = ShownStates::new(&frames, false);
+    let key = states.in_key.iter().map(|state| (state.name(), KeySample::Area(state.color())));
     let base = BaseAxis::new(elements.iter().copied());
-    Sheet::new(title, Key::new(key)).picture(|area| {
-        let mut chart = chart(area, &Axis::linear(begin..end, "time, s"), &base.axis(), false)?;
-        label_breaks(&mut chart, &base, |place| (0.5 * (begin + end), place))?;
+    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+        let mut chart =
+            chart(area, &ChartAxis::linear(begin..end, "time, s"), &base.axis(), false)?;
+        label_gaps(&mut chart, &base, |place| (0.5 * (begin + end), place))?;
         for (e, element) in elements.iter().enumerate() {
-            // The first frame is the start, before any step.
-            let columns: Vec<(f64, Option<Shown>)> = frames[1..]
-                .chunks(every)
-                .zip(shown[1..].chunks(every))
-                .map(|(frames, shown)| {
-                    let rarest = shown.iter().map(|modes| modes[e]).max();
-                    (frames[frames.len() - 1].time, rarest)
-                })
-                .collect();
+            let columns = mode_columns(&frames, &states, e, frames_per_column);
             let mut start = begin;
-            let hair = 0.04 * element.length();
+            let margin = 0.04 * element.length();
             let low = base.place(element.left());
-            for stretch in columns.chunk_by(|a, b| a.1 == b.1) {
-                let stop = stretch[stretch.len() - 1].0;
-                if let Some(what) = stretch[0].1 {
-                    let area = [(start, low + hair), (stop, low + element.length() - hair)];
-                    chart.draw_series([Rectangle::new(area, what.color().filled())])?;
-                }
+            let high = low + element.length();
+            for stretch in columns.chunk_by(|a, b| a.state == b.state) {
+                let stop = stretch[stretch.len() - 1].end;
+                let area = [(start, low + margin), (stop, high - margin)];
+                let color = stretch[0].state.color();
+                chart.draw_series([Rectangle::new(area, color.filled())])?;
                 start = stop;
             }
         }
@@ -66,8 +61,35 @@ pub fn mode_map(title: &str, time_series: &TimeSeries) -> Result<Svg> {
     })
 }
 
+/// State of an element during several frames.
+struct ModeColumn {
+    /// Time of the last of these frames, s.
+    end: f64,
+    /// The rarest state in these frames.
+    state: ElementState,
+}
+
+/// States of an element over time, each for so many frames.
+fn mode_columns(
+    frames: &[ContactFrame<'_>],
+    states: &ShownStates,
+    element: usize,
+    frames_per_column: usize,
+) -> Vec<ModeColumn> {
+    let mut columns = Vec::new();
+    // The first frame is the start, before any step.
+    let frames = frames[1..].chunks(frames_per_column);
+    let states = states.by_frame[1..].chunks(frames_per_column);
+    for (frames, states) in frames.zip(states) {
+        if let Some(state) = states.iter().map(|frame| frame[element]).max() {
+            columns.push(ModeColumn { end: frames[frames.len() - 1].time, state });
+        }
+    }
+    columns
+}
+
 /// Function that returns the value of an element to be drawn.
-type Value = fn(&ElementEnvelope) -> f64;
+type ElementValue = fn(&ElementEnvelope) -> f64;
 
 /// Picture of the largest, static and smallest pressure along the base, constant in each element.
 ///
@@ -81,36 +103,47 @@ pub fn pressure_envelope(title: &str, run: &Run) -> Result<Svg> {
         return largest_pressures(title, run);
     }
     let envelope = &run.envelope;
-    let elements = unrolled(envelope.iter().map(|own| own.element));
+    let elements = unrolled(envelope.iter().map(|element| element.element));
     let base = BaseAxis::new(elements.iter().copied());
-    let curves: [(&str, Value); 3] = [
-        ("largest", |e| 1e-3 * e.pressure.highest.value),
-        ("static", |e| 1e-3 * e.static_pressure),
-        ("least", |e| 1e-3 * e.pressure.lowest.value),
+    let curves: [(&str, ElementValue); 3] = [
+        ("largest", |element| 1e-3 * element.pressure.highest.value),
+        ("static", |element| 1e-3 * element.static_pressure),
+        ("least", |element| 1e-3 * element.pressure.lowest.value),
     ];
-    let steps = |value: Value| {
-        let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
-        for (e, element) in envelope.iter().zip(&elements) {
-            // A gap between two strips is a gap in the curve.
-            let left = base.place(element.left());
-            if points.last().is_some_and(|last| left - last.0 > 1e-6 * element.length()) {
-                points.push((f64::NAN, f64::NAN));
-            }
-            points.extend([(left, value(e)), (left + element.length(), value(e))]);
-        }
-        points
-    };
     let values = curves.iter().flat_map(|(_, value)| envelope.iter().map(value));
     let range = range_of(values.chain([0.0]));
-    let strokes = [COLORS[1], COLORS[5], COLORS[0]].map(Stroke::plain);
-    let key = curves.iter().zip(strokes).map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
-    Sheet::new(title, Key::new(key)).picture(|area| {
+    let strokes = [CURVE_COLORS[1], CURVE_COLORS[5], CURVE_COLORS[0]].map(Stroke::plain);
+    let names = curves.iter().map(|(name, _)| *name);
+    let key = names.zip(strokes.map(KeySample::Line));
+    Sheet::new(title, PictureKey::new(key)).picture(|area| {
         let top = range.end - 0.04 * (range.end - range.start);
-        let mut chart = chart(area, &base.axis(), &Axis::linear(range, "pressure, kPa"), true)?;
-        label_breaks(&mut chart, &base, |place| (place, top))?;
+        let pressure_axis = ChartAxis::linear(range, "pressure, kPa");
+        let mut chart = chart(area, &base.axis(), &pressure_axis, true)?;
+        label_gaps(&mut chart, &base, |place| (place, top))?;
         for ((_, value), stroke) in curves.into_iter().zip(strokes) {
-            draw_curve(&mut chart, &steps(value), stroke, 2)?;
+            let points = steps_along_base(envelope, &elements, &base, value);
+            draw_curve(&mut chart, &points, stroke, 2)?;
         }
         Ok(())
     })
+}
+
+/// A value along the base, constant in each element.
+fn steps_along_base(
+    envelope: &[ElementEnvelope],
+    elements: &[ContactElement],
+    base: &BaseAxis,
+    value: ElementValue,
+) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> = Vec::with_capacity(3 * envelope.len());
+    for (extremes, element) in envelope.iter().zip(elements) {
+        // A gap between two strips is a gap in the curve.
+        let left = base.place(element.left());
+        if points.last().is_some_and(|last| left - last.0 > 1e-6 * element.length()) {
+            points.push((f64::NAN, f64::NAN));
+        }
+        points.push((left, value(extremes)));
+        points.push((left + element.length(), value(extremes)));
+    }
+    points
 }

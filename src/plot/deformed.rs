@@ -1,14 +1,14 @@
-//! The structure at some instants.
+//! Pictures of the structure at some instants.
 
 use std::ops::Range;
 
-use super::axes::{Axis, Chart, LEFT, RIGHT, chart, draw_curve, draw_markers, drawable};
-use super::drawing::{Area, Drawing, Stroke};
-use super::key::{Key, Sample};
+use super::axes::{Chart, ChartAxis, SPACE_LEFT, SPACE_RIGHT, chart, draw_curve, draw_markers};
+use super::drawing::{Area, Drawing, Stroke, is_drawable};
+use super::key::{KeySample, PictureKey};
 use super::svg::{Sheet, Svg};
 use super::text_width::short;
 use super::trench;
-use super::view::View;
+use super::view::StructureView;
 use crate::error::{Error, Result, at_least, finite, positive, require, require_part};
 use crate::geometry::{middle, span};
 use crate::results::{DeformedShape, MotionFrame, ShapePoint, TimeSeries};
@@ -27,21 +27,22 @@ pub(super) fn places(
     frame: &MotionFrame<'_>,
     magnification: f64,
 ) -> Result<Vec<[f64; 3]>> {
-    let moved = shape.displacements(frame.displacement)?;
-    let place = |(point, u): (&ShapePoint, [f64; 3])| {
+    let displacements = shape.displacements(frame.displacement)?;
+    let mut places = Vec::with_capacity(displacements.len());
+    for (point, displacement) in shape.points().iter().zip(displacements) {
         let at_rest = point.place();
-        [0, 1, 2].map(|k| at_rest[k] + magnification * u[k])
-    };
-    let places: Vec<[f64; 3]> = shape.points().iter().zip(moved).map(place).collect();
+        places.push([0, 1, 2].map(|k| at_rest[k] + magnification * displacement[k]));
+    }
     for value in places.iter().flatten() {
-        require("magnified coordinate", *value, drawable(*value), "below 1e60 m")?;
+        require("magnified coordinate", *value, is_drawable(*value), "below 1e60 m")?;
     }
     Ok(places)
 }
 
-/// Colours of the soil below its surface y = 0, and of the surface.
-pub(super) const SOIL: RGBColor = RGBColor(238, 229, 214);
-pub(super) const SURFACE: RGBColor = RGBColor(125, 98, 62);
+/// Colour of the soil below its surface y = 0.
+pub(super) const SOIL_COLOR: RGBColor = RGBColor(238, 229, 214);
+/// Colour of the surface of the soil.
+pub(super) const SURFACE_COLOR: RGBColor = RGBColor(125, 98, 62);
 
 /// Smallest and largest coordinate along each axis.
 pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
@@ -52,7 +53,8 @@ pub(super) fn bounds(places: &[[f64; 2]]) -> [[f64; 2]; 2] {
 fn draw_shape(
     chart: &mut Chart<'_, '_>,
     shape: &DeformedShape,
-    (view, places): (View, &[[f64; 2]]),
+    view: StructureView,
+    places: &[[f64; 2]],
     stroke: Stroke,
 ) -> Drawing<()> {
     let mut points = Vec::new();
@@ -60,7 +62,7 @@ fn draw_shape(
         let mut outline: Vec<_> = cell.iter().map(|&k| (places[k][0], places[k][1])).collect();
         if cell.len() > 2 {
             if shape.has_faces() {
-                chart.draw_series([Polygon::new(outline.clone(), WHITE.mix(OPACITY))])?;
+                chart.draw_series([Polygon::new(outline.clone(), WHITE.mix(FACE_OPACITY))])?;
             }
             outline.push(outline[0]);
         }
@@ -72,7 +74,7 @@ fn draw_shape(
 }
 
 /// Opacity of faces of elements.
-pub(super) const OPACITY: f64 = 0.8;
+pub(super) const FACE_OPACITY: f64 = 0.8;
 
 /// Picture of the structure at rest and at some instants.
 ///
@@ -94,99 +96,149 @@ pub fn deformed_shapes(
     positive("magnification", magnification)?;
     at_least("times of deformed shapes", times.len(), 1)?;
     check_dimension(shape, time_series)?;
-    let drawn = shapes_at(shape, time_series, times, magnification)?;
-    let at_rest = Stroke::plain(RGBColor(170, 170, 170));
-    let stroke = |k: usize| k.checked_sub(1).map_or(at_rest, Stroke::nth);
-    let lines = (0..drawn.len()).map(|k| (drawn[k].0.as_str(), Sample::Line(stroke(k))));
+    let shapes = shapes_at(shape, time_series, times, magnification)?;
+    let mut key = Vec::new();
+    for (k, named) in shapes.iter().enumerate() {
+        key.push((named.name.as_str(), KeySample::Line(shape_stroke(k))));
+    }
+    key.push(("soil", KeySample::Area(SOIL_COLOR)));
     let scale = format!("displacements × {}", short(magnification));
-    let rest = [("soil", Sample::Area(SOIL)), (&scale, Sample::Nothing)];
-    let sheet = Sheet::new(title, Key::new(lines.chain(rest)));
-    let up = time_series.up();
-    let views = View::elevations(up);
+    key.push((&scale, KeySample::Nothing));
+    let sheet = Sheet::new(title, PictureKey::new(key));
+    let elevations = elevations(&shapes, time_series.up(), sheet.chart_size());
+    sheet.picture(|area| {
+        let areas = area.split_evenly((1, elevations.len()));
+        for (area, elevation) in areas.iter().zip(&elevations) {
+            draw_elevation(area, shape, time_series, elevation)?;
+        }
+        Ok(())
+    })
+}
+
+/// Stroke of the shape at rest (0) or at an instant.
+fn shape_stroke(k: usize) -> Stroke {
+    k.checked_sub(1).map_or(Stroke::plain(RGBColor(170, 170, 170)), Stroke::nth)
+}
+
+/// The shapes in one view.
+struct Elevation {
+    view: StructureView,
+    /// Ranges of the horizontal and the vertical axis, m.
+    ranges: [Range<f64>; 2],
+    /// Places of all points at every instant.
+    shapes: Vec<Vec<[f64; 2]>>,
+}
+
+impl Elevation {
+    /// Width of the horizontal range, m.
+    fn width(&self) -> f64 {
+        self.ranges[0].end - self.ranges[0].start
+    }
+}
+
+/// The elevations of the shapes, side by side, at one scale.
+fn elevations(shapes: &[NamedShape], up: usize, chart_size: [f64; 2]) -> Vec<Elevation> {
+    let views = StructureView::elevations(up);
+    let space_between = f64::from(SPACE_LEFT + SPACE_RIGHT) * (views.len() - 1) as f64;
+    let size = [(chart_size[0] - space_between) / views.len() as f64, chart_size[1]];
+    let mut elevations = Vec::new();
+    for &view in views {
+        let shapes: Vec<Vec<[f64; 2]>> =
+            shapes.iter().map(|named| view.all(&named.places)).collect();
+        let mut all_places = shapes.concat();
+        all_places.push([all_places[0][0], 0.0]);
+        let ranges = ranges(bounds(&all_places), size);
+        elevations.push(Elevation { view, ranges, shapes });
+    }
     // All views use the scale of the widest one.
-    let [all, height] = sheet.room();
-    let others = f64::from(LEFT + RIGHT) * (views.len() - 1) as f64;
-    let room = [(all - others) / views.len() as f64, height];
-    let elevation = |&view: &View| {
-        let seen: Vec<Vec<[f64; 2]>> = drawn.iter().map(|(_, places)| view.all(places)).collect();
-        let mut all = seen.concat();
-        all.push([all[0][0], 0.0]);
-        (view, ranges(bounds(&all), room), seen)
-    };
-    let mut elevations: Vec<Elevation> = views.iter().map(elevation).collect();
-    let width = |own: &Elevation| own.1[0].end - own.1[0].start;
-    let widest = elevations.iter().map(width).fold(0.0, f64::max);
-    for own in &mut elevations {
-        let ratio = widest / width(own);
-        own.1 = own.1.clone().map(|Range { start, end }| {
-            let (middle, half) = (middle([start, end]), 0.5 * ratio * (end - start));
+    let max_width = elevations.iter().map(Elevation::width).fold(0.0, f64::max);
+    for elevation in &mut elevations {
+        let ratio = max_width / elevation.width();
+        elevation.ranges = elevation.ranges.clone().map(|Range { start, end }| {
+            let middle = middle([start, end]);
+            let half = 0.5 * ratio * (end - start);
             middle - half..middle + half
         });
     }
-    let draw = |area: &Area<'_>, (view, [x, y], seen): &Elevation| -> Drawing<()> {
-        let name = if *view == View::AlongX { "y, m" } else { "x, m" };
-        let height = ["x, m", "y, m", "z, m"][up];
-        let axes = (Axis::linear(x.clone(), name), Axis::linear(y.clone(), height));
-        let mut chart = chart(area, &axes.0, &axes.1, false)?;
-        draw_soil(&mut chart, (x, y.start), trench::outline(time_series.elements()))?;
-        for (k, places) in seen.iter().enumerate() {
-            draw_shape(&mut chart, shape, (*view, places), stroke(k))?;
-        }
-        Ok(())
-    };
-    sheet.picture(|area| {
-        let areas = area.split_evenly((1, elevations.len()));
-        areas.iter().zip(&elevations).try_for_each(|(area, own)| draw(area, own))
-    })
+    elevations
+}
+
+/// Draws the soil and all shapes in one view.
+fn draw_elevation(
+    area: &Area<'_>,
+    shape: &DeformedShape,
+    time_series: &TimeSeries,
+    elevation: &Elevation,
+) -> Drawing<()> {
+    let x = &elevation.ranges[0];
+    let y = &elevation.ranges[1];
+    let horizontal = if elevation.view == StructureView::AlongX { "y, m" } else { "x, m" };
+    let vertical = ["x, m", "y, m", "z, m"][time_series.up()];
+    let x_axis = ChartAxis::linear(x.clone(), horizontal);
+    let y_axis = ChartAxis::linear(y.clone(), vertical);
+    let mut chart = chart(area, &x_axis, &y_axis, false)?;
+    draw_soil(&mut chart, x, y.start, trench::outline(time_series.elements()))?;
+    for (k, places) in elevation.shapes.iter().enumerate() {
+        draw_shape(&mut chart, shape, elevation.view, places, shape_stroke(k))?;
+    }
+    Ok(())
 }
 
 /// Draws the soil and its surface, with the outline of a trench.
 fn draw_soil(
     chart: &mut Chart<'_, '_>,
-    (x, bottom): (&Range<f64>, f64),
+    x: &Range<f64>,
+    bottom: f64,
     trench: Option<[[f64; 2]; 4]>,
 ) -> Drawing<()> {
-    chart.draw_series([Rectangle::new([(x.start, bottom), (x.end, 0.0)], SOIL.filled())])?;
+    chart.draw_series([Rectangle::new([(x.start, bottom), (x.end, 0.0)], SOIL_COLOR.filled())])?;
     let mut surface = vec![(x.start, 0.0), (x.end, 0.0)];
     if let Some(corners) = trench.map(|corners| corners.map(|[x, y]| (x, y))) {
         chart.draw_series([Polygon::new(corners, WHITE)])?;
         surface.splice(1..1, corners);
     }
-    draw_curve(chart, &surface, Stroke::plain(SURFACE), 2)
+    draw_curve(chart, &surface, Stroke::plain(SURFACE_COLOR), 2)
 }
 
-/// The shape at rest and at the frames nearest to the times: names, and places of all points.
+/// A shape at an instant.
+struct NamedShape {
+    /// The instant, for the key.
+    name: String,
+    /// Places of all points (x, height, y), m.
+    places: Vec<[f64; 3]>,
+}
+
+/// The shape at rest and at the frames nearest to the times.
 fn shapes_at(
     shape: &DeformedShape,
     time_series: &TimeSeries,
     times: &[f64],
     magnification: f64,
-) -> Result<Vec<(String, Vec<[f64; 3]>)>> {
-    let rest: Vec<[f64; 3]> = shape.points().iter().map(ShapePoint::place).collect();
-    let mut shapes = vec![("at rest".to_owned(), rest)];
+) -> Result<Vec<NamedShape>> {
+    let at_rest = shape.points().iter().map(ShapePoint::place).collect();
+    let mut shapes = vec![NamedShape { name: "at rest".to_owned(), places: at_rest }];
     for &time in times {
         finite("time of a deformed shape", time)?;
-        let away = |frame: &MotionFrame<'_>| (frame.time - time).abs();
-        let nearest = time_series.motion_frames().min_by(|a, b| away(a).total_cmp(&away(b)));
+        let nearest = time_series
+            .motion_frames()
+            .min_by(|a, b| (a.time - time).abs().total_cmp(&(b.time - time).abs()));
         let frame = nearest.ok_or(Error::Scene {
             quantity: "deformed shape",
             needed: "tell the recorder to keep the motion",
         })?;
         let name = format!("t = {:.2} s", frame.time);
-        shapes.push((name, places(shape, &frame, magnification)?));
+        shapes.push(NamedShape { name, places: places(shape, &frame, magnification)? });
     }
     Ok(shapes)
 }
 
-/// A view, ranges of its axes, and the places of all points in it at every instant.
-type Elevation = (View, [Range<f64>; 2], Vec<Vec<[f64; 2]>>);
-
 /// Ranges of both axes at one scale, in an area of [width, height] pixels.
-fn ranges(bounds: [[f64; 2]; 2], room: [f64; 2]) -> [Range<f64>; 2] {
-    let pixel = |k: usize| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / room[k];
-    let scale = pixel(0).max(pixel(1));
+fn ranges(bounds: [[f64; 2]; 2], size: [f64; 2]) -> [Range<f64>; 2] {
+    let scales = [0, 1].map(|k| (bounds[k][1] - bounds[k][0]).max(1e-6) * 1.1 / size[k]);
+    let metres_per_pixel = scales[0].max(scales[1]);
     [0, 1].map(|k| {
-        let (middle, half) = (middle(bounds[k]), 0.5 * scale * room[k]);
+        let middle = middle(bounds[k]);
+        let half = 0.5 * metres_per_pixel * size[k];
         middle - half..middle + half
     })
 }

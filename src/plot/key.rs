@@ -4,45 +4,46 @@ use super::drawing::{Area, Drawing, Stroke};
 use super::text_width::{lines, width};
 use plotters::prelude::*;
 
-const FONT: (&str, u32) = ("sans-serif", 15);
-
-/// Widest line of a name, pixels, and largest number of its lines; the rest is cut.
-const WIDEST: f64 = 230.0;
-
-const LINES: usize = 3;
-
+/// Font of the names.
+const KEY_FONT: (&str, u32) = ("sans-serif", 15);
+/// Largest width of a line of a name, pixels; longer lines break.
+const MAX_NAME_WIDTH: f64 = 230.0;
+/// Largest number of lines of a name; the rest is cut.
+const MAX_NAME_LINES: usize = 3;
 /// Largest number of names shown; further names are only counted.
-const ENTRIES: usize = 42;
+const MAX_ENTRIES: usize = 42;
+/// Width beside the names, pixels.
+const SPACE_BESIDE_NAMES: u32 = 52;
+/// Height of a line of a name, pixels.
+const LINE_HEIGHT: i32 = 18;
+/// Height between two names, pixels.
+const NAME_GAP: i32 = 6;
 
-/// Pixels beside the names, per line of text, and between two names.
-const SIDE: u32 = 52;
-
-const LINE: i32 = 18;
-
-const GAP: i32 = 6;
-
-/// Sample beside a name.
+/// Sample of colour beside a name.
 #[derive(Clone, Copy)]
-pub(super) enum Sample {
+pub(super) enum KeySample {
+    /// A piece of a curve.
     Line(Stroke),
+    /// A filled rectangle.
     Area(RGBColor),
     Nothing,
 }
 
 /// Names in lines, with their samples.
-pub(super) struct Key(Vec<(Vec<String>, Sample)>);
+pub(super) struct PictureKey(Vec<(Vec<String>, KeySample)>);
 
-impl Key {
-    pub(super) fn new<'n>(entries: impl IntoIterator<Item = (&'n str, Sample)>) -> Self {
+impl PictureKey {
+    pub(super) fn new<'n>(entries: impl IntoIterator<Item = (&'n str, KeySample)>) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();
         // A line "and 1 more" would need as much room as the name itself.
-        let shown = if entries.len() > ENTRIES + 1 { ENTRIES } else { entries.len() };
-        let split = |name: &str| lines(name, FONT.1, WIDEST, LINES);
-        let mut list: Vec<_> =
-            entries[..shown].iter().map(|(name, sample)| (split(name), *sample)).collect();
+        let shown = if entries.len() > MAX_ENTRIES + 1 { MAX_ENTRIES } else { entries.len() };
+        let mut list = Vec::with_capacity(shown + 1);
+        for (name, sample) in &entries[..shown] {
+            list.push((name_lines(name), *sample));
+        }
         if shown < entries.len() {
             let rest = format!("… and {} more", entries.len() - shown);
-            list.push((split(&rest), Sample::Nothing));
+            list.push((name_lines(&rest), KeySample::Nothing));
         }
         Self(list)
     }
@@ -50,22 +51,23 @@ impl Key {
     /// Curves in their order.
     pub(super) fn of_curves<'n>(names: impl IntoIterator<Item = &'n str>) -> Self {
         let names = names.into_iter().enumerate();
-        Self::new(names.map(|(k, name)| (name, Sample::Line(Stroke::nth(k)))))
+        Self::new(names.map(|(k, name)| (name, KeySample::Line(Stroke::nth(k)))))
     }
 
     /// Width of the strip, pixels.
     pub(super) fn width(&self) -> u32 {
-        let widths = self.0.iter().flat_map(|(name, _)| name).map(|line| width(line, FONT.1));
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "to WIDEST")]
-        let widest = widths.fold(0.0, f64::max).ceil() as u32;
-        SIDE + widest
+        let widths = self.0.iter().flat_map(|(name, _)| name).map(|line| width(line, KEY_FONT.1));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "small")]
+        let max_width = widths.fold(0.0, f64::max).ceil() as u32;
+        SPACE_BESIDE_NAMES + max_width
     }
 
     /// Height of the strip, pixels.
     pub(super) fn height(&self) -> u32 {
         let lines: usize = self.0.iter().map(|(name, _)| name.len()).sum();
-        let text = LINE.unsigned_abs() * u32::try_from(lines).unwrap_or(u32::MAX / 100);
-        text + GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
+        let text_height =
+            LINE_HEIGHT.unsigned_abs() * u32::try_from(lines).unwrap_or(u32::MAX / 100);
+        text_height + NAME_GAP.unsigned_abs() * u32::try_from(self.0.len()).unwrap_or(0) + 24
     }
 
     /// Draws the key from the top of the strip.
@@ -73,7 +75,7 @@ impl Key {
         let mut y = 18;
         for (name, sample) in &self.0 {
             match *sample {
-                Sample::Line(stroke) => {
+                KeySample::Line(stroke) => {
                     let style = stroke.color.stroke_width(3);
                     strip.draw(&PathElement::new([(4, y), (32, y)], style))?;
                     if let Some(marker) = stroke.marker {
@@ -82,17 +84,22 @@ impl Key {
                         strip.draw(&Polygon::new(corners, stroke.color.filled()))?;
                     }
                 }
-                Sample::Area(color) => {
+                KeySample::Area(color) => {
                     strip.draw(&Rectangle::new([(6, y - 7), (30, y + 7)], color.filled()))?;
                 }
-                Sample::Nothing => {}
+                KeySample::Nothing => {}
             }
             for line in name {
-                strip.draw(&Text::new(line.clone(), (38, y - 6), FONT))?;
-                y += LINE;
+                strip.draw(&Text::new(line.clone(), (38, y - 6), KEY_FONT))?;
+                y += LINE_HEIGHT;
             }
-            y += GAP;
+            y += NAME_GAP;
         }
         Ok(())
     }
+}
+
+/// A name in lines that fit into the strip.
+fn name_lines(name: &str) -> Vec<String> {
+    lines(name, KEY_FONT.1, MAX_NAME_WIDTH, MAX_NAME_LINES)
 }

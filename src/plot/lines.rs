@@ -1,10 +1,9 @@
-//! Curves over time or period: quantities, energy, spectra.
+//! Charts of curves over time or period: quantities, energy, spectra.
 
-use super::axes::{Axis, chart, draw_curve, drawable, range_of};
-use super::drawing::{Area, Drawing, Stroke};
-use super::key::{Key, Sample};
+use super::axes::{ChartAxis, chart, draw_curve};
+use super::drawing::{Area, Drawing, Stroke, is_drawable, range_of};
+use super::key::{KeySample, PictureKey};
 use super::svg::{Sheet, Svg};
-use crate::coupled::EnergyBalance;
 use crate::error::{Result, at_least, require, require_part};
 use crate::motion::SpectralOrdinate;
 use crate::results::{Quantity, TimeSeries};
@@ -12,11 +11,11 @@ use crate::text::readable_number::{of_body, printed};
 use plotters::prelude::*;
 
 /// Largest number of stretches of a curve that are drawn by their extremes, about one per pixel.
-const BUCKETS: usize = 1500;
+const MAX_STRETCHES: usize = 1500;
 /// Largest demand drawn; larger demands are drawn at this value.
-const MOST_DEMAND: f64 = 4.0;
+const MAX_DRAWN_DEMAND: f64 = 4.0;
 /// Colour of the line at a demand of one.
-const LIMIT: RGBColor = RGBColor(120, 120, 120);
+const LIMIT_COLOR: RGBColor = RGBColor(120, 120, 120);
 
 /// A named curve.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,28 +33,39 @@ pub struct Curve {
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) without a point.
 pub fn curves(title: &str, x: &str, y: &str, curves: &[Curve]) -> Result<Svg> {
-    with_limit(title, x, y, curves, None)
+    curves_with_limit(title, x, y, curves, None)
 }
 
-/// Curves, and a horizontal line at one with the name `limit`.
-fn with_limit(title: &str, x: &str, y: &str, curves: &[Curve], limit: Option<&str>) -> Result<Svg> {
-    let all = || curves.iter().flat_map(|curve| &curve.points);
-    at_least("points of a chart", all().count(), 1)?;
-    let x_range = range_of(all().map(|point| point.0));
-    let levels = limit.iter().flat_map(|_| [0.0, 1.0]);
-    let y_range = range_of(all().map(|point| point.1).chain(levels));
+/// Chart of curves, and of a horizontal line at one with the name `limit`.
+fn curves_with_limit(
+    title: &str,
+    x: &str,
+    y: &str,
+    curves: &[Curve],
+    limit: Option<&str>,
+) -> Result<Svg> {
+    let points = curves.iter().flat_map(|curve| &curve.points);
+    at_least("points of a chart", points.clone().count(), 1)?;
+    let x_range = range_of(points.clone().map(|point| point.0));
+    let levels: &[f64] = if limit.is_some() { &[0.0, 1.0] } else { &[] };
+    let y_range = range_of(points.map(|point| point.1).chain(levels.iter().copied()));
     // Time needs no margin.
-    let inner = (x_range.end - x_range.start) * 0.06 / 1.12;
-    let x_range = x_range.start + inner..x_range.end - inner;
-    let names = curves.iter().enumerate();
-    let entries = names.map(|(k, curve)| (curve.name.as_str(), Sample::Line(Stroke::nth(k))));
-    let limits = limit.map(|name| (name, Sample::Line(Stroke::plain(LIMIT))));
-    Sheet::new(title, Key::new(entries.chain(limits))).picture(|area| {
-        let (x, y) = (Axis::linear(x_range.clone(), x), Axis::linear(y_range, y));
-        let mut chart = chart(area, &x, &y, true)?;
+    let margin = (x_range.end - x_range.start) * 0.06 / 1.12;
+    let x_range = x_range.start + margin..x_range.end - margin;
+    let mut key = Vec::new();
+    for (k, curve) in curves.iter().enumerate() {
+        key.push((curve.name.as_str(), KeySample::Line(Stroke::nth(k))));
+    }
+    if let Some(name) = limit {
+        key.push((name, KeySample::Line(Stroke::plain(LIMIT_COLOR))));
+    }
+    Sheet::new(title, PictureKey::new(key)).picture(|area| {
+        let x_axis = ChartAxis::linear(x_range.clone(), x);
+        let y_axis = ChartAxis::linear(y_range, y);
+        let mut chart = chart(area, &x_axis, &y_axis, true)?;
         if limit.is_some() {
             let ends = [(x_range.start, 1.0), (x_range.end, 1.0)];
-            draw_curve(&mut chart, &ends, Stroke::plain(LIMIT), 2)?;
+            draw_curve(&mut chart, &ends, Stroke::plain(LIMIT_COLOR), 2)?;
         }
         for (k, curve) in curves.iter().enumerate() {
             draw_curve(&mut chart, &thinned(&curve.points), Stroke::nth(k), 2)?;
@@ -77,32 +87,36 @@ pub fn time_series(title: &str, runs: &[(&str, &TimeSeries)], quantity: Quantity
     let limit = quantity.limit();
     let in_plan = runs.first().is_some_and(|(_, time_series)| time_series.in_plan());
     let (factor, unit) = quantity.printed(in_plan);
-    let is_common = runs.iter().all(|(_, own)| quantity.printed(own.in_plan()).1 == unit);
+    let have_same_unit = runs.iter().all(|(_, run)| quantity.printed(run.in_plan()).1 == unit);
     let needed = "the same in all runs: in the plane it is per metre";
-    require_part("unit of a quantity", is_common, needed)?;
-    let value = |&value: &f64| match limit {
-        // Without a value, in flight or without a friction coefficient, nothing is drawn.
-        Some(_) if value.is_nan() => f64::NAN,
-        Some(_) => value.recip().min(MOST_DEMAND),
-        None => factor * value,
-    };
-    let points = |time_series: &TimeSeries| -> Vec<(f64, f64)> {
-        let values = time_series.series(quantity).iter().map(value);
-        time_series.times().iter().copied().zip(values).collect()
-    };
-    let curve = |&(name, time_series): &(&str, &TimeSeries)| Curve {
-        name: name.into(),
-        points: points(time_series),
-    };
-    let list: Vec<Curve> = runs.iter().map(curve).collect();
+    require_part("unit of a quantity", have_same_unit, needed)?;
+    let mut curves = Vec::with_capacity(runs.len());
+    for (name, time_series) in runs {
+        let mut points = Vec::new();
+        for (&time, &value) in time_series.times().iter().zip(time_series.series(quantity)) {
+            let is_factor_of_safety = limit.is_some();
+            points.push((time, if is_factor_of_safety { demand(value) } else { factor * value }));
+        }
+        curves.push(Curve { name: (*name).to_owned(), points });
+    }
     let name = quantity.name();
-    let cut = list.iter().flat_map(|curve| &curve.points).any(|point| point.1 == MOST_DEMAND);
+    let is_cut =
+        curves.iter().flat_map(|curve| &curve.points).any(|point| point.1 == MAX_DRAWN_DEMAND);
     let y = match (limit, unit) {
-        (Some(_), _) if cut => format!("1 / {name} (larger ones drawn at {MOST_DEMAND})"),
+        (Some(_), _) if is_cut => format!("1 / {name} (larger ones drawn at {MAX_DRAWN_DEMAND})"),
         (Some(_), _) => format!("1 / {name}"),
         (None, unit) => with_unit(name, unit),
     };
-    with_limit(title, "time, s", &y, &list, limit)
+    curves_with_limit(title, "time, s", &y, &curves, limit)
+}
+
+/// Demand over capacity as drawn; NaN without a factor, in flight or without a friction coefficient.
+fn demand(factor_of_safety: f64) -> f64 {
+    if factor_of_safety.is_nan() {
+        f64::NAN
+    } else {
+        factor_of_safety.recip().min(MAX_DRAWN_DEMAND)
+    }
 }
 
 /// Chart of a probe of one or more runs over time, in the probe's or the engineer's unit.
@@ -120,114 +134,129 @@ pub fn probe_time_series(title: &str, runs: &[(&str, &TimeSeries)], probe: &str)
     let needed = "the same in all runs";
     require_part("unit of a probe", units.windows(2).all(|pair| pair[0] == pair[1]), needed)?;
     let (factor, unit) = printed(units.first().copied().unwrap_or_default());
-    let curve = |&(name, time_series): &(&str, &TimeSeries)| {
+    let mut probe_curves = Vec::with_capacity(runs.len());
+    for &(name, time_series) in runs {
         let values = time_series.probe(probe)?.iter().map(|value| factor * value);
         let points = time_series.times().iter().copied().zip(values).collect();
-        Ok(Curve { name: name.to_owned(), points })
-    };
-    let list = runs.iter().map(curve).collect::<Result<Vec<Curve>>>()?;
-    curves(title, "time, s", &with_unit(probe, unit), &list)
+        probe_curves.push(Curve { name: name.to_owned(), points });
+    }
+    curves(title, "time, s", &with_unit(probe, unit), &probe_curves)
 }
 
-/// Description of an axis.
+/// Description of an axis with the unit of its values.
 fn with_unit(name: &str, unit: &str) -> String {
     if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
 }
 
 /// Reduces a curve to the extremes of its stretches; peaks and gaps are kept.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= 4 * BUCKETS {
+    if points.len() <= 4 * MAX_STRETCHES {
         return points.to_vec();
     }
-    let mut kept = Vec::with_capacity(4 * BUCKETS);
-    for stretch in points.chunks(points.len().div_ceil(BUCKETS)) {
-        let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        let finite = || stretch.iter().filter(|point| point.1.is_finite());
-        let ends = [stretch.first(), stretch.last()];
-        let extremes = [finite().min_by(by_value), finite().max_by(by_value)];
-        let gap = stretch.iter().find(|point| !point.1.is_finite());
-        let mut few: Vec<_> =
-            ends.into_iter().chain(extremes).chain([gap]).flatten().copied().collect();
-        few.sort_by(|a, b| a.0.total_cmp(&b.0));
-        few.dedup_by(|a, b| a.0 == b.0);
-        kept.extend(few);
+    let mut kept = Vec::with_capacity(4 * MAX_STRETCHES);
+    for stretch in points.chunks(points.len().div_ceil(MAX_STRETCHES)) {
+        let finite = stretch.iter().filter(|point| point.1.is_finite());
+        let chosen = [
+            stretch.first(),
+            stretch.last(),
+            finite.clone().min_by(|a, b| a.1.total_cmp(&b.1)),
+            finite.max_by(|a, b| a.1.total_cmp(&b.1)),
+            stretch.iter().find(|point| !point.1.is_finite()),
+        ];
+        let mut points: Vec<_> = chosen.into_iter().flatten().copied().collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by(|a, b| a.0 == b.0);
+        kept.extend(points);
     }
     kept
 }
 
-/// The terms of the energy balance over time.
+/// Chart of the terms of the energy balance over time.
 ///
 /// Terms that stay below a thousandth of the largest are left out.
 ///
 /// # Errors
 /// The errors of [`curves`].
 pub fn energy(title: &str, time_series: &TimeSeries) -> Result<Svg> {
-    // The input first, then its parts.
-    let terms = |energy_balance: &EnergyBalance| {
-        [vec![("input", energy_balance.input)], energy_balance.parts()].concat()
-    };
-    let rows: Vec<_> = time_series.energy_balances().iter().map(terms).collect();
-    let largest = |k: usize| rows.iter().fold(0.0_f64, |m, row| m.max(row[k].1.abs()));
-    let names: Vec<_> = rows.first().into_iter().flatten().map(|(name, _)| *name).collect();
-    let scale = (0..names.len()).map(largest).fold(0.0, f64::max);
-    let shown = (0..names.len()).filter(|k| *k == 0 || largest(*k) > 1e-3 * scale);
-    let curve = |k: usize| Curve {
-        name: names[k].to_owned(),
-        points: time_series
-            .times()
-            .iter()
-            .zip(&rows)
-            .map(|(t, row)| (*t, 1e-3 * row[k].1))
-            .collect(),
-    };
+    let mut curves_of_terms: Vec<Curve> = Vec::new();
+    for (time, balance) in time_series.times().iter().zip(time_series.energy_balances()) {
+        let terms = [vec![("input", balance.input)], balance.parts()].concat();
+        if curves_of_terms.is_empty() {
+            for (name, _) in &terms {
+                curves_of_terms.push(Curve { name: (*name).to_owned(), points: Vec::new() });
+            }
+        }
+        for (curve, (_, energy)) in curves_of_terms.iter_mut().zip(terms) {
+            curve.points.push((*time, 1e-3 * energy));
+        }
+    }
+    let largest = curves_of_terms.iter().map(largest_value).fold(0.0, f64::max);
+    let mut is_input = true;
+    curves_of_terms.retain(|curve| {
+        let is_shown = is_input || largest_value(curve) > ENERGY_TERM_THRESHOLD * largest;
+        is_input = false;
+        is_shown
+    });
     let y = with_unit("energy", of_body("kJ/m", time_series.in_plan()));
-    curves(title, "time, s", &y, &shown.map(curve).collect::<Vec<_>>())
+    curves(title, "time, s", &y, &curves_of_terms)
+}
+
+/// Largest magnitude of a term of the energy balance that is left out, relative to the largest term.
+const ENERGY_TERM_THRESHOLD: f64 = 1e-3;
+
+/// Largest magnitude of a curve.
+fn largest_value(curve: &Curve) -> f64 {
+    curve.points.iter().fold(0.0_f64, |largest, point| largest.max(point.1.abs()))
 }
 
 /// Periods that can be drawn, s.
-const PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
+const DRAWN_PERIODS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Response spectra: pseudo-acceleration (m/s²) over the period, with a logarithmic period axis.
+/// Chart of response spectra: pseudo-acceleration (m/s²) over the period, with a logarithmic period axis.
 ///
 /// # Errors
 /// [`Error::Size`](crate::Error::Size) without an ordinate, [`Error::Input`](crate::Error::Input) for a period
 /// outside 10⁻⁶ to 10⁶ s.
 pub fn spectra(title: &str, spectra: &[(&str, &[SpectralOrdinate])]) -> Result<Svg> {
     let axes = axes_of_spectra(spectra)?;
-    Sheet::new(title, Key::of_curves(spectra.iter().map(|(name, _)| *name)))
+    Sheet::new(title, PictureKey::of_curves(spectra.iter().map(|(name, _)| *name)))
         .picture(|area| draw_spectra(area, &axes, spectra))
 }
 
-/// Axes that hold the spectra.
-pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[Axis; 2]> {
-    let all = || spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
-    let (mut first, mut last, mut top) = (f64::INFINITY, 0.0_f64, 0.0_f64);
-    for ordinate in all() {
+/// Axes on which all spectra fit.
+pub(super) fn axes_of_spectra(spectra: &[(&str, &[SpectralOrdinate])]) -> Result<[ChartAxis; 2]> {
+    let ordinates = spectra.iter().flat_map(|(_, spectrum)| spectrum.iter());
+    let mut first = f64::INFINITY;
+    let mut last = 0.0_f64;
+    let mut top = 0.0_f64;
+    for ordinate in ordinates.clone() {
         let period = ordinate.period;
-        require("period of a spectrum", period, PERIODS.contains(&period), "from 1e-6 to 1e6 s")?;
+        let is_drawn = DRAWN_PERIODS.contains(&period);
+        require("period of a spectrum", period, is_drawn, "from 1e-6 to 1e6 s")?;
         first = first.min(ordinate.period);
         last = last.max(ordinate.period);
-        if drawable(ordinate.pseudo_acceleration) {
+        if is_drawable(ordinate.pseudo_acceleration) {
             top = top.max(ordinate.pseudo_acceleration);
         }
     }
-    at_least("ordinates of a spectrum", all().count(), 1)?;
+    at_least("ordinates of a spectrum", ordinates.count(), 1)?;
     // A single period has no width, and a zero spectrum no height.
     let periods = if last > first { first..last } else { 0.5 * first..2.0 * first };
     let top = if top > 1e-60 { 1.08 * top } else { 1.0 };
-    let y = Axis::linear(0.0..top, "pseudo-acceleration, m/s²");
-    Ok([Axis::logarithmic(periods, "period, s"), y])
+    let y = ChartAxis::linear(0.0..top, "pseudo-acceleration, m/s²");
+    Ok([ChartAxis::logarithmic(periods, "period, s"), y])
 }
 
 /// Draws the spectra, with colours in their order.
 pub(super) fn draw_spectra(
     area: &Area<'_>,
-    [x, y]: &[Axis; 2],
+    [x, y]: &[ChartAxis; 2],
     spectra: &[(&str, &[SpectralOrdinate])],
 ) -> Drawing<()> {
     let mut chart = chart(area, x, y, true)?;
     for (k, (_, spectrum)) in spectra.iter().enumerate() {
-        let points = spectrum.iter().map(|o| (o.period.log10(), o.pseudo_acceleration));
+        let points =
+            spectrum.iter().map(|ordinate| (ordinate.period.log10(), ordinate.pseudo_acceleration));
         draw_curve(&mut chart, &points.collect::<Vec<_>>(), Stroke::nth(k), 2)?;
     }
     Ok(())
@@ -245,7 +274,7 @@ mod tests {
         points[54_321].1 = -9.0;
         points[70_001].1 = f64::NAN;
         let few = thinned(&points);
-        assert!(few.len() < 6 * BUCKETS && few.windows(2).all(|pair| pair[1].0 > pair[0].0));
+        assert!(few.len() < 6 * MAX_STRETCHES && few.windows(2).all(|pair| pair[1].0 > pair[0].0));
         for k in [34_567, 54_321] {
             assert!(few.contains(&points[k]));
         }

@@ -20,7 +20,8 @@ use super::svg::escaped;
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub fn page(title: &str, text: &dyn Display, pictures: &[Svg]) -> String {
-    let (title, text) = (escaped(title), escaped(&text.to_string()));
+    let title = escaped(title);
+    let text = escaped(&text.to_string());
     let pictures: String = pictures.iter().map(Svg::as_str).collect();
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\n\

@@ -11,22 +11,24 @@ use crate::error::{Error, Result, require};
 use crate::text::file::write_file;
 
 /// Largest bitmap, pixels: 100 million, 400 MB.
-const MOST_PIXELS: f64 = 1e8;
+const MAX_BITMAP_PIXELS: f64 = 1e8;
+/// Error for a picture that the renderer rejects.
 const NOT_DRAWN: Error =
     Error::Scene { quantity: "bitmap", needed: "a picture that can be drawn as one" };
 
 /// The only font, so that the picture is the same on every machine.
 fn fonts() -> Arc<fontdb::Database> {
     static FONTS: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
-    let load = || {
-        let mut fonts = fontdb::Database::new();
-        let font: &'static [u8] = dejavu::sans_condensed::regular();
-        fonts.load_font_source(fontdb::Source::Binary(Arc::new(font)));
-        // The family name in the file; no wider font is loaded that could be confused with it.
-        fonts.set_sans_serif_family("DejaVu Sans");
-        Arc::new(fonts)
-    };
-    FONTS.get_or_init(load).clone()
+    FONTS.get_or_init(|| Arc::new(load_fonts())).clone()
+}
+
+fn load_fonts() -> fontdb::Database {
+    let mut fonts = fontdb::Database::new();
+    let font: &'static [u8] = dejavu::sans_condensed::regular();
+    fonts.load_font_source(fontdb::Source::Binary(Arc::new(font)));
+    // The family name in the file; no wider font is loaded that could be confused with it.
+    fonts.set_sans_serif_family("DejaVu Sans");
+    fonts
 }
 
 impl Svg {
@@ -41,9 +43,10 @@ impl Svg {
         let options = Options { fontdb: fonts(), ..Options::default() };
         let tree = Tree::from_str(self.as_str(), &options).map_err(|_| NOT_DRAWN)?;
         let size = tree.size();
-        let [width, height] = [size.width(), size.height()].map(|side| f64::from(side) * scale);
+        let width = f64::from(size.width()) * scale;
+        let height = f64::from(size.height()) * scale;
         // A NaN is an error as well.
-        let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS;
+        let fits = width >= 1.0 && height >= 1.0 && width * height <= MAX_BITMAP_PIXELS;
         let needed = "above zero, and a bitmap of 100 million pixels at most";
         require("scale of a bitmap", scale, fits, needed)?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -76,26 +79,33 @@ mod tests {
     }
 
     /// Number of pixels darker than half.
-    fn dark(bitmap: &Pixmap) -> usize {
+    fn dark_pixels(bitmap: &Pixmap) -> usize {
         bitmap.pixels().iter().filter(|pixel| pixel.red() < 128).count()
     }
 
     #[test]
     fn a_bitmap_has_the_size_the_sheet_and_the_letters() {
-        let [blank, title] = ["", "Base shear"].map(|title| drawn(title, 1.0));
+        let blank = drawn("", 1.0);
+        let title = drawn("Base shear", 1.0);
         assert_eq!([blank.width(), blank.height()], [1100, 560]);
         assert_eq!(blank.pixels()[0].red(), 255);
-        assert!(dark(&title) > dark(&blank) + 200, "{} {}", dark(&title), dark(&blank));
+        assert!(
+            dark_pixels(&title) > dark_pixels(&blank) + 200,
+            "{} {}",
+            dark_pixels(&title),
+            dark_pixels(&blank)
+        );
         let large = drawn("Base shear", 2.5);
         assert_eq!([large.width(), large.height()], [2750, 1400]);
         // Areas grow with the square of the scale.
-        let growth = dark(&large) as f64 / dark(&title) as f64;
+        let growth = dark_pixels(&large) as f64 / dark_pixels(&title) as f64;
         assert!((4.0..9.0).contains(&growth), "{growth}");
     }
 
     #[test]
     fn the_font_has_every_letter_that_pictures_use() {
-        let (blank, fallback) = (drawn("", 1.0), drawn("\u{e000}", 1.0));
+        let blank = drawn("", 1.0);
+        let fallback = drawn("\u{e000}", 1.0);
         for letter in "µ²³⁻⁵·×÷°′–…αβφπτηξωΔ≤≥≈√∞".chars() {
             let bitmap = drawn(&letter.to_string(), 1.0);
             assert!(bitmap.data() != blank.data(), "{letter} is not drawn");
@@ -104,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_scales_are_refused() {
+    fn odd_scales_are_errors() {
         let svg = Svg::new("<svg xmlns='http://www.w3.org/2000/svg' width='9' height='9'/>".into());
         assert!(svg.png(1.0).is_ok());
         for scale in [0.0, -1.0, 1e-300, 1e5, f64::NAN, f64::INFINITY] {

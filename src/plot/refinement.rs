@@ -1,8 +1,10 @@
-//! Error against run time.
+//! Picture of the error of a refinement against run time.
 
-use super::axes::{Axis, chart, draw_curve};
+use std::ops::Range;
+
+use super::axes::{ChartAxis, chart, draw_curve};
 use super::drawing::Stroke;
-use super::key::Key;
+use super::key::PictureKey;
 use super::svg::{Sheet, Svg};
 use crate::coupled::{Refinement, Setting};
 use crate::error::{Error, Result};
@@ -17,37 +19,60 @@ pub fn refinement(title: &str, refinement: &Refinement) -> Result<Svg> {
     let Some(first) = refinement.settings.first() else {
         return Err(Error::Size { quantity: "settings of a refinement", found: 0, needed: 1 });
     };
-    let finer = |setting: &Setting| setting.time_step < first.time_step;
-    let more = |setting: &Setting| setting.elements > first.elements;
-    let curve = |keep: &dyn Fn(&Setting) -> bool| -> Vec<(f64, f64)> {
-        let kept = refinement.settings.iter().filter(|setting| keep(setting));
-        let points =
-            kept.map(|setting| (setting.wall.as_secs_f64().log10(), setting.error.log10()));
-        points.filter(|(wall, error)| wall.is_finite() && error.is_finite()).collect()
-    };
-    let curves = [
-        ("smaller steps", curve(&|setting| !more(setting))),
-        ("more elements", curve(&|setting| !finer(setting))),
-        ("both", curve(&|setting| more(setting) == finer(setting))),
-    ];
-    let range = |of: fn(&(f64, f64)) -> f64| {
-        let all = || curves.iter().flat_map(|(_, points)| points).map(of);
-        // A margin of a tenth of a decade, so that no point lies on the frame.
-        let (low, high) =
-            (all().fold(f64::INFINITY, f64::min), all().fold(-f64::INFINITY, f64::max));
-        (low <= high).then(|| 10.0_f64.powf(low - 0.1)..10.0_f64.powf(high + 0.1))
-    };
-    let (Some(walls), Some(errors)) = (range(|point| point.0), range(|point| point.1)) else {
+    let mut smaller_steps = Vec::new();
+    let mut more_elements = Vec::new();
+    let mut both = Vec::new();
+    for setting in &refinement.settings {
+        let has_smaller_step = setting.time_step < first.time_step;
+        let has_more_elements = setting.elements > first.elements;
+        // A curve begins at the first setting, which is in all of them.
+        if let Some(point) = logarithmic_point(setting) {
+            if !has_more_elements {
+                smaller_steps.push(point);
+            }
+            if !has_smaller_step {
+                more_elements.push(point);
+            }
+            if has_more_elements == has_smaller_step {
+                both.push(point);
+            }
+        }
+    }
+    let curves =
+        [("smaller steps", smaller_steps), ("more elements", more_elements), ("both", both)];
+    let points = curves.iter().flat_map(|(_, points)| points);
+    let walls = padded_range(points.clone().map(|point| point.0));
+    let errors = padded_range(points.map(|point| point.1));
+    let (Some(walls), Some(errors)) = (walls, errors) else {
         let quantity = "settings with an error and a run time";
         return Err(Error::Size { quantity, found: 0, needed: 1 });
     };
-    Sheet::new(title, Key::of_curves(curves.iter().map(|(name, _)| *name))).picture(|area| {
-        let x = Axis::logarithmic(walls, "run time, s");
-        let y = Axis::logarithmic(errors, "estimated error, relative");
+    Sheet::new(title, PictureKey::of_curves(curves.iter().map(|(name, _)| *name))).picture(|area| {
+        let x = ChartAxis::logarithmic(walls, "run time, s");
+        let y = ChartAxis::logarithmic(errors, "estimated error, relative");
         let mut chart = chart(area, &x, &y, true)?;
         for (k, (_, points)) in curves.iter().enumerate() {
             draw_curve(&mut chart, points, Stroke::nth(k), 2)?;
         }
         Ok(())
     })
+}
+
+/// Logarithms of run time (s) and error of a setting; `None` unless both are positive.
+fn logarithmic_point(setting: &Setting) -> Option<(f64, f64)> {
+    let wall = setting.wall.as_secs_f64().log10();
+    let error = setting.error.log10();
+    (wall.is_finite() && error.is_finite()).then_some((wall, error))
+}
+
+/// Range of values whose logarithms these are, with a margin; `None` without values.
+fn padded_range(logarithms: impl Iterator<Item = f64>) -> Option<Range<f64>> {
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+    for logarithm in logarithms {
+        low = low.min(logarithm);
+        high = high.max(logarithm);
+    }
+    // A margin of a tenth of a decade, so that no point lies on the frame.
+    (low <= high).then(|| 10.0_f64.powf(low - 0.1)..10.0_f64.powf(high + 0.1))
 }

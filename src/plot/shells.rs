@@ -1,8 +1,8 @@
-//! Values of shells on a plan, such as the bending moments of a mat.
+//! Pictures of the values of shells on a plan, such as the bending moments of a mat.
 
 use super::classes::Classes;
-use super::key::Sample;
-use super::plan::{Cell, draw};
+use super::key::KeySample;
+use super::plan::{PlanCell, draw};
 use super::svg::Svg;
 use crate::error::{Error, Result, at_least, finite, in_bounds, require_part};
 use crate::fem::{Element, Mesh};
@@ -48,20 +48,27 @@ pub fn shell_plan(
     for &(_, value) in values {
         finite("value of a shell", value)?;
     }
-    let classes = Classes::between(span(values.iter().map(|own| own.1).chain([0.0])));
-    let cell = |&(index, value): &(usize, f64)| {
-        let count = mesh.elements().len();
-        in_bounds("element of the mesh", index, count)?;
-        let faces = mesh.elements().nth(index).map_or_else(Vec::new, Element::faces);
-        let [shell] = &faces[..] else {
-            return Err(Error::part(format!("element {index}"), "it is not a shell".to_owned()));
-        };
-        let corner = |&node: &usize| (mesh.nodes()[node][0], mesh.nodes()[node][1]);
-        let corners = shell.corners().iter().map(corner).collect();
-        Ok(Cell { corners, color: classes.color(value), slides: None })
-    };
-    let cells = values.iter().map(cell).collect::<Result<Vec<_>>>()?;
-    let mut key = vec![(quantity.to_owned(), Sample::Nothing)];
+    let classes = Classes::between(span(values.iter().map(|pair| pair.1).chain([0.0])));
+    let mut cells = Vec::with_capacity(values.len());
+    for &(index, value) in values {
+        let corners = shell_corners(mesh, index)?;
+        cells.push(PlanCell { corners, color: classes.color(value), arrow: None });
+    }
+    let mut key = vec![(quantity.to_owned(), KeySample::Nothing)];
     key.append(&mut classes.key(1.0, ""));
     draw(title, &cells, &key)
+}
+
+/// Corners (x, y) of a shell; an error for any other element.
+fn shell_corners(mesh: &Mesh, index: usize) -> Result<Vec<(f64, f64)>> {
+    in_bounds("element of the mesh", index, mesh.elements().len())?;
+    let faces = mesh.elements().nth(index).map_or_else(Vec::new, Element::faces);
+    let [shell] = &faces[..] else {
+        return Err(Error::part(format!("element {index}"), "it is not a shell".to_owned()));
+    };
+    let mut corners = Vec::new();
+    for &node in shell.corners() {
+        corners.push((mesh.nodes()[node][0], mesh.nodes()[node][1]));
+    }
+    Ok(corners)
 }

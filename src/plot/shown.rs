@@ -4,13 +4,15 @@ use crate::interface::{ContactState, Mode};
 use crate::results::ContactFrame;
 use plotters::style::RGBColor;
 
+/// Largest pressure that counts as zero, relative to the largest pressure of the base.
+const PRESSURE_TOLERANCE: f64 = 1e-9;
+
 /// State of an element in a picture; where several share a column, the larger is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Shown {
+pub(super) enum ElementState {
     Stick,
     Open,
-    /// Touching without pressure: with infinite friction this is the meaning of slip, the state between stick
-    /// and open.
+    /// Touching without pressure: with infinite friction, slip is the state between stick and open.
     Weightless,
     SlipLeft,
     SlipRight,
@@ -18,15 +20,18 @@ pub(super) enum Shown {
     Slip,
 }
 
-impl Shown {
-    pub(super) const ALL: [Self; 6] =
+impl ElementState {
+    /// All states, in the order of the key.
+    const KEY_ORDER: [Self; 6] =
         [Self::Stick, Self::SlipLeft, Self::SlipRight, Self::Slip, Self::Open, Self::Weightless];
 
-    /// State from mode and tractions of an element; `scale` is the largest pressure of the base.
-    pub(super) fn new(mode: Mode, state: &ContactState, scale: f64) -> Self {
+    /// State from mode and tractions of an element.
+    ///
+    /// `max_pressure`: largest pressure of the base, Pa.
+    pub(super) fn new(mode: Mode, state: &ContactState, max_pressure: f64) -> Self {
         match mode.elastic() {
             Mode::Open => Self::Open,
-            _ if state.pressure.abs() <= 1e-9 * scale => Self::Weightless,
+            _ if state.pressure.abs() <= PRESSURE_TOLERANCE * max_pressure => Self::Weightless,
             Mode::SlipLeft => Self::SlipLeft,
             Mode::SlipRight => Self::SlipRight,
             Mode::Slip => Self::Slip,
@@ -56,24 +61,34 @@ impl Shown {
     }
 }
 
-/// State of every element in every frame, and the states in the key.
-///
-/// The key always has the modes of the plane or of plan, and touching without pressure only where it occurs.
-pub(super) fn shown(frames: &[ContactFrame<'_>], in_plan: bool) -> (Vec<Vec<Shown>>, Vec<Shown>) {
-    let pressures = frames.iter().flat_map(|frame| frame.states).map(|state| state.pressure.abs());
-    let scale = pressures.fold(0.0, f64::max);
-    let of_frame = |frame: &ContactFrame<'_>| -> Vec<Shown> {
-        let both = frame.modes.iter().zip(frame.states);
-        both.map(|(mode, state)| Shown::new(*mode, state, scale)).collect()
-    };
-    let all: Vec<Vec<Shown>> = frames.iter().map(of_frame).collect();
-    let occurs = |what: Shown| all.iter().flatten().any(|shown| *shown == what);
-    let has = |what: &Shown| match what {
-        Shown::Weightless => occurs(*what),
-        Shown::Slip => in_plan,
-        Shown::SlipLeft | Shown::SlipRight => !in_plan,
-        Shown::Stick | Shown::Open => true,
-    };
-    let key = Shown::ALL.into_iter().filter(has).collect();
-    (all, key)
+/// States of the elements in all frames, and the states in the key.
+pub(super) struct ShownStates {
+    /// State of every element in every frame.
+    pub(super) by_frame: Vec<Vec<ElementState>>,
+    /// The modes of the plane or of plan, and touching without pressure only where it occurs.
+    pub(super) in_key: Vec<ElementState>,
+}
+
+impl ShownStates {
+    pub(super) fn new(frames: &[ContactFrame<'_>], in_plan: bool) -> Self {
+        let states = frames.iter().flat_map(|frame| frame.states);
+        let max_pressure = states.map(|state| state.pressure.abs()).fold(0.0, f64::max);
+        let mut by_frame: Vec<Vec<ElementState>> = Vec::with_capacity(frames.len());
+        for frame in frames {
+            let modes_and_states = frame.modes.iter().zip(frame.states);
+            by_frame.push(
+                modes_and_states
+                    .map(|(mode, state)| ElementState::new(*mode, state, max_pressure))
+                    .collect(),
+            );
+        }
+        let mut in_key = ElementState::KEY_ORDER.to_vec();
+        in_key.retain(|state| match state {
+            ElementState::Weightless => by_frame.iter().flatten().any(|other| other == state),
+            ElementState::Slip => in_plan,
+            ElementState::SlipLeft | ElementState::SlipRight => !in_plan,
+            ElementState::Stick | ElementState::Open => true,
+        });
+        Self { by_frame, in_key }
+    }
 }

@@ -1,8 +1,8 @@
-//! Equivalent-linear response of a site.
+//! Picture of the equivalent-linear response of a site.
 
-use super::axes::{Axis, chart, draw_curve, range_of};
-use super::drawing::{Area, COLORS, Drawing, Stroke};
-use super::key::{Key, Sample};
+use super::axes::{ChartAxis, chart, draw_curve};
+use super::drawing::{Area, CURVE_COLORS, Drawing, Stroke, range_of};
+use super::key::{KeySample, PictureKey};
 use super::lines::{axes_of_spectra, draw_spectra};
 use super::svg::{Sheet, Svg};
 use crate::error::Result;
@@ -10,7 +10,7 @@ use crate::motion::SpectralOrdinate;
 use crate::site::{EquivalentLinear, LayerResponse};
 
 /// A quantity of a layer, from its response and its shear wave speed.
-type Value = fn(&LayerResponse, f64) -> f64;
+type LayerValue = fn(&LayerResponse, f64) -> f64;
 
 /// Shear wave speeds and strains over depth, and response spectra beside them.
 ///
@@ -23,47 +23,64 @@ pub fn site_response(
     response: &EquivalentLinear,
     spectra: &[(&str, &[SpectralOrdinate])],
 ) -> Result<Svg> {
-    let speeds: [(&str, Value); 2] = [
-        ("speed at small strain", |own, speed| speed / own.modulus_ratio.sqrt()),
+    let speeds: [(&str, LayerValue); 2] = [
+        ("speed at small strain", |layer, speed| speed / layer.modulus_ratio.sqrt()),
         ("strain-compatible speed", |_, speed| speed),
     ];
-    let strains: [(&str, Value); 2] = [
-        ("largest strain", |own, _| 100.0 * own.largest_strain),
-        ("effective strain", |own, _| 100.0 * own.effective_strain),
+    let strains: [(&str, LayerValue); 2] = [
+        ("largest strain", |layer, _| 100.0 * layer.largest_strain),
+        ("effective strain", |layer, _| 100.0 * layer.effective_strain),
     ];
     // Spectra use the first colours.
-    let strokes = [COLORS[5], COLORS[4], COLORS[3], COLORS[6]].map(Stroke::plain);
-    let steps = |value: Value| -> Vec<(f64, f64)> {
-        let layers = response.layers.iter().zip(response.profile.layers());
-        let step = layers.flat_map(|(own, layer)| {
-            let x = value(own, (own.shear_modulus / layer.soil.density()).sqrt());
-            [(x, -own.depth), (x, -own.depth - layer.thickness)]
-        });
-        step.collect()
-    };
-    let panel =
-        |area: &Area<'_>, name: &str, values: [Value; 2], strokes: &[Stroke]| -> Drawing<()> {
-            let curves = values.map(steps);
-            let all = || curves.iter().flatten();
-            let x = Axis::linear(range_of(all().map(|point| point.0).chain([0.0])), name);
-            let y = Axis::linear(range_of(all().map(|point| point.1).chain([0.0])), "y, m");
-            let mut chart = chart(area, &x, &y, true)?;
-            for (points, stroke) in curves.iter().zip(strokes) {
-                draw_curve(&mut chart, points, *stroke, 2)?;
-            }
-            Ok(())
-        };
+    let strokes =
+        [CURVE_COLORS[5], CURVE_COLORS[4], CURVE_COLORS[3], CURVE_COLORS[6]].map(Stroke::plain);
     let axes = axes_of_spectra(spectra)?;
-    let names = speeds.iter().chain(&strains).zip(strokes);
-    let own = names.map(|((name, _), stroke)| (*name, Sample::Line(stroke)));
-    let others = spectra.iter().enumerate();
-    let others = others.map(|(k, (name, _))| (*name, Sample::Line(Stroke::nth(k))));
-    Sheet::new(title, Key::new(own.chain(others))).picture(|area| {
+    let mut key = Vec::new();
+    for ((name, _), stroke) in speeds.iter().chain(&strains).zip(strokes) {
+        key.push((*name, KeySample::Line(stroke)));
+    }
+    for (k, (name, _)) in spectra.iter().enumerate() {
+        key.push((*name, KeySample::Line(Stroke::nth(k))));
+    }
+    let speeds = speeds.map(|(_, value)| steps_over_depth(response, value));
+    let strains = strains.map(|(_, value)| steps_over_depth(response, value));
+    Sheet::new(title, PictureKey::new(key)).picture(|area| {
         let width = area.dim_in_pixel().0;
         let (left, rest) = area.split_horizontally(width * 3 / 10);
         let (middle, right) = rest.split_horizontally(width * 3 / 10);
-        panel(&left, "c_S, m/s", speeds.map(|(_, value)| value), &strokes[..2])?;
-        panel(&middle, "strain, %", strains.map(|(_, value)| value), &strokes[2..])?;
+        draw_over_depth(&left, "c_S, m/s", &speeds, &strokes[..2])?;
+        draw_over_depth(&middle, "strain, %", &strains, &strokes[2..])?;
         draw_spectra(&right, &axes, spectra)
     })
+}
+
+/// A value over y, constant in each layer.
+fn steps_over_depth(response: &EquivalentLinear, value: LayerValue) -> Vec<(f64, f64)> {
+    let mut points = Vec::new();
+    for (layer, soil_layer) in response.layers.iter().zip(response.profile.layers()) {
+        let speed = (layer.shear_modulus / soil_layer.soil.density()).sqrt();
+        let x = value(layer, speed);
+        points.push((x, -layer.depth));
+        points.push((x, -layer.depth - soil_layer.thickness));
+    }
+    points
+}
+
+/// Draws curves over depth.
+fn draw_over_depth(
+    area: &Area<'_>,
+    description: &str,
+    curves: &[Vec<(f64, f64)>; 2],
+    strokes: &[Stroke],
+) -> Drawing<()> {
+    let points = curves.iter().flatten();
+    let x = range_of(points.clone().map(|point| point.0).chain([0.0]));
+    let y = range_of(points.map(|point| point.1).chain([0.0]));
+    let x_axis = ChartAxis::linear(x, description);
+    let y_axis = ChartAxis::linear(y, "y, m");
+    let mut chart = chart(area, &x_axis, &y_axis, true)?;
+    for (points, stroke) in curves.iter().zip(strokes) {
+        draw_curve(&mut chart, points, *stroke, 2)?;
+    }
+    Ok(())
 }

@@ -5,20 +5,24 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::axes::{ABOVE, BELOW, LEFT, RIGHT};
+use super::axes::{SPACE_ABOVE, SPACE_BELOW, SPACE_LEFT, SPACE_RIGHT};
 use super::drawing::{Area, Drawing};
-use super::key::Key;
+use super::key::PictureKey;
 use super::text_width::lines;
 use crate::error::{Error, Result};
 use crate::text::file::write_file;
 
-/// Size of the pictures, pixels; they are higher if title or key need it.
-const SIZE: (u32, u32) = (1100, 560);
-const TITLE: (&str, u32) = ("sans-serif", 22);
-/// Largest number of title lines; pixels per line, and above and below them.
-const TITLE_LINES: usize = 2;
-const TITLE_LINE: u32 = 26;
-const TITLE_ROOM: u32 = 16;
+/// Width of the pictures, pixels.
+const PICTURE_WIDTH: u32 = 1100;
+/// Height of the pictures, pixels; they are higher if title or key need it.
+const PICTURE_HEIGHT: u32 = 560;
+const TITLE_FONT: (&str, u32) = ("sans-serif", 22);
+/// Largest number of lines of the title; the rest is cut.
+const MAX_TITLE_LINES: usize = 2;
+/// Height of a line of the title, pixels.
+const TITLE_LINE_HEIGHT: u32 = 26;
+/// Height above and below the title, pixels.
+const TITLE_PADDING: u32 = 16;
 
 /// Text of a picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,8 +31,8 @@ pub struct Svg(String);
 impl Svg {
     /// Replaces characters that XML 1.0 does not allow (its section 2.2) by replacement characters.
     pub(super) fn new(text: String) -> Self {
-        let unknown = |c| matches!(c, '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}');
-        Self(if text.contains(unknown) { text.replace(unknown, "\u{fffd}") } else { text })
+        let has_forbidden = text.contains(is_forbidden_in_xml);
+        Self(if has_forbidden { text.replace(is_forbidden_in_xml, "\u{fffd}") } else { text })
     }
 
     /// The SVG's text.
@@ -48,32 +52,41 @@ impl Svg {
     }
 }
 
-/// Title and key, with the room between them.
+fn is_forbidden_in_xml(character: char) -> bool {
+    matches!(
+        character,
+        '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}'
+    )
+}
+
+/// Title and key of a picture, and the space for its charts.
 pub(super) struct Sheet {
     title: Vec<String>,
-    key: Key,
+    key: PictureKey,
     height: u32,
 }
 
 impl Sheet {
-    pub(super) fn new(title: &str, key: Key) -> Self {
-        let title = lines(title, TITLE.1, f64::from(SIZE.0) - 40.0, TITLE_LINES);
-        let mut sheet = Self { title, key, height: SIZE.1 };
-        let top = sheet.top();
-        sheet.height = (SIZE.1 + top - TITLE_LINE - TITLE_ROOM).max(top + sheet.key.height());
+    pub(super) fn new(title: &str, key: PictureKey) -> Self {
+        let title = lines(title, TITLE_FONT.1, f64::from(PICTURE_WIDTH) - 40.0, MAX_TITLE_LINES);
+        let mut sheet = Self { title, key, height: PICTURE_HEIGHT };
+        let title_height = sheet.title_height();
+        let height_of_one_line = TITLE_LINE_HEIGHT + TITLE_PADDING;
+        sheet.height = (PICTURE_HEIGHT + title_height - height_of_one_line)
+            .max(title_height + sheet.key.height());
         sheet
     }
 
     /// Height of the title, pixels.
-    fn top(&self) -> u32 {
-        TITLE_ROOM + TITLE_LINE * u32::try_from(self.title.len()).unwrap_or(1)
+    fn title_height(&self) -> u32 {
+        TITLE_PADDING + TITLE_LINE_HEIGHT * u32::try_from(self.title.len()).unwrap_or(1)
     }
 
     /// Width and height between the axes of a chart, pixels.
-    pub(super) fn room(&self) -> [f64; 2] {
+    pub(super) fn chart_size(&self) -> [f64; 2] {
         [
-            f64::from(SIZE.0 - self.key.width() - LEFT - RIGHT),
-            f64::from(self.height - self.top() - ABOVE - BELOW),
+            f64::from(PICTURE_WIDTH - self.key.width() - SPACE_LEFT - SPACE_RIGHT),
+            f64::from(self.height - self.title_height() - SPACE_ABOVE - SPACE_BELOW),
         ]
     }
 
@@ -81,11 +94,11 @@ impl Sheet {
     pub(super) fn picture(&self, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Result<Svg> {
         let mut text = String::new();
         {
-            let area = SVGBackend::with_string(&mut text, (SIZE.0, self.height));
+            let area = SVGBackend::with_string(&mut text, (PICTURE_WIDTH, self.height));
             let area = area.into_drawing_area();
             let drawn = self.draw(&area, chart);
-            let done = drawn.and_then(|()| area.present().map_err(Into::into));
-            done.map_err(|_| Error::Scene {
+            let written = drawn.and_then(|()| area.present().map_err(Into::into));
+            written.map_err(|_| Error::Scene {
                 quantity: "picture",
                 needed: "values that a chart can show: finite, and not all too large",
             })?;
@@ -95,17 +108,18 @@ impl Sheet {
 
     fn draw(&self, area: &Area<'_>, chart: impl FnOnce(&Area<'_>) -> Drawing<()>) -> Drawing<()> {
         area.fill(&WHITE)?;
-        let style = TextStyle::from(TITLE.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
-        let middle = i32::try_from(SIZE.0 / 2).unwrap_or(0);
+        let style =
+            TextStyle::from(TITLE_FONT.into_font()).pos(Pos::new(HPos::Center, VPos::Center));
+        let middle = i32::try_from(PICTURE_WIDTH / 2).unwrap_or(0);
         let mut y = 24;
         for line in self.title.iter().filter(|line| !line.is_empty()) {
             area.draw(&Text::new(line.clone(), (middle, y), style.clone()))?;
-            y += i32::try_from(TITLE_LINE).unwrap_or(0);
+            y += i32::try_from(TITLE_LINE_HEIGHT).unwrap_or(0);
         }
-        let (_, body) = area.split_vertically(self.top());
-        let (left, strip) = body.split_horizontally(SIZE.0 - self.key.width());
-        self.key.draw(&strip)?;
-        chart(&left)
+        let body = area.split_vertically(self.title_height()).1;
+        let (chart_area, key_strip) = body.split_horizontally(PICTURE_WIDTH - self.key.width());
+        self.key.draw(&key_strip)?;
+        chart(&chart_area)
     }
 }
 
@@ -122,18 +136,21 @@ pub(super) fn polygon(corners: &[[f64; 2]]) -> String {
 
 /// Animates an attribute with values for equal parts of the time; only changes are written.
 pub(super) fn changes(attribute: &str, values: &[String], duration: &str) -> String {
-    let new = |k: &usize| *k == 0 || values[*k] != values[*k - 1];
-    let at: Vec<usize> = (0..values.len()).filter(new).collect();
-    if at.len() < 2 {
+    let mut times = Vec::new();
+    let mut new_values: Vec<&str> = Vec::new();
+    for (k, value) in values.iter().enumerate() {
+        if k == 0 || *value != values[k - 1] {
+            times.push(format!("{:.5}", k as f64 / values.len() as f64));
+            new_values.push(value);
+        }
+    }
+    if new_values.len() < 2 {
         return String::new();
     }
-    let times: Vec<String> =
-        at.iter().map(|k| format!("{:.5}", *k as f64 / values.len() as f64)).collect();
-    let values: Vec<&str> = at.iter().map(|k| &values[*k][..]).collect();
     format!(
         "<animate attributeName=\"{attribute}\" calcMode=\"discrete\" dur=\"{duration}\" \
          repeatCount=\"indefinite\" keyTimes=\"{}\" values=\"{}\"/>",
         times.join(";"),
-        values.join(";")
+        new_values.join(";")
     )
 }

@@ -9,8 +9,8 @@ use crate::text::line_breaks::wrapped;
 const FONT_SCALE: f64 = 1.24;
 
 /// Width of a letter over the font's size.
-fn letter(c: char) -> f64 {
-    match c {
+fn letter_width(letter: char) -> f64 {
+    match letter {
         'i' | 'j' | 'l' | 'I' | '|' | '!' | '.' | ',' | ':' | ';' | '\'' | ' ' => 0.37,
         'm' | 'w' | 'M' | 'W' | '%' | '@' | '—' | '…' | 'Æ' | 'Œ' | 'Ω' => 1.01,
         '0'..='9' | 'a'..='z' => 0.64,
@@ -22,17 +22,17 @@ fn letter(c: char) -> f64 {
 
 /// Width of a text, pixels, in plotters' font of this size in points.
 pub(super) fn width(text: &str, size: u32) -> f64 {
-    text.chars().map(letter).sum::<f64>() * f64::from(size) / FONT_SCALE
+    text.chars().map(letter_width).sum::<f64>() * f64::from(size) / FONT_SCALE
 }
 
-/// The text in lines of at most `room` pixels, as [`wrapped`].
-pub(super) fn lines(text: &str, size: u32, room: f64, most: usize) -> Vec<String> {
-    wrapped(text, room, most, |text| width(text, size))
+/// The text in lines of at most `max_width` pixels, as [`wrapped`].
+pub(super) fn lines(text: &str, size: u32, max_width: f64, max_lines: usize) -> Vec<String> {
+    wrapped(text, max_width, max_lines, |text| width(text, size))
 }
 
-/// The text, cut where it is wider than `room` pixels.
-pub(super) fn fitted(text: &str, size: u32, room: f64) -> String {
-    lines(text, size, room, 1).swap_remove(0)
+/// The text, cut where it is wider than `max_width` pixels.
+pub(super) fn fitted(text: &str, size: u32, max_width: f64) -> String {
+    lines(text, size, max_width, 1).swap_remove(0)
 }
 
 /// A number in four digits.
@@ -41,6 +41,15 @@ pub(super) fn short(value: f64) -> String {
         format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string()
     } else {
         format!("{value:.1e}")
+    }
+}
+
+/// A length in m or mm.
+pub(super) fn length_text(length: f64) -> String {
+    if length < 0.5 {
+        format!("{} mm", short(1e3 * length))
+    } else {
+        format!("{} m", short(length))
     }
 }
 

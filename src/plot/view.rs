@@ -4,7 +4,7 @@ use crate::results::DeformedShape;
 
 /// Directions of view of a structure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum View {
+pub(super) enum StructureView {
     /// View along y: x to the right, height up.
     AlongY,
     /// View against x: y to the right, height up.
@@ -15,7 +15,7 @@ pub(super) enum View {
     Slanted,
 }
 
-impl View {
+impl StructureView {
     /// Elevations of a structure whose axis `up` points up: one for each axis of the surface.
     pub(super) fn elevations(up: usize) -> &'static [Self] {
         &[Self::AlongY, Self::AlongX][..up]
@@ -31,7 +31,7 @@ impl View {
         match self {
             Self::AlongY => [x, up],
             Self::AlongX => [y, up],
-            Self::Slanted => [(x + y) * COS, up + (y - x) * SIN],
+            Self::Slanted => [(x + y) * COS_30_DEGREES, up + (y - x) * SIN_30_DEGREES],
         }
     }
 
@@ -55,17 +55,20 @@ impl View {
     pub(super) fn far_to_near(self, shape: &DeformedShape) -> Vec<&[usize]> {
         let cells = shape.cells().iter().map(|cell| DeformedShape::corners(cell));
         let mut cells: Vec<&[usize]> = cells.collect();
-        let near = |cell: &&[usize]| {
-            let corners = cell.iter().map(|&corner| self.nearness(shape.points()[corner].place()));
-            corners.sum::<f64>() / cell.len() as f64
-        };
         if shape.has_faces() {
-            cells.sort_by(|a, b| near(a).total_cmp(&near(b)));
+            cells.sort_by(|a, b| {
+                self.mean_nearness(shape, a).total_cmp(&self.mean_nearness(shape, b))
+            });
         }
         cells
     }
+
+    /// Mean distance of the corners of a cell, at rest, towards the viewer.
+    fn mean_nearness(self, shape: &DeformedShape, cell: &[usize]) -> f64 {
+        let distances = cell.iter().map(|&corner| self.nearness(shape.points()[corner].place()));
+        distances.sum::<f64>() / cell.len() as f64
+    }
 }
 
-/// Cosine and sine of 30 degrees.
-const COS: f64 = 0.866_025_403_784_438_6;
-const SIN: f64 = 0.5;
+const COS_30_DEGREES: f64 = 0.866_025_403_784_438_6;
+const SIN_30_DEGREES: f64 = 0.5;

@@ -3,12 +3,10 @@
 //! Each type is one published solution, with its source. Rotations and moments are positive
 //! counter-clockwise, x to the right, y up; loads are per metre of thickness, in SI units.
 
-mod elliptic_integral;
 mod line_load;
-mod loaded_plate;
-mod loaded_rectangle;
 mod rigid_strip;
 mod rocking_block;
+mod settlement;
 mod sliding_block;
 mod sliding_estimate;
 mod sliding_history;
@@ -21,10 +19,9 @@ pub use line_load::{
     flamant_horizontal_displacement, flamant_radial_stress, flamant_relative_settlement,
     kelvin_relative_displacement,
 };
-pub use loaded_plate::hertz_plate_settlement;
-pub use loaded_rectangle::loaded_rectangle_settlement;
 pub use rigid_strip::RigidStrip;
 pub use rocking_block::RockingBlock;
+pub use settlement::{hertz_plate_settlement, loaded_rectangle_settlement};
 pub use sliding_block::SlidingBlock;
 pub use sliding_estimate::SlidingEstimate;
 pub use sliding_history::{SlidingEvent, SlidingHistory};

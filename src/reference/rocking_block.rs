@@ -1,6 +1,5 @@
 //! Free rocking of a rigid block on a rigid base.
 
-use super::elliptic_integral::carlson_rf;
 use crate::error::{Result, positive, require};
 
 /// Rigid rectangular block that rocks about its corners on a rigid base, without sliding.
@@ -69,11 +68,11 @@ impl RockingBlock {
     /// [`Error::Input`](crate::Error::Input) unless the acceleration is finite and above g α, where a slender block starts
     /// to rock.
     pub fn overturning_pulse(&self, acceleration: f64) -> Result<f64> {
-        let least = self.gravity * self.slenderness_angle();
-        let rocks = acceleration > least && acceleration < f64::INFINITY;
+        let min_acceleration = self.gravity * self.slenderness_angle();
+        let rocks = acceleration > min_acceleration && acceleration < f64::INFINITY;
         require("acceleration of the pulse", acceleration, rocks, "finite and above g α")?;
         // ln(x/(x − 1)) = −ln(1 − 1/x)
-        Ok(-(-least / acceleration).ln_1p() / self.frequency_parameter())
+        Ok(-(-min_acceleration / acceleration).ln_1p() / self.frequency_parameter())
     }
 
     /// Velocity V (m/s) at which two opposite impulses just overturn the block, the second one right after an impact.
@@ -99,10 +98,11 @@ impl RockingBlock {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) if the motion ends in an impact (η ≤ 0).
     pub fn overturning_double_impulse(&self) -> Result<f64> {
-        let kept = positive("restitution of the block", self.restitution())?;
-        let (angle, size) = (self.slenderness_angle(), self.half_width.hypot(self.half_height));
+        let restitution = positive("restitution of the block", self.restitution())?;
+        let angle = self.slenderness_angle();
+        let half_diagonal = self.half_width.hypot(self.half_height);
         let rate = 2.0 * self.frequency_parameter() * (0.5 * angle).sin();
-        Ok(4.0 * size * rate / (3.0 * angle.cos() * (1.0 + kept)))
+        Ok(4.0 * half_diagonal * rate / (3.0 * angle.cos() * (1.0 + restitution)))
     }
 
     /// Ratio 1 − 1.5 sin²α of the angular velocities after and before an impact.
@@ -121,8 +121,8 @@ impl RockingBlock {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn period_slender(&self, amplitude: f64) -> Result<f64> {
-        let ratio = self.check(amplitude)? / self.slenderness_angle();
-        // arcosh(1/(1−r)) = ln((1 + √(r(2−r)))/(1−r)), without cancellation at small r
+        let ratio = self.check_amplitude(amplitude)? / self.slenderness_angle();
+        // arcosh(1/(1−r)) = ln((1 + √(r(2−r)))/(1−r)), without cancellation at small r.
         let root = (ratio * (2.0 - ratio)).sqrt();
         Ok(4.0 / self.frequency_parameter() * (root.ln_1p() - (-ratio).ln_1p()))
     }
@@ -136,10 +136,10 @@ impl RockingBlock {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn period(&self, amplitude: f64) -> Result<f64> {
-        let amplitude = self.check(amplitude)?;
+        let amplitude = self.check_amplitude(amplitude)?;
         let angle = self.slenderness_angle();
         let cosine = (angle / 2.0).cos();
-        // k' tan ψ, where F(ψ, k) = K − F(φ, k), and k' itself
+        // k' tan ψ, where F(ψ, k) = K − F(φ, k).
         let product = ((angle - amplitude / 2.0).sin() * (amplitude / 2.0).sin()).sqrt() / cosine;
         let tangent = product / ((angle - amplitude) / 2.0).sin();
         let integral = tangent * carlson_rf(1.0, 1.0 + product * product, 1.0 + tangent * tangent);
@@ -153,7 +153,7 @@ impl RockingBlock {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn impact_rate(&self, amplitude: f64) -> Result<f64> {
-        let amplitude = self.check(amplitude)?;
+        let amplitude = self.check_amplitude(amplitude)?;
         let half_square =
             2.0 * (self.slenderness_angle() - amplitude / 2.0).sin() * (amplitude / 2.0).sin();
         Ok(self.frequency_parameter() * (2.0 * half_square).sqrt())
@@ -166,19 +166,20 @@ impl RockingBlock {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn next_peak(&self, amplitude: f64) -> Result<f64> {
-        let amplitude = self.check(amplitude)?;
+        let amplitude = self.check_amplitude(amplitude)?;
         let angle = self.slenderness_angle();
         // 2 sin(α − θ/2) sin(θ/2) = cos(α − θ) − cos α on both sides, solved for θ₁ by
-        // δ = α − θ₁: sin²(δ/2) = sin²(α/2) − drop/2
+        // δ = α − θ₁: sin²(δ/2) = sin²(α/2) − drop/2.
         let drop = 2.0
             * self.restitution().powi(2)
             * (angle - amplitude / 2.0).sin()
             * (amplitude / 2.0).sin();
-        let half = (angle / 2.0).sin();
-        let other = (half * half - drop / 2.0).max(0.0).sqrt();
-        // θ₁/2 = asin(half) − asin(other), as one arcsine without cancellation
-        let (cos_half, cos_other) = ((1.0 - half * half).sqrt(), (1.0 - other * other).sqrt());
-        let sine = (drop / 2.0) / (half * cos_other + cos_half * other);
+        let sin_angle = (angle / 2.0).sin();
+        let sin_delta = (sin_angle * sin_angle - drop / 2.0).max(0.0).sqrt();
+        // θ₁/2 = α/2 − δ/2, as one arcsine without cancellation.
+        let cos_angle = (1.0 - sin_angle * sin_angle).sqrt();
+        let cos_delta = (1.0 - sin_delta * sin_delta).sqrt();
+        let sine = (drop / 2.0) / (sin_angle * cos_delta + cos_angle * sin_delta);
         Ok(2.0 * sine.asin())
     }
 
@@ -190,7 +191,7 @@ impl RockingBlock {
     /// [`Error::Input`](crate::Error::Input) unless 0 < θ₀ < α.
     pub fn next_peak_slender(&self, amplitude: f64) -> Result<f64> {
         let angle = self.slenderness_angle();
-        let ratio = self.check(amplitude)? / angle;
+        let ratio = self.check_amplitude(amplitude)? / angle;
         let drop = self.restitution().powi(2) * ratio * (2.0 - ratio);
         Ok(angle * drop / (1.0 + (1.0 - drop).sqrt()))
     }
@@ -221,9 +222,50 @@ impl RockingBlock {
         Ok(times)
     }
 
-    fn check(&self, amplitude: f64) -> Result<f64> {
+    /// `amplitude`, or an error unless the block rocks with it.
+    fn check_amplitude(&self, amplitude: f64) -> Result<f64> {
         let rocks = amplitude > 0.0 && amplitude < self.slenderness_angle();
         let needed = "above zero and below the slenderness angle of the block";
         require("rocking amplitude", amplitude, rocks, needed)
+    }
+}
+
+/// Carlson's symmetric elliptic integral of the first kind, `R_F`(x, y, z).
+///
+/// For arguments that are not negative, at most one of them zero.
+///
+/// Duplication theorem and series to sixth order: Carlson, "Computing elliptic integrals by
+/// duplication", Numer. Math. 33 (1979), 1–16; NIST DLMF 19.36.1.
+fn carlson_rf(mut x: f64, mut y: f64, mut z: f64) -> f64 {
+    loop {
+        let mean = (x + y + z) / 3.0;
+        let dx = 1.0 - x / mean;
+        let dy = 1.0 - y / mean;
+        let dz = -(dx + dy);
+        // The neglected terms are of sixth order in these differences.
+        if dx.abs().max(dy.abs()).max(dz.abs()) < 1e-3 || !mean.is_finite() {
+            let e2 = dx * dy - dz * dz;
+            let e3 = dx * dy * dz;
+            let series = 1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0;
+            return series / mean.sqrt();
+        }
+        let lambda = (x * y).sqrt() + (y * z).sqrt() + (z * x).sqrt();
+        x = (x + lambda) / 4.0;
+        y = (y + lambda) / 4.0;
+        z = (z + lambda) / 4.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of Carlson, "Numerical computation of real or complex elliptic integrals", Numer.
+    /// Algorithms 10 (1995), 13–26, section 3.
+    #[test]
+    fn carlson_1995_values() {
+        assert!((carlson_rf(1.0, 2.0, 0.0) - 1.311_028_777_146_1).abs() < 1e-13);
+        assert!((carlson_rf(2.0, 3.0, 4.0) - 0.584_082_841_677_15).abs() < 1e-13);
+        assert!((carlson_rf(0.5, 1.0, 0.0) - 1.854_074_677_301_4).abs() < 1e-13);
     }
 }

@@ -1,6 +1,6 @@
 //! Rigid block that slides on shaken rigid ground, solved exactly.
 
-use super::sliding_history::{Piece, SlidingEvent, SlidingHistory};
+use super::sliding_history::{SlidingEvent, SlidingHistory, SlidingInterval};
 use crate::error::{Result, positive};
 use crate::motion::{Record, quadratic_roots_within};
 
@@ -47,54 +47,56 @@ impl SlidingBlock {
 
     /// Slip during the record, and after its end until the block is at rest.
     pub fn slide(&self, record: &Record) -> SlidingHistory {
-        let mut run = Run::new(self.yield_acceleration);
+        let mut run = SlidingRun::new(self.yield_acceleration);
         let step = record.time_step();
         for (index, pair) in record.accelerations().windows(2).enumerate() {
             let end = (index + 1) as f64 * step;
-            run.interval(index as f64 * step, end, pair[0], (pair[1] - pair[0]) / step);
+            run.advance(index as f64 * step, end, pair[0], (pair[1] - pair[0]) / step);
         }
         let end = record.duration();
         let stop = run.velocity.abs() / self.yield_acceleration;
-        // longer than the block needs to stop, so that the stop falls inside the interval
-        run.interval(end, end + 2.0 * stop + step, 0.0, 0.0);
+        // Longer than the block needs to stop, so that the stop falls inside the interval.
+        run.advance(end, end + 2.0 * stop + step, 0.0, 0.0);
         run.finish(end + 2.0 * stop + step)
     }
 }
 
 /// State while the record is processed.
-struct Run {
+struct SlidingRun {
     yield_acceleration: f64,
     slip: f64,
+    /// Slip velocity, m/s.
     velocity: f64,
     /// +1 or −1 while sliding, 0 at rest.
     direction: f64,
-    pieces: Vec<Piece>,
+    intervals: Vec<SlidingInterval>,
     events: Vec<SlidingEvent>,
     extremes: [f64; 2],
 }
 
-impl Run {
+impl SlidingRun {
     fn new(yield_acceleration: f64) -> Self {
         Self {
             yield_acceleration,
             slip: 0.0,
             velocity: 0.0,
             direction: 0.0,
-            pieces: Vec::new(),
+            intervals: Vec::new(),
             events: Vec::new(),
             extremes: [0.0; 2],
         }
     }
 
     /// Processes one interval in which the ground's acceleration is `ground` + `jerk`·(t − `start`).
-    fn interval(&mut self, start: f64, end: f64, ground: f64, jerk: f64) {
-        let (mut time, mut ground) = (start, ground);
+    fn advance(&mut self, start: f64, end: f64, ground: f64, jerk: f64) {
+        let mut time = start;
+        let mut ground = ground;
         while time < end {
-            let left = end - time;
+            let remaining = end - time;
             let elapsed = if self.direction == 0.0 {
-                self.rest(time, left, &mut ground, jerk)
+                self.time_to_slip(time, remaining, &mut ground, jerk)
             } else {
-                self.slide(time, left, &mut ground, jerk)
+                self.time_to_stop(time, remaining, &mut ground, jerk)
             };
             match elapsed {
                 Some(elapsed) => time += elapsed,
@@ -103,20 +105,26 @@ impl Run {
         }
     }
 
-    /// Time from rest to the start of slip, s, if within `left`.
-    fn rest(&mut self, time: f64, left: f64, ground: &mut f64, jerk: f64) -> Option<f64> {
+    /// Time from rest to the start of slip, s, if within `remaining`.
+    fn time_to_slip(
+        &mut self,
+        time: f64,
+        remaining: f64,
+        ground: &mut f64,
+        jerk: f64,
+    ) -> Option<f64> {
         let limit = self.yield_acceleration;
-        let outward = *ground * jerk > 0.0;
-        let elapsed = if ground.abs() > limit || (ground.abs() == limit && outward) {
+        let grows = *ground * jerk > 0.0;
+        let elapsed = if ground.abs() > limit || (ground.abs() == limit && grows) {
             0.0
         } else {
-            self.pieces.push(Piece { time, state: [self.slip, 0.0, 0.0, 0.0] });
-            // towards +limit with a positive jerk, −limit with a negative one
+            self.intervals.push(SlidingInterval::at_rest(time, self.slip));
+            // To +limit with a positive jerk, to −limit with a negative one.
             let elapsed = (limit.copysign(jerk) - *ground) / jerk;
-            if jerk == 0.0 || elapsed >= left {
+            if jerk == 0.0 || elapsed >= remaining {
                 return None;
             }
-            // set exactly: the slip acceleration starts from zero, and rounding must not change its sign
+            // Set exactly: the slip acceleration starts from zero, and rounding must not change its sign.
             *ground = limit.copysign(jerk);
             elapsed
         };
@@ -125,31 +133,43 @@ impl Run {
         Some(elapsed)
     }
 
-    /// Time to the end of slip in this direction, s, if within `left`.
-    fn slide(&mut self, time: f64, left: f64, ground: &mut f64, jerk: f64) -> Option<f64> {
+    /// Time to the end of slip in this direction, s, if within `remaining`.
+    fn time_to_stop(
+        &mut self,
+        time: f64,
+        remaining: f64,
+        ground: &mut f64,
+        jerk: f64,
+    ) -> Option<f64> {
         let acceleration = -*ground - self.direction * self.yield_acceleration;
-        let outward = self.direction * acceleration > 0.0
+        let accelerates = self.direction * acceleration > 0.0
             || (acceleration == 0.0 && self.direction * jerk < 0.0);
-        // a stop at the end of the last interval may have been rounded beyond that end
+        // A stop at the end of the last interval may have been rounded beyond that end.
         let rounded_past = self.direction * self.velocity <= 0.0;
         if rounded_past {
             self.velocity = 0.0;
         }
-        let piece = Piece { time, state: [self.slip, self.velocity, acceleration, -jerk] };
-        let elapsed = if rounded_past && !outward {
+        let motion = SlidingInterval {
+            time,
+            slip: self.slip,
+            velocity: self.velocity,
+            acceleration,
+            jerk: -jerk,
+        };
+        let elapsed = if rounded_past && !accelerates {
             0.0
         } else {
-            self.pieces.push(piece);
-            let roots = quadratic_roots_within(self.velocity, acceleration, -jerk / 2.0, left);
+            self.intervals.push(motion);
+            let roots = quadratic_roots_within(self.velocity, acceleration, -jerk / 2.0, remaining);
             let Some(elapsed) = roots[0] else {
-                [self.slip, self.velocity] = piece.after(left);
+                [self.slip, self.velocity] = motion.after(remaining);
                 return None;
             };
             elapsed
         };
-        self.slip = piece.after(elapsed)[0];
+        self.slip = motion.after(elapsed)[0];
         self.velocity = 0.0;
-        self.note_extreme();
+        self.update_extremes();
         *ground += jerk * elapsed;
         let time = time + elapsed;
         if ground.abs() > self.yield_acceleration {
@@ -162,15 +182,15 @@ impl Run {
         Some(elapsed)
     }
 
-    fn note_extreme(&mut self) {
+    fn update_extremes(&mut self) {
         self.extremes = [self.extremes[0].min(self.slip), self.extremes[1].max(self.slip)];
     }
 
     fn finish(mut self, time: f64) -> SlidingHistory {
-        self.note_extreme();
-        self.pieces.push(Piece { time, state: [self.slip, 0.0, 0.0, 0.0] });
+        self.update_extremes();
+        self.intervals.push(SlidingInterval::at_rest(time, self.slip));
         SlidingHistory {
-            pieces: self.pieces,
+            intervals: self.intervals,
             events: self.events,
             extremes: self.extremes,
             residual: self.slip,

@@ -56,7 +56,7 @@ impl SlidingEstimate {
     /// periods increase, accelerations are finite and above zero, and the last one is below c.
     pub fn slip(&self, spectrum: &[SpectralOrdinate]) -> Result<Option<f64>> {
         at_least("ordinates of the spectrum", spectrum.len(), 2)?;
-        let wanted = self.spectral_acceleration;
+        let acceleration_of_slip = self.spectral_acceleration;
         for ordinate in spectrum {
             positive("period of the spectrum", ordinate.period)?;
             positive("spectral acceleration", ordinate.pseudo_acceleration)?;
@@ -67,14 +67,18 @@ impl SlidingEstimate {
         }
         let last = spectrum[spectrum.len() - 1].pseudo_acceleration;
         let needed = "below 2 μₑ g at the longest period: extend the periods";
-        require("spectral acceleration", last, last < wanted, needed)?;
-        let reached = spectrum.windows(2).rev().find(|pair| pair[0].pseudo_acceleration >= wanted);
+        require("spectral acceleration", last, last < acceleration_of_slip, needed)?;
+        let reached = spectrum
+            .windows(2)
+            .rev()
+            .find(|pair| pair[0].pseudo_acceleration >= acceleration_of_slip);
         Ok(reached.map(|pair| {
-            let [shorter, longer] = [pair[0], pair[1]];
-            let part = (wanted / longer.pseudo_acceleration).ln()
+            let shorter = pair[0];
+            let longer = pair[1];
+            let fraction = (acceleration_of_slip / longer.pseudo_acceleration).ln()
                 / (shorter.pseudo_acceleration / longer.pseudo_acceleration).ln();
-            let period = longer.period * (shorter.period / longer.period).powf(part);
-            wanted * (period / std::f64::consts::TAU).powi(2)
+            let period = longer.period * (shorter.period / longer.period).powf(fraction);
+            acceleration_of_slip * (period / std::f64::consts::TAU).powi(2)
         }))
     }
 }

@@ -1,18 +1,29 @@
 //! Slip of a sliding block over time.
 
-/// Motion after an event, up to the next one.
+/// Motion of the block between two events.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Piece {
+pub(super) struct SlidingInterval {
     /// Time at the start of the motion, s.
     pub(super) time: f64,
-    /// Slip (m), slip velocity, slip acceleration and its rate at the start.
-    pub(super) state: [f64; 4],
+    /// Slip at the start, m.
+    pub(super) slip: f64,
+    /// Slip velocity at the start, m/s.
+    pub(super) velocity: f64,
+    /// Slip acceleration at the start, m/s².
+    pub(super) acceleration: f64,
+    /// Rate of the slip acceleration, m/s³.
+    pub(super) jerk: f64,
 }
 
-impl Piece {
+impl SlidingInterval {
+    /// Rest from `time` on.
+    pub(super) fn at_rest(time: f64, slip: f64) -> Self {
+        Self { time, slip, velocity: 0.0, acceleration: 0.0, jerk: 0.0 }
+    }
+
     /// Slip and slip velocity at the time `s` after the start.
     pub(super) fn after(&self, s: f64) -> [f64; 2] {
-        let [slip, velocity, acceleration, jerk] = self.state;
+        let Self { slip, velocity, acceleration, jerk, .. } = *self;
         [
             slip + s * (velocity + s * (acceleration / 2.0 + s * jerk / 6.0)),
             velocity + s * (acceleration + s * jerk / 2.0),
@@ -44,9 +55,11 @@ pub enum SlidingEvent {
 /// Slip of the block relative to the ground, positive to the right, exact at any time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlidingHistory {
-    pub(super) pieces: Vec<Piece>,
+    pub(super) intervals: Vec<SlidingInterval>,
     pub(super) events: Vec<SlidingEvent>,
+    /// Smallest and largest slip, m.
     pub(super) extremes: [f64; 2],
+    /// Slip at rest in the end, m.
     pub(super) residual: f64,
 }
 
@@ -82,9 +95,9 @@ impl SlidingHistory {
     }
 
     fn at(&self, time: f64) -> [f64; 2] {
-        let next = self.pieces.partition_point(|piece| piece.time <= time);
+        let next = self.intervals.partition_point(|interval| interval.time <= time);
         match next.checked_sub(1) {
-            Some(index) => self.pieces[index].after(time - self.pieces[index].time),
+            Some(index) => self.intervals[index].after(time - self.intervals[index].time),
             None => [0.0; 2],
         }
     }

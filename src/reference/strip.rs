@@ -79,7 +79,8 @@ impl NoTensionStrip {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero and |e| < B.
     pub fn contact(&self, load: f64, eccentricity: f64) -> Result<StripContact> {
-        let (b, g) = (self.half_width, self.exponent);
+        let b = self.half_width;
+        let g = self.exponent;
         self.check(load, eccentricity)?;
         let unit = self.unit_tilt(load);
         if eccentricity > b * (0.5 + g) {
@@ -107,10 +108,12 @@ impl NoTensionStrip {
         if x < contact.left || x > contact.right {
             return Ok(0.0);
         }
-        let (b, g) = (self.half_width, self.exponent);
+        let b = self.half_width;
+        let g = self.exponent;
         let scale = load * (PI * g).cos() / PI;
         let half = contact.length() / 2.0;
-        let (from_left, from_right) = (x - contact.left, contact.right - x);
+        let from_left = x - contact.left;
+        let from_right = contact.right - x;
         if contact.left > -b {
             let shape = from_left.powf(0.5 + g) * from_right.powf(-0.5 - g);
             return Ok(scale / (half * (1.0 + 2.0 * g)) * shape);
@@ -132,11 +135,12 @@ impl NoTensionStrip {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
-        let (b, g) = (self.half_width, self.exponent);
+        let b = self.half_width;
+        let g = self.exponent;
         self.check(load, 0.0)?;
         finite("tilt of the strip", tilt)?;
         let unit = self.unit_tilt(load);
-        // the slope of the pressure's factor, as if in full contact
+        // The slope of the pressure's factor, as if in full contact.
         let slope = -tilt / unit;
         let eccentricity = if slope * b * (1.0 + 2.0 * g) > 1.0 {
             b - (0.5 - g) / (slope * (1.0 + 2.0 * g))
@@ -150,7 +154,8 @@ impl NoTensionStrip {
 
     /// c in p = N cos πγ/π · (1 + c (x − 2γB)) · weight, 1/m, in full contact.
     fn slope(&self, eccentricity: f64) -> f64 {
-        let (b, g) = (self.half_width, self.exponent);
+        let b = self.half_width;
+        let g = self.exponent;
         (eccentricity - 2.0 * g * b) / (2.0 * b * b * (0.25 - g * g))
     }
 

@@ -7,7 +7,7 @@ use crate::error::{Result, require};
 /// Up to the uplift at M₀ = N L/α and θ₀ the moment grows with the rotation. Beyond,
 /// M/M₀ = α/2 − (α/2 − 1)(θ₀/θ)^(2/(α−2)), and the base is in contact over (θ₀/θ)^(2/(α−2)) of its area; N is the
 /// weight, L the length along the motion. The law is a form of nuclear practice. It is exact on springs (α = 6,
-/// [`WinklerStrip`](super::WinklerStrip)) and for a smooth strip on a half-plane (α = 4,
+/// [`WinklerStrip`](super::WinklerStrip)) and for a frictionless strip on a half-plane (α = 4,
 /// [`NoTensionStrip`](super::NoTensionStrip)). α of mats on a half-space: docs/validation.md.
 ///
 /// ```
@@ -30,18 +30,23 @@ impl UpliftLaw {
     /// [`Error::Input`](crate::Error::Input) unless α is finite and above 2, where uplift would begin with the
     /// base on its edge.
     pub fn new(alpha: f64) -> Result<Self> {
-        let fits = alpha > 2.0 && alpha < f64::INFINITY;
-        require("coefficient of the moment of uplift", alpha, fits, "finite and above 2")?;
+        let is_in_range = alpha > 2.0 && alpha < f64::INFINITY;
+        require("coefficient of the moment of uplift", alpha, is_in_range, "finite and above 2")?;
         Ok(Self { alpha })
     }
 
-    /// Share of the base in contact at `rotation` θ/θ₀: 1 up to the uplift.
+    /// Fraction of the base in contact at `rotation` θ/θ₀: 1 up to the uplift.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless the rotation is finite and not negative.
     pub fn contact_ratio(&self, rotation: f64) -> Result<f64> {
-        let fits = (0.0..f64::INFINITY).contains(&rotation);
-        require("rotation over the rotation of uplift", rotation, fits, "finite and not negative")?;
+        let is_in_range = (0.0..f64::INFINITY).contains(&rotation);
+        require(
+            "rotation over the rotation of uplift",
+            rotation,
+            is_in_range,
+            "finite and not negative",
+        )?;
         Ok(rotation.max(1.0).powf(-2.0 / (self.alpha - 2.0)))
     }
 

@@ -17,8 +17,8 @@ use crate::{Complex, Soil};
 /// ```
 /// use basemat::{Soil, reference::pais_kausel_impedances};
 /// // Static springs of a square 2b × 2b: 9.2 μb/(2 − ν), 4.7 μb/(1 − ν), 4 μb³/(1 − ν).
-/// let [sway, _, heave, rocking] = pais_kausel_impedances(Soil::new(1.0, 0.25, 1.0)?, [2.0, 2.0], 0.0)?;
-/// assert!((sway.re - 9.2 / 1.75).abs() < 1e-14 && (heave.re - 4.7 / 0.75).abs() < 1e-14);
+/// let [translation, _, vertical, rocking] = pais_kausel_impedances(Soil::new(1.0, 0.25, 1.0)?, [2.0, 2.0], 0.0)?;
+/// assert!((translation.re - 9.2 / 1.75).abs() < 1e-14 && (vertical.re - 4.7 / 0.75).abs() < 1e-14);
 /// assert!((rocking.re - 4.0 / 0.75).abs() < 1e-14 && rocking.im == 0.0);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -36,21 +36,24 @@ pub fn pais_kausel_impedances(soil: Soil, sides: [f64; 2], frequency: f64) -> Re
         "at least the shorter",
     )?;
     not_negative("frequency", frequency)?;
-    let (poisson, aspect) = (soil.poisson(), sides[1] / sides[0]);
-    let rate = std::f64::consts::TAU * frequency * half / soil.shear_wave_speed();
-    let speeds = (soil.pressure_wave_speed() / soil.shear_wave_speed()).min(2.5);
-    let sway = 6.8 * aspect.powf(0.65);
-    let [square, cube] = [rate * rate, 0.4 / aspect.powi(3)];
-    let fall = (0.55 + 0.01 * (aspect - 1.0).sqrt()) * square / (2.4 - cube + square);
-    let area = 4.0 * aspect * rate;
+    let poisson = soil.poisson();
+    let aspect = sides[1] / sides[0];
+    let dimensionless_frequency =
+        std::f64::consts::TAU * frequency * half / soil.shear_wave_speed();
+    let speed_ratio = (soil.pressure_wave_speed() / soil.shear_wave_speed()).min(2.5);
+    let translation = 6.8 * aspect.powf(0.65);
+    let square = dimensionless_frequency * dimensionless_frequency;
+    let cube = 0.4 / aspect.powi(3);
+    let reduction = (0.55 + 0.01 * (aspect - 1.0).sqrt()) * square / (2.4 - cube + square);
+    let area = 4.0 * aspect * dimensionless_frequency;
     let unit = soil.shear_modulus() * half;
     Ok([
-        Complex::new((sway + 0.8 * aspect + 1.6) / (2.0 - poisson), area) * unit,
-        Complex::new((sway + 2.4) / (2.0 - poisson), area) * unit,
-        Complex::new((3.1 * aspect.powf(0.75) + 1.6) / (1.0 - poisson), speeds * area) * unit,
+        Complex::new((translation + 0.8 * aspect + 1.6) / (2.0 - poisson), area) * unit,
+        Complex::new((translation + 2.4) / (2.0 - poisson), area) * unit,
+        Complex::new((3.1 * aspect.powf(0.75) + 1.6) / (1.0 - poisson), speed_ratio * area) * unit,
         Complex::new(
-            (3.2 * aspect + 0.8) / (1.0 - poisson) * (1.0 - fall),
-            speeds * area / 3.0 * square / (2.2 - cube + square),
+            (3.2 * aspect + 0.8) / (1.0 - poisson) * (1.0 - reduction),
+            speed_ratio * area / 3.0 * square / (2.2 - cube + square),
         ) * (unit * half * half),
     ])
 }

@@ -52,12 +52,12 @@ impl WinklerStrip {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn moment(&self, load: f64, tilt: f64) -> Result<f64> {
-        let share = self.contact_share(load, tilt)?;
+        let contact_ratio = self.contact_ratio(load, tilt)?;
         let b = self.half_width;
-        if share == 1.0 {
+        if contact_ratio == 1.0 {
             return Ok(2.0 / 3.0 * self.stiffness * b.powi(3) * tilt);
         }
-        Ok((load * b * (1.0 - 2.0 / 3.0 * share)).copysign(tilt))
+        Ok((load * b * (1.0 - 2.0 / 3.0 * contact_ratio)).copysign(tilt))
     }
 
     /// Length of the contact (m) at `tilt` (rad) under `load` N: 2B, then 2B √(θᵤ/|θ|).
@@ -65,10 +65,11 @@ impl WinklerStrip {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) unless N is finite and above zero, and the tilt is finite.
     pub fn contact_length(&self, load: f64, tilt: f64) -> Result<f64> {
-        Ok(2.0 * self.half_width * self.contact_share(load, tilt)?)
+        Ok(2.0 * self.half_width * self.contact_ratio(load, tilt)?)
     }
 
-    fn contact_share(&self, load: f64, tilt: f64) -> Result<f64> {
+    /// Fraction of the width in contact.
+    fn contact_ratio(&self, load: f64, tilt: f64) -> Result<f64> {
         finite("tilt of the strip", tilt)?;
         let uplift = self.uplift_tilt(load)?;
         Ok(if tilt.abs() <= uplift { 1.0 } else { (uplift / tilt.abs()).sqrt() })

@@ -7,13 +7,14 @@ use crate::interface::ContactState;
 use crate::text::column::{column, distinct};
 
 /// Columns of contact frames for times, modes and the words of modes.
-pub(super) const CONTACT: [&str; 3] = ["contact_time_s", "contact_mode", "contact_mode_words"];
+pub(super) const CONTACT_COLUMNS: [&str; 3] =
+    ["contact_time_s", "contact_mode", "contact_mode_words"];
 
-/// A number of an element's contact state.
-type Number = fn(&ContactState) -> f64;
+/// Function that returns a number of an element's contact state.
+type ContactNumber = fn(&ContactState) -> f64;
 
 /// Columns of motion frames.
-pub(super) const MOTION: [&str; 5] = [
+pub(super) const MOTION_COLUMNS: [&str; 5] = [
     "motion_time_s",
     "motion_displacement",
     "motion_velocity",
@@ -24,24 +25,32 @@ pub(super) const MOTION: [&str; 5] = [
 impl TimeSeries {
     /// Ends of the elements, with their heights if there are walls.
     pub(super) fn element_ends(&self) -> Vec<(&'static str, Vec<f64>)> {
-        const HEIGHT: usize = 2;
-        let ends = |axis: usize, end: usize| {
-            let name =
-                [["left_m", "right_m"], ["front_m", "back_m"], ["bottom_m", "top_m"]][axis][end];
-            let of = |own: &ContactElement| {
-                if axis == HEIGHT { own.heights()[end] } else { own.ends()[axis][end] }
-            };
-            (name, self.elements().iter().map(of).collect())
-        };
-        let axes = ContactLayout::for_elements(self.elements()).axes();
-        let heights = ContactElement::any_wall(self.elements()).then_some(HEIGHT);
-        axes.chain(heights).flat_map(|axis| [ends(axis, 0), ends(axis, 1)]).collect()
+        let names = [["left_m", "right_m"], ["front_m", "back_m"]];
+        let mut columns = Vec::new();
+        for axis in ContactLayout::for_elements(self.elements()).axes() {
+            for end in [0, 1] {
+                let values = self.elements().iter().map(|element| element.ends()[axis][end]);
+                columns.push((names[axis][end], values.collect()));
+            }
+        }
+        if ContactElement::any_wall(self.elements()) {
+            for (end, name) in ["bottom_m", "top_m"].into_iter().enumerate() {
+                let values = self.elements().iter().map(|element| element.heights()[end]);
+                columns.push((name, values.collect()));
+            }
+        }
+        columns
     }
 
     /// Columns of contact frames with a number per element, and their values.
-    pub(super) fn contact_numbers(&self) -> Vec<(String, Number)> {
-        let numbers = ContactState::NUMBERS.into_iter().filter(|own| self.in_plan() || !own.2);
-        numbers.map(|(word, unit, _, value)| (column(word, unit), value)).collect()
+    pub(super) fn contact_numbers(&self) -> Vec<(String, ContactNumber)> {
+        let mut columns = Vec::new();
+        for (word, unit, is_in_plan_only, value) in ContactState::NUMBERS {
+            if self.in_plan() || !is_in_plan_only {
+                columns.push((column(word, unit), value));
+            }
+        }
+        columns
     }
 
     /// Names of time, scalars and probes; a probe's name differs from all other names in any file.
@@ -49,12 +58,11 @@ impl TimeSeries {
         let in_plan = self.in_plan();
         let mut columns = vec![column("time", "s")];
         columns.extend(Quantity::recorded(in_plan).map(|quantity| quantity.column(in_plan)));
-        let others = CONTACT.iter().chain(&MOTION).map(|&name| name.to_owned());
-        let ends = self.element_ends().into_iter().map(|(name, _)| format!("element_{name}"));
-        let numbers = self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}"));
-        let energies = EnergyTerm::ALL.into_iter().map(|term| term.column(in_plan));
-        let others = energies.chain(others).chain(ends).chain(numbers);
-        let taken: Vec<String> = columns.iter().cloned().chain(others).collect();
+        let mut taken = columns.clone();
+        taken.extend(EnergyTerm::ALL.into_iter().map(|term| term.column(in_plan)));
+        taken.extend(CONTACT_COLUMNS.iter().chain(&MOTION_COLUMNS).map(|&name| name.to_owned()));
+        taken.extend(self.element_ends().into_iter().map(|(name, _)| format!("element_{name}")));
+        taken.extend(self.contact_numbers().into_iter().map(|(name, _)| format!("contact_{name}")));
         columns.extend(distinct(&taken, self.probes.iter().map(Probe::column)));
         columns
     }

@@ -6,7 +6,7 @@ use super::{ProbeExtremes, Quantity, Run, ServiceCheck};
 use crate::coupled::EnergyTerm;
 use crate::coupled::run::page::factor;
 use crate::coupled::run::quantity::ShownIn;
-use crate::text::column::{Cell, column, distinct};
+use crate::text::column::{NumberCell, column, distinct};
 use crate::text::csv::Csv;
 use crate::text::readable_number::{number, of_body, printed};
 use crate::text::table::Table;
@@ -31,20 +31,22 @@ pub struct Comparison {
 }
 
 /// Function that returns a value of a run; `None` if the run does not have the value.
-type Value = dyn Fn(&Run) -> Option<f64>;
+type RunValue = dyn Fn(&Run) -> Option<f64>;
 
-/// A row: name and unit, heading in files, factor from SI to the unit, and the value of a run.
+/// A row of the comparison.
 ///
 /// If runs in the plane and in plan are compared, a result with other units in plan has a row for each.
-struct Line {
+struct ComparisonRow {
     name: String,
     unit: &'static str,
+    /// Heading in files.
     column: String,
+    /// Factor from the SI unit to `unit`.
     factor: f64,
-    value: Box<Value>,
+    value: Box<RunValue>,
 }
 
-impl Line {
+impl ComparisonRow {
     fn cell(&self, run: &Run) -> String {
         match (self.value)(run) {
             None => "–".to_owned(),
@@ -56,66 +58,86 @@ impl Line {
 }
 
 /// Result derived from one or several quantities: name, unit, column, factor and value.
-type Derived = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
+type DerivedResult = (&'static str, &'static str, &'static str, f64, fn(&Run) -> Option<f64>);
 
-const DERIVED: [Derived; 9] = [
+const DERIVED_RESULTS: [DerivedResult; 9] = [
     ("shear over weight", "", "base_shear_over_weight", 1.0, Run::shear_coefficient),
-    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |s| Some(s.whole.residual_slip)),
-    ("mean slip across, residual", "mm", "residual_slip_across_m", 1e3, |s| {
-        s.in_plan.then_some(s.whole.residual_slip_across)
+    ("mean slip, residual", "mm", "residual_slip_m", 1e3, |run| Some(run.whole.residual_slip)),
+    ("mean slip across, residual", "mm", "residual_slip_across_m", 1e3, |run| {
+        run.in_plan.then_some(run.whole.residual_slip_across)
     }),
-    ("slip events", "", "slip_events", 1.0, |s| Some(s.slip_events() as f64)),
-    ("uplifted for", "s", "uplift_duration_s", 1.0, |s| Some(s.whole.uplift.duration)),
-    ("largest gap", "mm", "largest_gap_m", 1e3, |s| Some(s.largest_gap().value)),
-    ("largest pressure", "kPa", "largest_pressure_pa", 1e-3, |s| {
-        s.largest_pressure().map(|(_, peak)| peak.value)
+    ("slip events", "", "slip_events", 1.0, |run| Some(run.slip_events() as f64)),
+    ("uplifted for", "s", "uplift_duration_s", 1.0, |run| Some(run.whole.uplift.duration)),
+    ("largest gap", "mm", "largest_gap_m", 1e3, |run| Some(run.largest_gap().value)),
+    ("largest pressure", "kPa", "largest_pressure_pa", 1e-3, |run| {
+        run.largest_pressure().map(|(_, peak)| peak.value)
     }),
-    ("serviceability, margin", "%", "serviceability_margin", 100.0, |s| {
-        s.least_serviceable().map(ServiceCheck::margin)
+    ("serviceability, margin", "%", "serviceability_margin", 100.0, |run| {
+        run.least_serviceable().map(ServiceCheck::margin)
     }),
-    ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |s| {
-        s.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
+    ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |run| {
+        run.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)
     }),
 ];
 
-/// Makes all rows: quantities, some with their times, then derived results.
+/// Makes all rows: quantities, some with their times, then derived results and energies.
 ///
-/// `of`: dimensions of the runs, `true` for in plan.
-fn lines(of: &[bool]) -> Vec<Line> {
-    let mut lines = Vec::new();
-    for quantity in Quantity::shown(ShownIn::Comparison, of.contains(&true)) {
-        let peak = move |run: &Run| run.whole.peak(quantity);
-        let of_all = quantity.unit(true) == quantity.unit(false);
+/// `dimensions`: of the runs, `true` for in plan.
+fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
+    let any_in_plan = dimensions.contains(&true);
+    let mut rows = Vec::new();
+    for quantity in Quantity::shown(ShownIn::Comparison, any_in_plan) {
+        let has_one_unit = quantity.unit(true) == quantity.unit(false);
         let in_plan_only = quantity.is_shown(ShownIn::Plan);
-        let dimensions = of.iter().filter(|in_plan| **in_plan || !in_plan_only);
-        for &in_plan in dimensions.take(if of_all { 1 } else { 2 }) {
-            let has = move |run: &Run| run.in_plan == in_plan || of_all && !in_plan_only;
-            let known = move |run: &Run| Some(peak(run).value).filter(|x| has(run) && !x.is_nan());
+        let with_quantity = dimensions.iter().filter(|in_plan| **in_plan || !in_plan_only);
+        for &in_plan in with_quantity.take(if has_one_unit { 1 } else { 2 }) {
+            let value = move |run: &Run| {
+                let has_value = run.in_plan == in_plan || has_one_unit && !in_plan_only;
+                let peak = run.whole.peak(quantity).value;
+                Some(peak).filter(|peak| has_value && !peak.is_nan())
+            };
             let (factor, unit) = quantity.printed(in_plan);
-            let (name, column) = (quantity.short_name(), quantity.column(in_plan));
-            lines.push(Line { name, unit, column, factor, value: Box::new(known) });
+            rows.push(ComparisonRow {
+                name: quantity.short_name(),
+                unit,
+                column: quantity.column(in_plan),
+                factor,
+                value: Box::new(value),
+            });
         }
         if quantity.is_shown(ShownIn::ComparisonTime) {
-            let has = move |run: &Run| run.in_plan || !in_plan_only;
-            let time = move |run: &Run| Some(peak(run).time).filter(|_| has(run));
-            lines.push(Line {
+            rows.push(ComparisonRow {
                 name: "  at".to_owned(),
                 unit: "s",
                 column: format!("{quantity}_time_s"),
                 factor: 1.0,
-                value: Box::new(time),
+                value: Box::new(move |run: &Run| {
+                    let has_value = run.in_plan || !in_plan_only;
+                    Some(run.whole.peak(quantity).time).filter(|_| has_value)
+                }),
             });
         }
     }
-    let has = |own: &Derived| of.contains(&true) || !own.2.contains("across");
-    lines.extend(DERIVED.into_iter().filter(has).map(|(name, unit, column, factor, value)| Line {
-        name: name.to_owned(),
-        unit,
-        column: column.to_owned(),
-        factor,
-        value: Box::new(value),
-    }));
-    lines.extend(of.iter().map(|&in_plan| Line {
+    for (name, unit, column, factor, value) in DERIVED_RESULTS {
+        if any_in_plan || !column.contains("across") {
+            rows.push(ComparisonRow {
+                name: name.to_owned(),
+                unit,
+                column: column.to_owned(),
+                factor,
+                value: Box::new(value),
+            });
+        }
+    }
+    rows.extend(dimensions.iter().map(|&in_plan| energy_input_row(in_plan)));
+    let lost_terms = EnergyTerm::ALL.into_iter().filter(|term| term.is_lost());
+    rows.extend(lost_terms.map(energy_fraction_row));
+    rows
+}
+
+/// Row of the energy input of the runs in the plane or in plan.
+fn energy_input_row(in_plan: bool) -> ComparisonRow {
+    ComparisonRow {
         name: "energy input".to_owned(),
         unit: of_body("kJ/m", in_plan),
         column: EnergyTerm::Input.column(in_plan),
@@ -123,8 +145,12 @@ fn lines(of: &[bool]) -> Vec<Line> {
         value: Box::new(move |run: &Run| {
             Some(run.energy_balance.input).filter(|_| run.in_plan == in_plan)
         }),
-    }));
-    lines.extend(EnergyTerm::ALL.into_iter().filter(|term| term.is_lost()).map(|term| Line {
+    }
+}
+
+/// Row of a fraction of the energy input.
+fn energy_fraction_row(term: EnergyTerm) -> ComparisonRow {
+    ComparisonRow {
         name: format!("  {}", term.name()),
         unit: "%",
         column: format!("energy_fraction_{term}"),
@@ -132,8 +158,7 @@ fn lines(of: &[bool]) -> Vec<Line> {
         value: Box::new(move |run: &Run| {
             run.energy_balance.fraction(term).filter(|fraction| *fraction != 0.0)
         }),
-    }));
-    lines
+    }
 }
 
 impl Comparison {
@@ -143,33 +168,38 @@ impl Comparison {
     }
 
     /// Rows of the comparison, for the kinds of runs among its cases.
-    fn lines(&self) -> Vec<Line> {
-        let has = |in_plan: &bool| self.cases.iter().any(|(_, run)| run.in_plan == *in_plan);
-        let of: Vec<bool> = [false, true].into_iter().filter(has).collect();
-        lines(if of.is_empty() { &[false] } else { &of })
+    fn rows(&self) -> Vec<ComparisonRow> {
+        let mut dimensions = Vec::new();
+        for in_plan in [false, true] {
+            if self.cases.iter().any(|(_, run)| run.in_plan == in_plan) {
+                dimensions.push(in_plan);
+            }
+        }
+        comparison_rows(if dimensions.is_empty() { &[false] } else { &dimensions })
     }
 
     fn table(&self) -> Table {
         let mut heading = vec![String::new(), "unit".to_owned()];
         heading.extend(self.cases.iter().map(|(name, _)| name.clone()));
-        let line = |row: Line| {
-            let mut cells = vec![row.name.clone(), row.unit.to_owned()];
-            cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
-            cells
-        };
-        // A quantity without a value in any case gets no row.
-        let known = |row: &Line| {
-            self.cases.is_empty() || self.cases.iter().any(|(_, s)| (row.value)(s).is_some())
-        };
-        let mut rows: Vec<_> = self.lines().into_iter().filter(known).map(line).collect();
+        let mut rows = Vec::new();
+        for row in self.rows() {
+            // A quantity without a value in any case gets no row.
+            let has_value = self.cases.iter().any(|(_, run)| (row.value)(run).is_some());
+            if has_value || self.cases.is_empty() {
+                let mut cells = vec![row.name.clone(), row.unit.to_owned()];
+                cells.extend(self.cases.iter().map(|(_, run)| row.cell(run)));
+                rows.push(cells);
+            }
+        }
         for (k, probe) in self.common_probes().iter().enumerate() {
             let (factor, unit) = printed(&probe.unit);
-            let value = |run: &Run| {
-                let own = run.probes.get(k).map(|own| own.extremes.largest().value);
-                own.map_or("–".to_owned(), |value| number(factor * value))
-            };
             let mut cells = vec![probe.name.clone(), unit.to_owned()];
-            cells.extend(self.cases.iter().map(|(_, run)| value(run)));
+            for (_, run) in &self.cases {
+                let cell = run.probes.get(k).map_or("–".to_owned(), |probe| {
+                    number(factor * probe.extremes.largest().value)
+                });
+                cells.push(cell);
+            }
             rows.push(cells);
         }
         Table { heading, repeated: 2, rows }
@@ -181,8 +211,8 @@ impl Comparison {
             run.probes.iter().map(|probe| (&probe.name[..], &probe.unit[..]))
         }
         let Some(((_, first), others)) = self.cases.split_first() else { return &[] };
-        let same = others.iter().all(|(_, other)| labels(other).eq(labels(first)));
-        if same { &first.probes } else { &[] }
+        let are_same = others.iter().all(|(_, other)| labels(other).eq(labels(first)));
+        if are_same { &first.probes } else { &[] }
     }
 
     /// The table as Markdown.
@@ -195,19 +225,23 @@ impl Comparison {
     /// Columns and numbers follow the [rule](super) for all files; a cell is empty if a case has no value.
     pub fn csv(&self) -> Csv {
         let mut heading = vec!["case".to_owned()];
-        let lines = self.lines();
-        heading.extend(lines.iter().map(|row| row.column.clone()));
+        let rows = self.rows();
+        heading.extend(rows.iter().map(|row| row.column.clone()));
         let probes = self.common_probes();
         let columns = probes.iter().map(|probe| column(&probe.name, &probe.unit));
         heading.extend(distinct(&heading, columns));
-        let line = |(name, run): &(String, Run)| {
-            let values = lines.iter().map(|row| (row.value)(run));
-            let own = run.probes.iter().take(probes.len());
-            let peaks = own.map(|probe| Some(probe.extremes.largest().value));
-            let cells = values.chain(peaks).map(|v| Cell(v.unwrap_or(f64::NAN)).to_string());
-            std::iter::once(name.clone()).chain(cells).collect()
-        };
-        Csv(Table { heading, repeated: 1, rows: self.cases.iter().map(line).collect() }.csv())
+        let mut lines = Vec::new();
+        for (name, run) in &self.cases {
+            let mut cells = vec![name.clone()];
+            for row in &rows {
+                cells.push(NumberCell((row.value)(run).unwrap_or(f64::NAN)).to_string());
+            }
+            for probe in run.probes.iter().take(probes.len()) {
+                cells.push(NumberCell(probe.extremes.largest().value).to_string());
+            }
+            lines.push(cells);
+        }
+        Csv(Table { heading, repeated: 1, rows: lines }.csv())
     }
 }
 

@@ -3,18 +3,18 @@
 use super::{ElementEnvelope, Run, TimeSeries};
 use crate::coupled::EnergyTerm;
 use crate::motion::SpectralOrdinate;
-use crate::text::column::{Cell, column, line};
+use crate::text::column::{NumberCell, cell_line, column};
 use crate::text::csv::Csv;
 
-/// A heading and lines: each begins with a text, then its numbers.
-fn lines<N: IntoIterator<Item = f64>>(
+/// A heading and lines; each begins with a text, then its numbers.
+fn csv_lines<N: IntoIterator<Item = f64>>(
     heading: &str,
     rows: impl IntoIterator<Item = (String, N)>,
 ) -> Csv {
     let mut text = format!("{heading}\n");
     for (start, numbers) in rows {
         text += &start;
-        text += &line(numbers.into_iter().map(Cell));
+        text += &cell_line(numbers.into_iter().map(NumberCell));
     }
     Csv(text)
 }
@@ -30,7 +30,7 @@ impl TimeSeries {
             let values = self.column_values().map(move |values| values[k]);
             (String::new(), values.chain([energy_balance.input]))
         });
-        lines(&columns.join(","), rows)
+        csv_lines(&columns.join(","), rows)
     }
 
     /// [Contact frames](TimeSeries::contact_frames) as CSV in long form.
@@ -62,69 +62,73 @@ impl TimeSeries {
     /// In plan the line continues with front and back ends, and ends with slip and shear along y. With walls it
     /// continues with the heights of both ends, `bottom_m` and `top_m`.
     pub fn contact_csv(&self) -> Csv {
-        let (ends, numbers) = (self.element_ends(), self.contact_numbers());
-        let names = ends.iter().map(|(name, _)| *name).chain(["mode"]);
-        let names = names.chain(numbers.iter().map(|(name, _)| name.as_str()));
-        let heading: Vec<_> = ["time_s", "element"].into_iter().chain(names).collect();
-        let rows = self.contact_frames().flat_map(|frame| {
-            let contact = frame.states.iter().zip(frame.modes).enumerate();
-            let (ends, numbers) = (&ends, &numbers);
-            contact.map(move |(e, (state, mode))| {
-                let places: Vec<_> = ends.iter().map(|(_, of)| Cell(of[e]).to_string()).collect();
-                let start = format!("{},{e},{},{mode},", Cell(frame.time), places.join(","));
-                (start, numbers.iter().map(move |(_, value)| value(state)))
-            })
-        });
-        lines(&heading.join(","), rows)
+        let ends = self.element_ends();
+        let numbers = self.contact_numbers();
+        let mut heading = vec!["time_s", "element"];
+        heading.extend(ends.iter().map(|(name, _)| *name));
+        heading.push("mode");
+        heading.extend(numbers.iter().map(|(name, _)| name.as_str()));
+        let mut text = format!("{}\n", heading.join(","));
+        for frame in self.contact_frames() {
+            for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
+                let places = ends.iter().map(|(_, places)| NumberCell(places[element]).to_string());
+                let places = places.collect::<Vec<_>>().join(",");
+                text += &format!("{},{element},{places},{mode},", NumberCell(frame.time));
+                text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
+            }
+        }
+        Csv(text)
     }
 }
 
 /// Column of an envelope.
 type EnvelopeColumn = (&'static str, &'static str, fn(&Run) -> bool, fn(&ElementEnvelope) -> f64);
 
-const ALWAYS: fn(&Run) -> bool = |_| true;
-const IN_PLAN: fn(&Run) -> bool = |run| run.in_plan;
-const WITH_WALLS: fn(&Run) -> bool = Run::has_walls;
+/// Condition of a column that all runs have.
+const IN_ALL_RUNS: fn(&Run) -> bool = |_| true;
+const IN_PLAN_RUNS: fn(&Run) -> bool = |run| run.in_plan;
+const IN_RUNS_WITH_WALLS: fn(&Run) -> bool = Run::has_walls;
 
 impl Run {
     /// Columns of an [envelope](Run::envelope): word, SI unit, whether a run has it, value.
     pub const ENVELOPE: [EnvelopeColumn; 22] = [
-        ("left", "m", ALWAYS, |own| own.element.left()),
-        ("right", "m", ALWAYS, |own| own.element.right()),
-        ("front", "m", IN_PLAN, |own| own.element.depth()[0]),
-        ("back", "m", IN_PLAN, |own| own.element.depth()[1]),
-        ("bottom", "m", WITH_WALLS, |own| own.element.heights()[0]),
-        ("top", "m", WITH_WALLS, |own| own.element.heights()[1]),
-        ("static_pressure", "Pa", ALWAYS, |own| own.static_pressure),
-        ("lowest_pressure", "Pa", ALWAYS, |own| own.pressure.lowest.value),
-        ("lowest_pressure_time", "s", ALWAYS, |own| own.pressure.lowest.time),
-        ("highest_pressure", "Pa", ALWAYS, |own| own.pressure.highest.value),
-        ("highest_pressure_time", "s", ALWAYS, |own| own.pressure.highest.time),
-        ("shear", "Pa", ALWAYS, |own| own.shear.value),
-        ("shear_time", "s", ALWAYS, |own| own.shear.time),
-        ("gap", "m", ALWAYS, |own| own.gap.value),
-        ("gap_time", "s", ALWAYS, |own| own.gap.time),
-        ("slip", "m", ALWAYS, |own| own.slip.value),
-        ("slip_time", "s", ALWAYS, |own| own.slip.time),
-        ("open", "s", ALWAYS, |own| own.open),
-        ("shear_across", "Pa", IN_PLAN, |own| own.shear_across.value),
-        ("shear_across_time", "s", IN_PLAN, |own| own.shear_across.time),
-        ("slip_across", "m", IN_PLAN, |own| own.slip_across.value),
-        ("slip_across_time", "s", IN_PLAN, |own| own.slip_across.time),
+        ("left", "m", IN_ALL_RUNS, |element| element.element.left()),
+        ("right", "m", IN_ALL_RUNS, |element| element.element.right()),
+        ("front", "m", IN_PLAN_RUNS, |element| element.element.depth()[0]),
+        ("back", "m", IN_PLAN_RUNS, |element| element.element.depth()[1]),
+        ("bottom", "m", IN_RUNS_WITH_WALLS, |element| element.element.heights()[0]),
+        ("top", "m", IN_RUNS_WITH_WALLS, |element| element.element.heights()[1]),
+        ("static_pressure", "Pa", IN_ALL_RUNS, |element| element.static_pressure),
+        ("lowest_pressure", "Pa", IN_ALL_RUNS, |element| element.pressure.lowest.value),
+        ("lowest_pressure_time", "s", IN_ALL_RUNS, |element| element.pressure.lowest.time),
+        ("highest_pressure", "Pa", IN_ALL_RUNS, |element| element.pressure.highest.value),
+        ("highest_pressure_time", "s", IN_ALL_RUNS, |element| element.pressure.highest.time),
+        ("shear", "Pa", IN_ALL_RUNS, |element| element.shear.value),
+        ("shear_time", "s", IN_ALL_RUNS, |element| element.shear.time),
+        ("gap", "m", IN_ALL_RUNS, |element| element.gap.value),
+        ("gap_time", "s", IN_ALL_RUNS, |element| element.gap.time),
+        ("slip", "m", IN_ALL_RUNS, |element| element.slip.value),
+        ("slip_time", "s", IN_ALL_RUNS, |element| element.slip.time),
+        ("open", "s", IN_ALL_RUNS, |element| element.open),
+        ("shear_across", "Pa", IN_PLAN_RUNS, |element| element.shear_across.value),
+        ("shear_across_time", "s", IN_PLAN_RUNS, |element| element.shear_across.time),
+        ("slip_across", "m", IN_PLAN_RUNS, |element| element.slip_across.value),
+        ("slip_across_time", "s", IN_PLAN_RUNS, |element| element.slip_across.time),
     ];
 
     /// [Envelopes](Run::envelope) as CSV, with the times of the extremes.
     ///
     /// A heading and a line for every element, by [the rule](super#columns-and-numbers-in-files).
     pub fn envelope_csv(&self) -> Csv {
-        let columns: Vec<_> = Self::ENVELOPE.iter().filter(|own| own.2(self)).collect();
-        let names = columns.iter().map(|(word, unit, ..)| column(word, unit));
-        let heading: Vec<_> = std::iter::once("element".to_owned()).chain(names).collect();
-        let rows = self.envelope.iter().enumerate().map(|(e, own)| {
-            let columns = &columns;
-            (format!("{e},"), columns.iter().map(move |(.., value)| value(own)))
+        let columns: Vec<_> =
+            Self::ENVELOPE.iter().filter(|(_, _, is_in_run, _)| is_in_run(self)).collect();
+        let mut heading = vec!["element".to_owned()];
+        heading.extend(columns.iter().map(|(word, unit, ..)| column(word, unit)));
+        let rows = self.envelope.iter().enumerate().map(|(number, element)| {
+            let values = columns.iter().map(move |(.., value)| value(element));
+            (format!("{number},"), values)
         });
-        lines(&heading.join(","), rows)
+        csv_lines(&heading.join(","), rows)
     }
 }
 
@@ -144,12 +148,17 @@ impl Run {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub fn spectrum_csv(spectrum: &[SpectralOrdinate]) -> Csv {
-    let rows = spectrum.iter().map(|own| {
-        let responses =
-            [own.displacement, own.pseudo_velocity, own.pseudo_acceleration, own.acceleration];
-        (String::new(), [own.period].into_iter().chain(responses))
+    let rows = spectrum.iter().map(|ordinate| {
+        let numbers = [
+            ordinate.period,
+            ordinate.displacement,
+            ordinate.pseudo_velocity,
+            ordinate.pseudo_acceleration,
+            ordinate.acceleration,
+        ];
+        (String::new(), numbers)
     });
-    lines(
+    csv_lines(
         "period_s,displacement_m,pseudo_velocity_m_per_s,pseudo_acceleration_m_per_s2,\
          acceleration_m_per_s2",
         rows,

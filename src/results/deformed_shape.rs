@@ -1,7 +1,7 @@
 //! The visible shape of a structure: points that its degrees of freedom move, and cells between them.
 
 use super::shape_cell::{ShapeCell, drawn_cells};
-use crate::error::{Error, Result, at_least, finite, in_bounds, positive};
+use crate::error::{Result, at_least, finite, in_bounds, positive};
 use crate::fem::Direction;
 use crate::structure::{
     Base, BaseNode, DofCombination, FemModel, ShearBuilding, StoreyBuilding, Structure,
@@ -39,7 +39,7 @@ pub struct ShapePoint {
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeformedShape {
     points: Vec<ShapePoint>,
-    /// Outlines to be drawn.
+    /// Cells to be drawn, each as indices of points.
     cells: Vec<Vec<usize>>,
     /// Cells for ParaView.
     grid: Vec<ShapeCell>,
@@ -82,28 +82,25 @@ impl DeformedShape {
     /// Heights are measured from the nodes of the base, in a trench from the surface. In space solids are drawn by
     /// their outer sides; files for ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
-        // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
-        let row = |node, direction| model.row(node, direction).unwrap_or_default();
-        let (up, surface) = (model.mesh().upwards(), model.surface_height());
-        let in_space = |node, [x, y, z]: [f64; 3]| {
-            ShapePoint::in_space(
-                [x, y, z - surface],
-                [Direction::X, Direction::Y, up].map(|own| row(node, own)),
-            )
-        };
-        let in_plane = |node, [x, y, _]: [f64; 3]| {
-            let (horizontal, vertical) = (row(node, Direction::X), row(node, up));
-            let position = [x, y - surface];
-            ShapePoint { position, horizontal, vertical, ..ShapePoint::default() }
-        };
-        let point = |(node, place): (usize, &[f64; 3])| {
-            if model.mesh().has_depth() { in_space(node, *place) } else { in_plane(node, *place) }
-        };
+        let mesh = model.mesh();
+        let up = mesh.upwards();
+        let surface = model.surface_height();
+        let mut points = Vec::with_capacity(mesh.nodes().len());
+        for (node, &[x, y, z]) in mesh.nodes().iter().enumerate() {
+            // A follower of a rigid link moves with its leader; a node without degrees of freedom does not move.
+            let [along_x, along_y, upwards] = [Direction::X, Direction::Y, up]
+                .map(|direction| model.row(node, direction).unwrap_or_default());
+            points.push(if mesh.has_depth() {
+                ShapePoint::in_space([x, y, z - surface], [along_x, along_y, upwards])
+            } else {
+                ShapePoint::in_plane([x, y - surface], along_x, upwards)
+            });
+        }
         Self {
-            points: model.mesh().nodes().iter().enumerate().map(point).collect(),
-            cells: drawn_cells(model.mesh()),
-            grid: ShapeCell::of_elements(model.mesh()),
-            has_faces: model.mesh().has_depth(),
+            points,
+            cells: drawn_cells(mesh),
+            grid: ShapeCell::of_elements(mesh),
+            has_faces: mesh.has_depth(),
         }
     }
 
@@ -131,37 +128,30 @@ impl DeformedShape {
         positive("height of the rectangle", height)?;
         // Checks the base.
         DofCombination::of_base(block, [0.0, 0.0, height])?;
-        let (mut points, mut cells) = (Vec::new(), Vec::new());
-        let (lines, faces) = match block.base() {
-            Base::Lines(lines) => (lines, Vec::new()),
-            Base::Faces(faces) => (Vec::new(), faces),
-        };
-        for face in faces {
-            let (first, count) = (points.len(), face.len());
-            let top = |node: &BaseNode| {
-                let rows = BaseNode::carried(&face, node.place(), height);
-                ShapePoint::in_space([node.x, node.y, height], rows)
-            };
-            points.extend(face.iter().map(BaseNode::shape));
-            points.extend(face.iter().map(top));
-            add_outline(&mut cells, first, count);
-            add_outline(&mut cells, first + count, count);
-            add_columns(&mut cells, first, count);
-        }
-        if let [first, .., last] = &lines.concat()[..] {
-            let middle = 0.5 * (first.x + last.x);
-            let bottom = lines.concat().iter().fold(0.0_f64, |least, node| least.min(node.z));
-            let corner = |x: f64, height: f64| -> Result<ShapePoint> {
-                let [horizontal, _, vertical] =
-                    DofCombination::of_base(block, [x - middle, 0.0, height])?;
-                let position = [x, bottom + height];
-                Ok(ShapePoint { position, horizontal, vertical, ..ShapePoint::default() })
-            };
-            for (x, height) in [(first.x, 0.0), (last.x, 0.0), (last.x, height), (first.x, height)]
-            {
-                points.push(corner(x, height)?);
+        let mut points = Vec::new();
+        let mut cells = Vec::new();
+        match block.base() {
+            Base::Faces(faces) => {
+                for face in faces {
+                    add_prism(&mut points, &mut cells, &face, height);
+                }
             }
-            cells.push(vec![0, 1, 2, 3]);
+            Base::Lines(lines) => {
+                let nodes = lines.concat();
+                if let [first, .., last] = &nodes[..] {
+                    let middle = 0.5 * (first.x + last.x);
+                    let bottom = nodes.iter().fold(0.0_f64, |bottom, node| bottom.min(node.z));
+                    let corners =
+                        [(first.x, 0.0), (last.x, 0.0), (last.x, height), (first.x, height)];
+                    for (x, height) in corners {
+                        let [horizontal, _, vertical] =
+                            DofCombination::of_base(block, [x - middle, 0.0, height])?;
+                        let position = [x, bottom + height];
+                        points.push(ShapePoint::in_plane(position, horizontal, vertical));
+                    }
+                    cells.push(vec![0, 1, 2, 3]);
+                }
+            }
         }
         Self::new(points, cells)
     }
@@ -173,16 +163,17 @@ impl DeformedShape {
     /// # Errors
     /// None for a valid building.
     pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
-        let ([x, y], mut height) = (building.center(), 0.0);
+        let center = building.center();
         let base = building.base().into_nodes();
-        let (mut points, mut cells) = (Vec::new(), Vec::new());
-        points.extend(base.iter().map(BaseNode::shape));
+        let mut points: Vec<ShapePoint> = base.iter().map(BaseNode::shape_point).collect();
+        let mut cells = Vec::new();
         add_outline(&mut cells, 0, base.len());
-        for (storey, own) in building.heights().enumerate() {
-            height += own;
+        let mut height = 0.0;
+        for (storey, storey_height) in building.heights().enumerate() {
+            height += storey_height;
             let first = points.len();
             for corner in &base {
-                let place = [corner.x - x, corner.y - y];
+                let place = [corner.x - center[0], corner.y - center[1]];
                 let [along, across, _] = building.floor(storey, place)?;
                 let rows = [along, across, corner.vertical.clone()];
                 points.push(ShapePoint::in_space([corner.x, corner.y, height], rows));
@@ -199,7 +190,8 @@ impl DeformedShape {
     /// None for a valid building.
     pub fn of_building(building: &ShearBuilding) -> Result<Self> {
         let base = building.base().into_nodes();
-        let (mut points, mut cells) = (Vec::new(), Vec::new());
+        let mut points = Vec::new();
+        let mut cells = Vec::new();
         let mut height = 0.0;
         for level in 0..=building.storeys().len() {
             for end in &base {
@@ -208,8 +200,7 @@ impl DeformedShape {
                     Some(storey) => building.floor(storey)?.into(),
                 };
                 let vertical = end.vertical.clone();
-                let position = [end.x, height];
-                points.push(ShapePoint { position, horizontal, vertical, ..ShapePoint::default() });
+                points.push(ShapePoint::in_plane([end.x, height], horizontal, vertical));
             }
             let first = 2 * level;
             cells.push(vec![first, first + 1]);
@@ -228,7 +219,9 @@ impl DeformedShape {
     /// [`Error::Input`] for a depth that is not finite.
     pub fn lowered(mut self, depth: f64) -> Result<Self> {
         finite("depth of a deformed shape", depth)?;
-        self.points.iter_mut().for_each(|point| point.position[1] -= depth);
+        for point in &mut self.points {
+            point.position[1] -= depth;
+        }
         Ok(self)
     }
 
@@ -267,16 +260,15 @@ impl DeformedShape {
     /// # Errors
     /// [`Error::Index`] if a degree of freedom of a point is missing in `dofs`.
     pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 3]>> {
-        let sum = |row: &DofCombination| {
-            row.iter().try_fold(0.0, |sum, &(index, weight)| {
-                in_bounds("degree of freedom of a deformed shape", index, dofs.len())?;
-                Ok::<f64, Error>(sum + weight * dofs[index])
-            })
-        };
-        self.points
-            .iter()
-            .map(|point| Ok([sum(&point.horizontal)?, sum(&point.vertical)?, sum(&point.across)?]))
-            .collect()
+        let mut displacements = Vec::with_capacity(self.points.len());
+        for point in &self.points {
+            displacements.push([
+                weighted_sum(&point.horizontal, dofs)?,
+                weighted_sum(&point.vertical, dofs)?,
+                weighted_sum(&point.across, dofs)?,
+            ]);
+        }
+        Ok(displacements)
     }
 
     /// Corners of a cell, in order round it.
@@ -290,29 +282,64 @@ impl DeformedShape {
     }
 }
 
+/// Value of a combination of degrees of freedom.
+fn weighted_sum(combination: &DofCombination, dofs: &[f64]) -> Result<f64> {
+    let mut sum = 0.0;
+    for &(index, weight) in combination {
+        in_bounds("degree of freedom of a deformed shape", index, dofs.len())?;
+        sum += weight * dofs[index];
+    }
+    Ok(sum)
+}
+
 impl ShapePoint {
+    /// Point at (x, height), moved horizontally and vertically.
+    fn in_plane(position: [f64; 2], horizontal: DofCombination, vertical: DofCombination) -> Self {
+        Self { position, horizontal, vertical, ..Self::default() }
+    }
+
     /// Point at (x, y, height), moved along x, along y and up.
-    fn in_space([x, away, height]: [f64; 3], rows: [DofCombination; 3]) -> Self {
-        let [horizontal, across, vertical] = rows;
+    fn in_space(
+        [x, away, height]: [f64; 3],
+        [horizontal, across, vertical]: [DofCombination; 3],
+    ) -> Self {
         Self { position: [x, height], horizontal, vertical, away, across }
     }
 
     /// Place at rest (x, height, y), m.
     pub(crate) fn place(&self) -> [f64; 3] {
-        let [x, height] = self.position;
-        [x, height, self.away]
+        [self.position[0], self.position[1], self.away]
     }
 }
 
 impl BaseNode {
     /// Point of the shape at the node itself.
-    fn shape(&self) -> ShapePoint {
+    fn shape_point(&self) -> ShapePoint {
         let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
         ShapePoint::in_space([self.x, self.y, 0.0], rows)
     }
 }
 
-/// A polygon of points from `first` on; single lines if a cell of this many points would be curved.
+/// Adds a prism of this height on a face of the base.
+fn add_prism(
+    points: &mut Vec<ShapePoint>,
+    cells: &mut Vec<Vec<usize>>,
+    face: &[BaseNode],
+    height: f64,
+) {
+    let first = points.len();
+    let count = face.len();
+    points.extend(face.iter().map(BaseNode::shape_point));
+    for node in face {
+        let rows = BaseNode::carried(face, node.place(), height);
+        points.push(ShapePoint::in_space([node.x, node.y, height], rows));
+    }
+    add_outline(cells, first, count);
+    add_outline(cells, first + count, count);
+    add_columns(cells, first, count);
+}
+
+/// Adds a polygon of points from `first` on; single lines if a cell of this many points would be curved.
 fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     if matches!(count, 6 | 8 | 9) {
         cells.extend((0..count).map(|k| vec![first + k, first + (k + 1) % count]));
@@ -321,7 +348,7 @@ fn add_outline(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     }
 }
 
-/// Lines from points of one polygon to the points of the next, eight at most.
+/// Adds lines from points of one polygon to the points of the next, eight at most.
 fn add_columns(cells: &mut Vec<Vec<usize>>, first: usize, count: usize) {
     let columns = (0..count).step_by(count.div_ceil(8).max(1));
     cells.extend(columns.map(|k| vec![first + k, first + count + k]));

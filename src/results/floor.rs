@@ -2,7 +2,7 @@
 
 use super::TimeSeries;
 use crate::coupled::Probe;
-use crate::error::{Error, Result, not_negative, positive, require, unobserved};
+use crate::error::{Result, not_negative, positive, require, require_part, unobserved};
 use crate::motion::{Record, SpectralOrdinate};
 
 impl TimeSeries {
@@ -17,17 +17,17 @@ impl TimeSeries {
     pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
         let index = self.probe_index(probe)?;
         let Probe { displacement, velocity, acceleration, .. } = &self.probes[index];
-        let refuse = |needed| Err(Error::Scene { quantity: "floor spectrum", needed });
-        if !(displacement.is_empty() && velocity.is_empty()) || acceleration.is_empty() {
-            return refuse("the probe must be one of acceleration, and nothing else");
-        }
-        if self.recorder.every != 1 {
-            return refuse("the recorder must keep every step");
-        }
-        let kept = (self.times().len().max(1) - 1) as f64 * self.time_step;
-        if (kept - (self.sequence.end() - self.times()[0])).abs() > 0.5 * self.time_step {
-            return refuse("every step of the run must have been recorded");
-        }
+        let quantity = "floor spectrum";
+        let has_acceleration_only =
+            displacement.is_empty() && velocity.is_empty() && !acceleration.is_empty();
+        let needed = "the probe must be one of acceleration, and nothing else";
+        require_part(quantity, has_acceleration_only, needed)?;
+        let keeps_every_step = self.recorder.every == 1;
+        require_part(quantity, keeps_every_step, "the recorder must keep every step")?;
+        let recorded = (self.times().len().max(1) - 1) as f64 * self.time_step;
+        let duration = self.sequence.end() - self.times()[0];
+        let is_complete = (recorded - duration).abs() <= 0.5 * self.time_step;
+        require_part(quantity, is_complete, "every step of the run must have been recorded")?;
         Record::new(self.time_step, self.probe_values[index].clone())
     }
 
@@ -66,9 +66,11 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
     positive("last of the numbers", last)?;
     let needed = "from two to a million";
     require("count of numbers", count as f64, (2..=1_000_000).contains(&count), needed)?;
-    let fraction = |k: usize| k as f64 / (count - 1) as f64;
-    let mut numbers: Vec<f64> =
-        (0..count).map(|k| first.powf(1.0 - fraction(k)) * last.powf(fraction(k))).collect();
+    let mut numbers = Vec::with_capacity(count);
+    for k in 0..count {
+        let fraction = k as f64 / (count - 1) as f64;
+        numbers.push(first.powf(1.0 - fraction) * last.powf(fraction));
+    }
     numbers[0] = first;
     numbers[count - 1] = last;
     Ok(numbers)
@@ -78,8 +80,8 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
 ///
 /// This covers uncertainty of soil and structure: 0.15 in U.S. NRC Regulatory Guide 1.122, rev. 1 (1978). The
 /// ordinate at every frequency f is spread over (1 − fraction) f to (1 + fraction) f, and the largest ordinate at
-/// each frequency counts. At the period T it is the largest of the given spectrum between (1 − fraction) T and (1
-/// + fraction) T. Between the given periods the spectrum is linear in the logarithm of the period.
+/// each frequency counts. At the period T it is the largest of the spectrum between (1 − fraction) T and (1 +
+/// fraction) T. Between its periods the spectrum is linear in the logarithm of the period.
 ///
 /// # Errors
 /// [`Error::Input`] unless 0 ≤ `fraction` < 1 and the periods increase.
@@ -91,35 +93,46 @@ pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<Spe
         positive("step to the next period of a spectrum", ordinate.period - last)?;
         last = ordinate.period;
     }
-    let widen = |centre: &SpectralOrdinate| {
-        let (from, to) = (centre.period * (1.0 - fraction), centre.period * (1.0 + fraction));
-        let largest = |value: &dyn Fn(&SpectralOrdinate) -> f64| {
-            let inside = spectrum.iter().filter(|o| o.period >= from && o.period <= to);
-            let ends = [from, to].map(|period| between(spectrum, period, value));
-            inside.map(value).chain(ends).fold(0.0, f64::max)
-        };
-        SpectralOrdinate {
-            period: centre.period,
-            displacement: largest(&|o| o.displacement),
-            pseudo_velocity: largest(&|o| o.pseudo_velocity),
-            pseudo_acceleration: largest(&|o| o.pseudo_acceleration),
-            acceleration: largest(&|o| o.acceleration),
-        }
-    };
-    Ok(spectrum.iter().map(widen).collect())
+    Ok(spectrum.iter().map(|centre| broadened_ordinate(spectrum, centre, fraction)).collect())
 }
 
-/// The value at `period`; zero outside the spectrum.
-fn between(
+/// The largest values of a spectrum in a band around one of its ordinates.
+fn broadened_ordinate(
     spectrum: &[SpectralOrdinate],
-    period: f64,
-    value: &dyn Fn(&SpectralOrdinate) -> f64,
-) -> f64 {
-    spectrum.windows(2).find(|pair| period >= pair[0].period && period <= pair[1].period).map_or(
-        0.0,
-        |pair| {
-            let way = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
-            (1.0 - way) * value(&pair[0]) + way * value(&pair[1])
-        },
-    )
+    centre: &SpectralOrdinate,
+    fraction: f64,
+) -> SpectralOrdinate {
+    let from = centre.period * (1.0 - fraction);
+    let to = centre.period * (1.0 + fraction);
+    let mut largest = SpectralOrdinate {
+        period: centre.period,
+        displacement: 0.0,
+        pseudo_velocity: 0.0,
+        pseudo_acceleration: 0.0,
+        acceleration: 0.0,
+    };
+    let inside = spectrum.iter().filter(|ordinate| (from..=to).contains(&ordinate.period));
+    let at_ends = [from, to].into_iter().filter_map(|period| interpolated(spectrum, period));
+    for ordinate in inside.copied().chain(at_ends) {
+        largest.displacement = largest.displacement.max(ordinate.displacement);
+        largest.pseudo_velocity = largest.pseudo_velocity.max(ordinate.pseudo_velocity);
+        largest.pseudo_acceleration = largest.pseudo_acceleration.max(ordinate.pseudo_acceleration);
+        largest.acceleration = largest.acceleration.max(ordinate.acceleration);
+    }
+    largest
+}
+
+/// The ordinate at `period`; `None` outside the spectrum.
+fn interpolated(spectrum: &[SpectralOrdinate], period: f64) -> Option<SpectralOrdinate> {
+    let pair =
+        spectrum.windows(2).find(|pair| period >= pair[0].period && period <= pair[1].period)?;
+    let fraction = (period / pair[0].period).ln() / (pair[1].period / pair[0].period).ln();
+    let between = |shorter: f64, longer: f64| (1.0 - fraction) * shorter + fraction * longer;
+    Some(SpectralOrdinate {
+        period,
+        displacement: between(pair[0].displacement, pair[1].displacement),
+        pseudo_velocity: between(pair[0].pseudo_velocity, pair[1].pseudo_velocity),
+        pseudo_acceleration: between(pair[0].pseudo_acceleration, pair[1].pseudo_acceleration),
+        acceleration: between(pair[0].acceleration, pair[1].acceleration),
+    })
 }

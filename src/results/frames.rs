@@ -34,11 +34,12 @@ pub struct MotionFrame<'a> {
     pub free_field_across: f64,
 }
 
-/// Frames of the base, end to end.
+/// Frames of the base, one after the other in each list.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct ContactFrames {
+    /// Number of steps from frame to frame.
     pub(super) every: usize,
     times: Vec<f64>,
     states: Vec<ContactState>,
@@ -50,7 +51,8 @@ impl ContactFrames {
         Self { every, ..Self::default() }
     }
 
-    pub(super) fn keep(&mut self, state: &State) {
+    /// Appends a frame.
+    pub(super) fn store(&mut self, state: &State) {
         self.times.push(state.time);
         self.states.extend_from_slice(&state.contact);
         self.modes.extend_from_slice(&state.modes);
@@ -88,11 +90,12 @@ impl ContactFrames {
     }
 }
 
-/// Frames of the structure, end to end.
+/// Frames of the structure, one after the other in each list.
 #[derive(Debug, Clone, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct MotionFrames {
+    /// Number of steps from frame to frame.
     pub(super) every: usize,
     /// Static displacement of the degrees of freedom; empty after reading a file without it.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -112,7 +115,8 @@ impl MotionFrames {
         Self { every, static_displacement, ..Self::default() }
     }
 
-    pub(super) fn keep(&mut self, state: &State) {
+    /// Appends a frame.
+    pub(super) fn store(&mut self, state: &State) {
         self.times.push(state.time);
         self.displacement.extend_from_slice(state.displacement());
         self.velocity.extend_from_slice(state.velocity());
@@ -150,7 +154,8 @@ impl MotionFrames {
         self.times.iter().enumerate().map(move |(k, &time)| {
             let range = k * count..(k + 1) * count;
             let displacement = &self.displacement[range.clone()];
-            let (velocity, free_field) = (&self.velocity[range], self.free_field[k]);
+            let velocity = &self.velocity[range];
+            let free_field = self.free_field[k];
             // Files of earlier versions have none.
             let free_field_across = self.free_field_across.get(k).copied().unwrap_or(0.0);
             MotionFrame { time, displacement, velocity, free_field, free_field_across }
@@ -165,8 +170,8 @@ impl MotionFrames {
 
 /// Reserves memory for `more` entries.
 ///
-/// It doubles the list, so that a growing list is seldom moved, or adds an eighth if twice as much does not fit.
-/// If that fails too, enough memory is left to report the error.
+/// The list doubles, so that it is seldom moved, or grows by an eighth if twice as much does not fit. If that fails too,
+/// enough memory is left to report the error.
 pub(super) fn reserve<T>(list: &mut Vec<T>, more: usize) -> Result<(), TryReserveError> {
     list.try_reserve(more).or_else(|_| list.try_reserve_exact(more.max(list.len() / 8)))
 }

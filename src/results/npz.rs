@@ -11,22 +11,22 @@ use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use super::TimeSeries;
-use super::columns::{CONTACT, MOTION};
+use super::columns::{CONTACT_COLUMNS, MOTION_COLUMNS};
 use crate::coupled::EnergyTerm;
 use crate::error::Result;
 use crate::interface::Mode;
-use crate::text::file::{unwritten, write_file};
+use crate::text::file::{write_error, write_file};
 
 /// The archive under construction.
 struct Archive(ZipWriter<Cursor<Vec<u8>>>);
 
-/// Longest name of an array, in bytes: an archive has 16 bits for it.
-const LONGEST_NAME: usize = 60_000;
+/// Largest length of the name of an array, bytes: an archive has 16 bits for it.
+const MAX_NAME_BYTES: usize = 60_000;
 
 impl Archive {
     /// Adds an array of NumPy's type `kind`, its numbers row by row.
     fn add(&mut self, name: &str, kind: &str, shape: &[usize], bytes: &[u8]) -> io::Result<()> {
-        if name.len() > LONGEST_NAME {
+        if name.len() > MAX_NAME_BYTES {
             return Err(io::ErrorKind::InvalidInput.into());
         }
         let lengths: Vec<String> = shape.iter().map(usize::to_string).collect();
@@ -49,6 +49,7 @@ impl Archive {
         self.0.write_all(bytes)
     }
 
+    /// Adds an array of numbers, row by row.
     fn add_numbers(
         &mut self,
         name: &str,
@@ -59,15 +60,17 @@ impl Archive {
         self.add(name, "<f8", shape, &bytes)
     }
 
-    /// Texts with four bytes for each character, padded to the longest text.
+    /// Adds a list of texts, with four bytes for each character, padded to the longest text.
     fn add_words(&mut self, name: &str, words: &[String]) -> io::Result<()> {
-        let longest = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
-        let letters = |word: &String| {
-            let letters: Vec<char> = word.chars().collect();
-            (0..longest).map(move |k| letters.get(k).map_or(0, |&letter| u32::from(letter)))
-        };
-        let bytes: Vec<u8> = words.iter().flat_map(letters).flat_map(u32::to_le_bytes).collect();
-        self.add(name, &format!("<U{longest}"), &[words.len()], &bytes)
+        let max_letters = words.iter().map(|word| word.chars().count()).max().unwrap_or(0);
+        let mut bytes = Vec::new();
+        for word in words {
+            let padding = std::iter::repeat('\0');
+            for letter in word.chars().chain(padding).take(max_letters) {
+                bytes.extend(u32::from(letter).to_le_bytes());
+            }
+        }
+        self.add(name, &format!("<U{max_letters}"), &[words.len()], &bytes)
     }
 }
 
@@ -77,8 +80,9 @@ impl TimeSeries {
     /// # Errors
     /// [`Error::File`](crate::Error::File) if the file cannot be written.
     pub fn save_npz(&self, path: impl AsRef<Path>) -> Result<()> {
-        let (path, mut bytes) = (path.as_ref(), Vec::new());
-        self.write_npz(&mut bytes).map_err(unwritten(path))?;
+        let path = path.as_ref();
+        let mut bytes = Vec::new();
+        self.write_npz(&mut bytes).map_err(write_error(path))?;
         write_file(path, bytes)
     }
 
@@ -122,7 +126,7 @@ impl TimeSeries {
 
     fn add_contact(&self, archive: &mut Archive) -> io::Result<()> {
         let elements = self.elements();
-        let [time, mode, words] = CONTACT;
+        let [time, mode, words] = CONTACT_COLUMNS;
         for (name, ends) in self.element_ends() {
             let name = format!("element_{name}");
             archive.add_numbers(&name, &[elements.len()], ends.into_iter())?;
@@ -147,22 +151,21 @@ impl TimeSeries {
         if self.recorder.motion.is_none() {
             return Ok(());
         }
-        let frames = || self.motion_frames();
-        let (count, [time, displacement, velocity, free_field, across]) =
-            (frames().count(), MOTION);
-        let dofs = frames().next().map_or(0, |frame| frame.displacement.len());
-        archive.add_numbers(time, &[count], frames().map(|frame| frame.time))?;
-        let values = frames().flat_map(|frame| frame.displacement.iter().copied());
+        let [time, displacement, velocity, free_field, free_field_across] = MOTION_COLUMNS;
+        let count = self.motion_frames().count();
+        let dofs = self.motion_frames().next().map_or(0, |frame| frame.displacement.len());
+        let times = self.motion_frames().map(|frame| frame.time);
+        archive.add_numbers(time, &[count], times)?;
+        let values = self.motion_frames().flat_map(|frame| frame.displacement.iter().copied());
         archive.add_numbers(displacement, &[count, dofs], values)?;
-        let values = frames().flat_map(|frame| frame.velocity.iter().copied());
+        let values = self.motion_frames().flat_map(|frame| frame.velocity.iter().copied());
         archive.add_numbers(velocity, &[count, dofs], values)?;
-        archive.add_numbers(
-            free_field,
-            &[count, 2],
-            frames().flat_map(|frame| frame.free_field),
-        )?;
-        let values = frames().map(|frame| frame.free_field_across);
-        let across = self.in_plan().then(|| archive.add_numbers(across, &[count], values));
-        across.unwrap_or(Ok(()))
+        let values = self.motion_frames().flat_map(|frame| frame.free_field);
+        archive.add_numbers(free_field, &[count, 2], values)?;
+        if self.in_plan() {
+            let values = self.motion_frames().map(|frame| frame.free_field_across);
+            archive.add_numbers(free_field_across, &[count], values)?;
+        }
+        Ok(())
     }
 }

@@ -76,37 +76,48 @@ fn brick(sides: &[ElementFace], nodes: &[usize]) -> Option<Vec<usize>> {
     let first = points.iter().position(|point| nodes.first() == Some(point)).unwrap_or(0);
     points.rotate_left(first);
     for k in 0..4 {
-        let (lower, corner) = (&points[..4], points[k]);
-        let beside = |side: &ElementFace| {
-            let own = side.corners();
-            let at = own.iter().position(|point| *point == corner)?;
-            [own[(at + 1) % 4], own[(at + 3) % 4]].into_iter().find(|point| !lower.contains(point))
-        };
-        let upper = sides.iter().find_map(beside)?;
+        let upper = sides.iter().find_map(|side| upper_corner(side, points[k], &points[..4]))?;
         points.push(upper);
     }
-    let distinct = points.iter().collect::<BTreeSet<_>>().len() == 8;
-    distinct.then_some(points)
+    let are_distinct = points.iter().collect::<BTreeSet<_>>().len() == 8;
+    are_distinct.then_some(points)
 }
 
-/// Nodes of the elements of a mesh; for elements with faces in space, of the faces that no second element has.
+/// The corner of a side next to a `corner` of the lower side, and above it; `None` if the side has no such corner.
+fn upper_corner(side: &ElementFace, corner: usize, lower: &[usize]) -> Option<usize> {
+    let corners = side.corners();
+    let position = corners.iter().position(|point| *point == corner)?;
+    let neighbours = [corners[(position + 1) % 4], corners[(position + 3) % 4]];
+    neighbours.into_iter().find(|point| !lower.contains(point))
+}
+
+/// Cells of a mesh to be drawn, each as its nodes.
+///
+/// In the plane these are all elements. In space, elements with faces are drawn by the faces that no second element has.
 pub(super) fn drawn_cells(mesh: &Mesh) -> Vec<Vec<usize>> {
-    let cells = mesh.elements().map(|element| element.nodes().to_vec());
     if !mesh.has_depth() {
-        return cells.collect();
+        return mesh.elements().map(|element| element.nodes().to_vec()).collect();
     }
-    let faces = |element: &dyn Element| -> Vec<Vec<usize>> {
-        element.faces().iter().map(|face| face.corners().to_vec()).collect()
-    };
-    let key = |corners: &[usize]| corners.iter().copied().collect::<BTreeSet<usize>>();
-    let mut counts: HashMap<_, usize> = HashMap::new();
+    let mut elements_of_face: HashMap<BTreeSet<usize>, usize> = HashMap::new();
     for face in mesh.elements().flat_map(faces) {
-        *counts.entry(key(&face)).or_default() += 1;
+        *elements_of_face.entry(face.into_iter().collect()).or_default() += 1;
     }
-    let outer = mesh.elements().zip(cells).flat_map(|(element, cell)| match faces(element) {
-        own if own.is_empty() => vec![cell],
-        own if own.len() == 1 => own,
-        own => own.into_iter().filter(|face| counts[&key(face)] == 1).collect(),
-    });
-    outer.collect()
+    let mut cells = Vec::new();
+    for element in mesh.elements() {
+        let mut faces = faces(element);
+        match faces.len() {
+            0 => cells.push(element.nodes().to_vec()),
+            1 => cells.append(&mut faces),
+            _ => cells.extend(faces.into_iter().filter(|face| {
+                let corners: BTreeSet<usize> = face.iter().copied().collect();
+                elements_of_face[&corners] == 1
+            })),
+        }
+    }
+    cells
+}
+
+/// Corners of the faces of an element.
+fn faces(element: &dyn Element) -> Vec<Vec<usize>> {
+    element.faces().iter().map(|face| face.corners().to_vec()).collect()
 }

@@ -65,15 +65,16 @@ validated! {
         motion: Option<MotionFrames>,
     } => {
         let kept = times.len();
-        let lengths = scalars.iter().chain(&probe_values).map(Vec::len);
         let count = Quantity::recorded(ContactLayout::for_elements(&elements).is_plan()).count();
         crate::error::same_length("list of scalars", scalars.len(), count)?;
         crate::error::same_length("list of probes", probe_values.len(), probes.len())?;
         crate::error::same_length("list of energy balances", energy_balances.len(), kept)?;
-        lengths.into_iter().try_for_each(|length| crate::error::same_length("time series", length, kept))?;
-        let frames = contact.as_ref().is_none_or(|own| own.is_whole(elements.len()))
-            && motion.as_ref().is_none_or(|own| own.is_whole(dofs));
-        crate::error::same_length("list of whole frames", usize::from(frames), 1)?;
+        for values in scalars.iter().chain(&probe_values) {
+            crate::error::same_length("time series", values.len(), kept)?;
+        }
+        let are_whole = contact.as_ref().is_none_or(|frames| frames.is_whole(elements.len()))
+            && motion.as_ref().is_none_or(|frames| frames.is_whole(dofs));
+        crate::error::same_length("list of whole frames", usize::from(are_whole), 1)?;
         crate::error::same_length("list of times", usize::from(kept > 0), 1)?;
         let sequence = Sequence::ended(end);
         Ok(Self {
@@ -84,13 +85,13 @@ validated! {
 }
 
 /// Largest number of steps that memory is reserved for.
-const MOST_RESERVED: usize = 1_000_000;
+const MAX_RESERVED_STEPS: usize = 1_000_000;
 
-/// Remedies at a limit of memory.
-const LIMITED: &str = "a recorder of fewer steps takes less, `set_memory_limit` allows more";
+/// Remedies at the limit of memory.
+const LIMIT_REMEDY: &str = "a recorder of fewer steps takes less, `set_memory_limit` allows more";
 
 /// Remedies if the system has no more memory.
-const EXHAUSTED: &str = "the system gives no more; a recorder of fewer steps takes less";
+const SYSTEM_MEMORY_REMEDY: &str = "the system gives no more; a recorder of fewer steps takes less";
 
 impl Recorder {
     /// Starts recording with the present state of the simulation.
@@ -120,7 +121,7 @@ impl Recorder {
                 .map(|every| MotionFrames::new(every, simulation.static_displacement())),
             recorder: self,
         };
-        series.keep(state);
+        series.store(state);
         Ok(series)
     }
 }
@@ -136,8 +137,8 @@ impl TimeSeries {
     /// [`Error::Memory`](crate::Error::Memory) if time series and frames of all `steps` would exceed the
     /// [limit](crate::memory_limit), or the first million steps the memory of the system.
     pub fn reserve(&mut self, steps: usize) -> Result<()> {
-        self.fit(steps)?;
-        self.make_room(steps.min(MOST_RESERVED))
+        self.check_memory(steps)?;
+        self.reserve_steps(steps.min(MAX_RESERVED_STEPS))
     }
 
     /// Records a step.
@@ -152,89 +153,100 @@ impl TimeSeries {
         if !self.sequence.is_next(state) {
             return Ok(());
         }
-        self.fit(1)?;
-        self.make_room(1)?;
+        self.check_memory(1)?;
+        self.reserve_steps(1)?;
         self.sequence.takes(state);
         self.steps += 1;
-        self.keep(state);
+        self.store(state);
         Ok(())
     }
 
     /// Number of kept steps among the next `steps`, if every `every`th is kept.
-    fn due(&self, every: usize, steps: usize) -> usize {
+    fn kept_steps(&self, every: usize, steps: usize) -> usize {
         self.steps.saturating_add(steps) / every - self.steps / every
     }
 
     /// Memory that `steps` more steps would take, bytes.
-    fn needed(&self, steps: usize) -> f64 {
-        let of = |every: usize, frame: usize| self.due(every, steps) as f64 * frame as f64;
+    fn needed_bytes(&self, steps: usize) -> f64 {
         let numbers = 1 + self.scalars.len() + self.probe_values.len();
-        let step = numbers * size_of::<f64>() + size_of::<EnergyBalance>();
-        let contact = self.contact.as_ref().map_or(0.0, |frames| {
-            of(frames.every, ContactFrames::frame_bytes(self.elements.len()))
-        });
-        let motion = self
-            .motion
-            .as_ref()
-            .map_or(0.0, |frames| of(frames.every, MotionFrames::frame_bytes(self.dofs)));
-        of(self.recorder.every, step) + contact + motion
+        let step_bytes = numbers * size_of::<f64>() + size_of::<EnergyBalance>();
+        let mut bytes = self.kept_steps(self.recorder.every, steps) as f64 * step_bytes as f64;
+        if let Some(frames) = &self.contact {
+            let frame_bytes = ContactFrames::frame_bytes(self.elements.len());
+            bytes += self.kept_steps(frames.every, steps) as f64 * frame_bytes as f64;
+        }
+        if let Some(frames) = &self.motion {
+            let frame_bytes = MotionFrames::frame_bytes(self.dofs);
+            bytes += self.kept_steps(frames.every, steps) as f64 * frame_bytes as f64;
+        }
+        bytes
     }
 
-    /// Compares the memory of `steps` more steps with the limit.
-    fn fit(&self, steps: usize) -> Result<()> {
-        let (needed, limit) = (self.bytes() as f64 + self.needed(steps), memory_limit() as f64);
-        if needed <= limit { Ok(()) } else { Err(self.too_many(steps, limit, LIMITED).into()) }
+    /// Error if `steps` more steps would exceed the limit of memory.
+    fn check_memory(&self, steps: usize) -> Result<()> {
+        let needed = self.bytes() as f64 + self.needed_bytes(steps);
+        let limit = memory_limit() as f64;
+        if needed <= limit {
+            Ok(())
+        } else {
+            Err(self.memory_error(steps, limit, LIMIT_REMEDY).into())
+        }
     }
 
-    fn too_many(&self, steps: usize, limit: f64, remedy: &'static str) -> MemoryError {
-        let (quantity, asked) =
-            ("steps with time series and snapshots", self.steps as f64 + steps as f64);
+    fn memory_error(&self, steps: usize, limit: f64, remedy: &'static str) -> MemoryError {
         MemoryError {
-            quantity,
-            asked,
-            needed: self.bytes() as f64 + self.needed(steps),
+            quantity: "steps with time series and snapshots",
+            asked: self.steps as f64 + steps as f64,
+            needed: self.bytes() as f64 + self.needed_bytes(steps),
             limit,
             remedy,
         }
     }
 
     /// Reserves memory for `steps` more steps.
-    fn make_room(&mut self, steps: usize) -> Result<()> {
-        let room = self.try_room(steps);
-        Ok(room.map_err(|_| self.too_many(steps, self.bytes() as f64, EXHAUSTED))?)
+    fn reserve_steps(&mut self, steps: usize) -> Result<()> {
+        let reserved = self.try_reserve_steps(steps);
+        let present = self.bytes() as f64;
+        Ok(reserved.map_err(|_| self.memory_error(steps, present, SYSTEM_MEMORY_REMEDY))?)
     }
 
-    fn try_room(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
-        let count = self.due(self.recorder.every, steps);
+    fn try_reserve_steps(&mut self, steps: usize) -> std::result::Result<(), TryReserveError> {
+        let count = self.kept_steps(self.recorder.every, steps);
         for list in self.scalars.iter_mut().chain(&mut self.probe_values).chain([&mut self.times]) {
             reserve(list, count)?;
         }
         reserve(&mut self.energy_balances, count)?;
-        let counts = [self.recorder.contact, self.recorder.motion]
-            .map(|every| every.map_or(0, |every| self.due(every, steps)));
+        let frame_counts = [self.recorder.contact, self.recorder.motion]
+            .map(|every| every.map_or(0, |every| self.kept_steps(every, steps)));
         if let Some(frames) = &mut self.contact {
-            frames.reserve(counts[0], self.elements.len())?;
+            frames.reserve(frame_counts[0], self.elements.len())?;
         }
         if let Some(frames) = &mut self.motion {
-            frames.reserve(counts[1], self.dofs)?;
+            frames.reserve(frame_counts[1], self.dofs)?;
         }
         Ok(())
     }
 
-    fn keep(&mut self, state: &State) {
-        let due = |every: usize| self.steps.is_multiple_of(every);
-        if due(self.recorder.every) {
+    /// Appends scalars, probes and frames that are kept at the present step.
+    fn store(&mut self, state: &State) {
+        let step = self.steps;
+        if step.is_multiple_of(self.recorder.every) {
             self.times.push(state.time);
             self.energy_balances.push(state.energy_balance);
             state.append_values(&mut self.scalars);
-            let probes = self.probe_values.iter_mut().zip(&state.probes);
-            probes.for_each(|(list, &value)| list.push(value));
+            for (values, &value) in self.probe_values.iter_mut().zip(&state.probes) {
+                values.push(value);
+            }
         }
-        if let Some(frames) = self.contact.as_mut().filter(|frames| due(frames.every)) {
-            frames.keep(state);
+        if let Some(frames) =
+            self.contact.as_mut().filter(|frames| step.is_multiple_of(frames.every))
+        {
+            frames.store(state);
         }
-        if let Some(frames) = self.motion.as_mut().filter(|frames| due(frames.every)) {
-            frames.keep(state);
+        if let Some(frames) =
+            self.motion.as_mut().filter(|frames| step.is_multiple_of(frames.every))
+        {
+            frames.store(state);
         }
     }
 
@@ -296,10 +308,9 @@ impl TimeSeries {
     /// Forces on a face at each snapshot of the base, as [`State::face`]; none unless [`Recorder::contact`] was set.
     #[cfg(feature = "embedded")]
     pub fn face(&self, face: Face) -> impl Iterator<Item = FaceForces> {
-        let on = move |own: ContactFrame<'_>| {
-            FaceForces::on(face, &self.elements, &self.pressure_depths, own.states, own.modes)
-        };
-        self.contact_frames().map(on)
+        self.contact_frames().map(move |frame| {
+            FaceForces::on(face, &self.elements, &self.pressure_depths, frame.states, frame.modes)
+        })
     }
 
     /// Snapshots of the structure; none unless [`Recorder::motion`] was set.

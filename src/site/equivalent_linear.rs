@@ -10,7 +10,9 @@ use super::soil_column::SoilColumn;
 use crate::error::{Observer, Result, Watch};
 use crate::linalg::{Complex, largest};
 use crate::motion::{Record, STANDARD_GRAVITY};
-use crate::soil::{Bedrock, Elastic, GeneralizedMaxwell, Resolved, SoilProfile, StrainCurves};
+use crate::soil::{
+    Bedrock, Elastic, GeneralizedMaxwell, ResolvedCurves, SoilProfile, StrainCurves,
+};
 
 /// Strain-compatible properties of one layer, and its strains.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,7 +170,7 @@ impl SoilColumn {
 }
 
 impl EquivalentLinear {
-    fn warn(&mut self, tolerance: f64, curves: &[Resolved], cut_off: f64) {
+    fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off: f64) {
         for (k, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
             let (layer, largest) = (k + 1, curves.largest());
             let (most, effective) = (response.largest_strain, response.effective_strain);

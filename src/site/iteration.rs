@@ -10,8 +10,8 @@ use super::vertical::{ControlPoint, Sought, VerticalWave};
 use crate::error::{Error, Result, Watch, positive, require, require_part, same_length};
 use crate::motion::Record;
 use crate::soil::{
-    Bedrock, GeneralizedMaxwell, Hysteretic, Relaxation, Resolved, Soil, SoilLayer, SoilProfile,
-    StrainCurves, layer_name,
+    Bedrock, GeneralizedMaxwell, Hysteretic, Relaxation, ResolvedCurves, Soil, SoilLayer,
+    SoilProfile, StrainCurves, layer_name,
 };
 
 /// Smallest effective strain of the iteration; it replaces zero.
@@ -130,7 +130,7 @@ impl SoilColumn {
 pub(super) struct Iteration<'a> {
     column: &'a SoilColumn,
     motion: &'a Record,
-    pub(super) curves: Vec<Resolved>,
+    pub(super) curves: Vec<ResolvedCurves>,
     options: &'a EquivalentLinearOptions,
     /// Spectrum of the motion, on the contour of the last linear calculation.
     transform: Option<Transform>,

@@ -21,7 +21,7 @@ enum DampingForm {
 }
 
 impl DampingForm {
-    /// The form of a law; `None` for a law of the user's own.
+    /// The form of a law; `None` for a law that the user wrote.
     fn from_law(law: &dyn Relaxation) -> Option<Self> {
         let law: &dyn Any = law;
         let elastic = law.downcast_ref().map(|Elastic| Self::Elastic);
@@ -47,8 +47,11 @@ pub(super) fn serialize<S: Serializer>(
     law: &Arc<dyn Relaxation>,
     to: S,
 ) -> Result<S::Ok, S::Error> {
-    let unknown = || format!("damping law '{}' has no form to be written in", law.describe());
-    DampingForm::from_law(&**law).ok_or_else(|| S::Error::custom(unknown()))?.serialize(to)
+    let Some(form) = DampingForm::from_law(&**law) else {
+        let message = format!("damping law '{}' has no form to be written in", law.describe());
+        return Err(S::Error::custom(message));
+    };
+    form.serialize(to)
 }
 
 pub(super) fn deserialize<'a, D: Deserializer<'a>>(

@@ -15,8 +15,11 @@ use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "GeneralizedMaxwellForm"))]
 pub struct GeneralizedMaxwell {
+    /// Long-term modulus ratio m.
     long_term: f64,
+    /// Ratios yᵢ of the mechanisms.
     ratios: Vec<f64>,
+    /// Relaxation rates ωᵢ of the mechanisms, 1/s.
     rates: Vec<f64>,
     /// Damping ratio and band (Hz), if the body was fitted to them.
     fitted: Option<[f64; 3]>,
@@ -40,13 +43,13 @@ fn is_band([ratio, low, high]: &[f64; 3]) -> bool {
 }
 
 /// Number of frequencies of the fit.
-const SAMPLES: usize = 120;
+const FIT_FREQUENCIES: usize = 120;
 /// Number of mechanisms per factor of ten.
-const PER_DECADE: f64 = 2.0;
+const MECHANISMS_PER_DECADE: f64 = 2.0;
 /// Factor by which the relaxation rates extend beyond the band at both ends.
-const MARGIN: f64 = 1.8;
+const BAND_EXTENSION_FACTOR: f64 = 1.8;
 /// Largest deviation from the damping ratio in the band, relative.
-const WORST: f64 = 0.15;
+const MAX_DAMPING_DEVIATION: f64 = 0.15;
 
 impl GeneralizedMaxwell {
     /// Body with the long-term modulus ratio m, the ratios yᵢ and the relaxation rates ωᵢ (1/s).
@@ -96,36 +99,44 @@ impl GeneralizedMaxwell {
             });
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 14")]
-        let count = (PER_DECADE * width.log10()).ceil() as usize + 2;
+        let count = (MECHANISMS_PER_DECADE * width.log10()).ceil() as usize + 2;
         let lowest = std::f64::consts::TAU * band[0];
-        let at = |i: usize| lowest * width.powf(i as f64 / (SAMPLES - 1) as f64);
-        let rate = |i: usize| {
-            lowest / MARGIN * (width * MARGIN * MARGIN).powf(i as f64 / (count - 1) as f64)
-        };
-        let rates: Vec<f64> = (0..count).map(rate).collect();
-        let mut matrix = Vec::with_capacity(SAMPLES * count);
-        for sample in 0..SAMPLES {
-            let omega = at(sample);
+        let mut rates = Vec::with_capacity(count);
+        for i in 0..count {
+            let extended_width = width * BAND_EXTENSION_FACTOR * BAND_EXTENSION_FACTOR;
+            let fraction = i as f64 / (count - 1) as f64;
+            rates.push(lowest / BAND_EXTENSION_FACTOR * extended_width.powf(fraction));
+        }
+        let mut omegas = Vec::with_capacity(FIT_FREQUENCIES);
+        for i in 0..FIT_FREQUENCIES {
+            omegas.push(lowest * width.powf(i as f64 / (FIT_FREQUENCIES - 1) as f64));
+        }
+        let mut matrix = Vec::with_capacity(FIT_FREQUENCIES * count);
+        for omega in &omegas {
             for rate in &rates {
                 let size = omega * omega + rate * rate;
                 matrix.push(0.5 * omega * rate / (ratio * size) - omega * omega / size);
             }
         }
-        let ratios = least_squares(&matrix, count, &[1.0; SAMPLES]);
+        let ratios = nonnegative_least_squares(&matrix, count, &[1.0; FIT_FREQUENCIES]);
         let body = Self::new(1.0, ratios, rates)?;
         let size = body.modulus(Complex::new(0.0, std::f64::consts::TAU * reference)).re;
         let body = Self { long_term: 1.0 / size, fitted: Some([ratio, band[0], band[1]]), ..body };
-        let worst = (0..SAMPLES)
-            .map(|i| (body.damping_ratio(at(i) / std::f64::consts::TAU) / ratio - 1.0).abs())
+        let max_deviation = omegas
+            .iter()
+            .map(|omega| (body.damping_ratio(omega / std::f64::consts::TAU) / ratio - 1.0).abs())
             .fold(0.0, f64::max);
-        if worst <= WORST {
+        if max_deviation <= MAX_DAMPING_DEVIATION {
             return Ok(body);
         }
-        let quantity = "damping ratio over the band";
         let remedy =
-            "no generalised Maxwell body comes closer: a shorter band or a smaller ratio helps"
-                .to_owned();
-        Err(Error::Accuracy { quantity, reached: worst, tolerance: WORST, remedy })
+            "no generalised Maxwell body comes closer: a shorter band or a smaller ratio helps";
+        Err(Error::Accuracy {
+            quantity: "damping ratio over the band",
+            reached: max_deviation,
+            tolerance: MAX_DAMPING_DEVIATION,
+            remedy: remedy.to_owned(),
+        })
     }
 
     /// Damping ratio Im μ/(2 Re μ) at `frequency` (Hz).
@@ -145,14 +156,14 @@ impl Relaxation for GeneralizedMaxwell {
     }
 
     fn moduli(&self, s: &[Complex], moduli: &mut [Complex]) {
-        vectorized(AtMany { body: self, s, moduli });
+        vectorized(ModuliAtMany { body: self, s, moduli });
     }
 
     fn describe(&self) -> String {
         match self.fitted {
             Some([ratio, low, high]) => {
-                let [percent, low, high] = [100.0 * ratio, low, high].map(rounded);
-                format!("{percent} % from {low} to {high} Hz")
+                let percent = rounded(100.0 * ratio);
+                format!("{percent} % from {} to {} Hz", rounded(low), rounded(high))
             }
             None => format!("{} Maxwell mechanisms", self.rates.len()),
         }
@@ -168,13 +179,13 @@ impl Relaxation for GeneralizedMaxwell {
 }
 
 /// Moduli of a body at many Laplace variables.
-struct AtMany<'a> {
+struct ModuliAtMany<'a> {
     body: &'a GeneralizedMaxwell,
     s: &'a [Complex],
     moduli: &'a mut [Complex],
 }
 
-impl WithSimd for AtMany<'_> {
+impl WithSimd for ModuliAtMany<'_> {
     type Output = ();
 
     #[allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
@@ -197,29 +208,31 @@ impl WithSimd for AtMany<'_> {
 /// x ≥ 0 that minimises |A x − b| (Lawson & Hanson 1974, ch. 23).
 ///
 /// A is row-major with `columns` columns; the method is meant for a dozen columns.
-pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Vec<f64> {
+fn nonnegative_least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Vec<f64> {
     let rows = right.len();
     let mut x = vec![0.0; columns];
-    let mut free = vec![false; columns];
-    let column = |j: usize| (0..rows).map(move |i| matrix[i * columns + j]);
-    let dot = |j: usize, v: &[f64]| column(j).zip(v).map(|(a, b)| a * b).sum::<f64>();
+    let mut is_free = vec![false; columns];
     // Each pass frees one degree of freedom; some may be freed and fixed again.
     for _ in 0..10 * columns {
         let residual: Vec<f64> = (0..rows)
             .map(|i| right[i] - (0..columns).map(|j| matrix[i * columns + j] * x[j]).sum::<f64>())
             .collect();
         let size = right.iter().map(|b| b * b).sum::<f64>().sqrt();
-        let gradient = |j: usize| dot(j, &residual);
-        let length = |j: usize| column(j).map(|a| a * a).sum::<f64>().sqrt();
-        let best = (0..columns)
-            .filter(|&j| !free[j] && gradient(j) > 1e-12 * size * length(j))
-            .max_by(|&i, &j| gradient(i).total_cmp(&gradient(j)));
-        let Some(best) = best else { break };
-        free[best] = true;
+        let mut gradient = vec![0.0; columns];
+        let mut length = vec![0.0; columns];
+        for j in 0..columns {
+            gradient[j] = column(matrix, columns, j).zip(&residual).map(|(a, b)| a * b).sum();
+            length[j] = column(matrix, columns, j).map(|a| a * a).sum::<f64>().sqrt();
+        }
+        let steepest = (0..columns)
+            .filter(|&j| !is_free[j] && gradient[j] > 1e-12 * size * length[j])
+            .max_by(|&i, &j| gradient[i].total_cmp(&gradient[j]));
+        let Some(steepest) = steepest else { break };
+        is_free[steepest] = true;
         loop {
-            let trial = restricted(matrix, columns, right, &free);
+            let trial = free_least_squares(matrix, columns, right, &is_free);
             let step = (0..columns)
-                .filter(|&j| free[j] && trial[j] <= 0.0)
+                .filter(|&j| is_free[j] && trial[j] <= 0.0)
                 .map(|j| x[j] / (x[j] - trial[j]))
                 .fold(1.0, f64::min);
             for j in 0..columns {
@@ -229,8 +242,9 @@ pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Ve
                 break;
             }
             for j in 0..columns {
-                if free[j] && trial[j] <= 0.0 && x[j] <= 1e-14 {
-                    (free[j], x[j]) = (false, 0.0);
+                if is_free[j] && trial[j] <= 0.0 && x[j] <= 1e-14 {
+                    is_free[j] = false;
+                    x[j] = 0.0;
                 }
             }
         }
@@ -238,25 +252,28 @@ pub(super) fn least_squares(matrix: &[f64], columns: usize, right: &[f64]) -> Ve
     x
 }
 
+/// Column j of a row-major matrix.
+fn column(matrix: &[f64], columns: usize, j: usize) -> impl Iterator<Item = f64> {
+    matrix.iter().skip(j).step_by(columns).copied()
+}
+
 /// Least squares over the free degrees of freedom by modified Gram–Schmidt; the others are zero.
-fn restricted(matrix: &[f64], columns: usize, right: &[f64], free: &[bool]) -> Vec<f64> {
-    let rows = right.len();
-    let chosen: Vec<usize> = (0..columns).filter(|&j| free[j]).collect();
-    let count = chosen.len();
+fn free_least_squares(matrix: &[f64], columns: usize, right: &[f64], is_free: &[bool]) -> Vec<f64> {
+    let free: Vec<usize> = (0..columns).filter(|&j| is_free[j]).collect();
+    let count = free.len();
     let mut basis: Vec<Vec<f64>> =
-        chosen.iter().map(|&j| (0..rows).map(|i| matrix[i * columns + j]).collect()).collect();
+        free.iter().map(|&j| column(matrix, columns, j).collect()).collect();
     let mut upper = vec![0.0; count * count];
-    let mut rest = right.to_vec();
+    let mut residual = right.to_vec();
     let mut projected = vec![0.0; count];
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     for j in 0..count {
-        let (done, todo) = basis.split_at_mut(j);
-        let current = &mut todo[0];
-        for (i, other) in done.iter().enumerate() {
-            let share = dot(other, current);
-            upper[i * count + j] = share;
-            for (value, other) in current.iter_mut().zip(other) {
-                *value -= share * other;
+        let (orthonormal, others) = basis.split_at_mut(j);
+        let current = &mut others[0];
+        for (i, vector) in orthonormal.iter().enumerate() {
+            let projection = dot(vector, current);
+            upper[i * count + j] = projection;
+            for (value, entry) in current.iter_mut().zip(vector) {
+                *value -= projection * entry;
             }
         }
         let size = dot(current, current).sqrt().max(f64::MIN_POSITIVE);
@@ -264,17 +281,21 @@ fn restricted(matrix: &[f64], columns: usize, right: &[f64], free: &[bool]) -> V
         for value in current.iter_mut() {
             *value /= size;
         }
-        projected[j] = dot(current, &rest);
-        for (rest, value) in rest.iter_mut().zip(current.iter()) {
-            *rest -= projected[j] * value;
+        projected[j] = dot(current, &residual);
+        for (residual, value) in residual.iter_mut().zip(current.iter()) {
+            *residual -= projected[j] * value;
         }
     }
     let mut x = vec![0.0; columns];
     for j in (0..count).rev() {
-        let known: f64 = (j + 1..count).map(|i| upper[j * count + i] * x[chosen[i]]).sum();
-        x[chosen[j]] = (projected[j] - known) / upper[j * count + j];
+        let solved_terms: f64 = (j + 1..count).map(|i| upper[j * count + i] * x[free[i]]).sum();
+        x[free[j]] = (projected[j] - solved_terms) / upper[j * count + j];
     }
     x
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]
@@ -282,31 +303,37 @@ mod tests {
     use super::*;
     use crate::Error;
 
+    /// Speed of shear waves at a frequency (Hz), relative to √(μ₀/ρ).
+    fn wave_speed(body: &GeneralizedMaxwell, frequency: f64) -> f64 {
+        let modulus = body.modulus(Complex::new(0.0, std::f64::consts::TAU * frequency));
+        1.0 / modulus.sqrt().inverse().re
+    }
+
     #[test]
     fn damping_is_constant_over_the_band_and_waves_disperse_as_causality_wants() {
         for (ratio, band) in
             [(0.01, [0.1, 30.0]), (0.05, [0.1, 30.0]), (0.1, [0.05, 50.0]), (0.2, [0.5, 20.0])]
         {
             let body = GeneralizedMaxwell::constant_q(ratio, band, 1.0).unwrap();
-            let mut worst: f64 = 0.0;
+            let mut max_deviation: f64 = 0.0;
             for i in 0..=200 {
                 let frequency = band[0] * (band[1] / band[0]).powf(f64::from(i) / 200.0);
-                worst = worst.max((body.damping_ratio(frequency) / ratio - 1.0).abs());
+                max_deviation =
+                    max_deviation.max((body.damping_ratio(frequency) / ratio - 1.0).abs());
             }
-            println!("{ratio} {band:?}: {worst:.4}, long term {:.4}", body.long_term);
-            assert!(worst < 0.05, "{ratio} {worst}");
-            let omega = |f: f64| Complex::new(0.0, std::f64::consts::TAU * f);
-            assert!((body.modulus(omega(1.0)).re - 1.0).abs() < 1e-14);
+            println!("{ratio} {band:?}: {max_deviation:.4}, long term {:.4}", body.long_term);
+            assert!(max_deviation < 0.05, "{ratio} {max_deviation}");
+            let at_reference = body.modulus(Complex::new(0.0, std::f64::consts::TAU));
+            assert!((at_reference.re - 1.0).abs() < 1e-14);
             assert!(body.ratios.iter().all(|y| *y >= 0.0));
-            let speed = |f: f64| 1.0 / body.modulus(omega(f)).sqrt().inverse().re;
-            let grows = (speed(4.0) / speed(1.0) - 1.0)
+            let growth = (wave_speed(&body, 4.0) / wave_speed(&body, 1.0) - 1.0)
                 / (2.0 * ratio / std::f64::consts::PI * 4.0_f64.ln());
-            assert!((grows - 1.0).abs() < 0.25, "{ratio} {grows}");
+            assert!((growth - 1.0).abs() < 0.25, "{ratio} {growth}");
         }
     }
 
     #[test]
-    fn bad_bands_and_bodies_are_refused() {
+    fn bad_bands_and_bodies_are_errors() {
         for (ratio, band, reference) in [
             (-0.1, [0.1, 10.0], 1.0),
             (f64::NAN, [0.1, 10.0], 1.0),
@@ -336,7 +363,7 @@ mod nonnegative_tests {
         for (right, wanted) in
             [([3.0, 1.0], [2.0, 1.0]), ([1.0, 3.0], [2.0, 0.0]), ([-1.0, -3.0], [0.0, 1.0])]
         {
-            let found = least_squares(&matrix, 2, &right);
+            let found = nonnegative_least_squares(&matrix, 2, &right);
             for (found, wanted) in found.iter().zip(wanted) {
                 assert!((found - wanted).abs() < 1e-14 && *found >= 0.0, "{found} {wanted}");
             }

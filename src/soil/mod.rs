@@ -4,6 +4,7 @@
 mod damping_form;
 mod maxwell;
 mod profile;
+mod published_curves;
 mod relaxation;
 mod strain_curves;
 mod strength;
@@ -13,7 +14,7 @@ pub use maxwell::GeneralizedMaxwell;
 pub(crate) use profile::layer_name;
 pub use profile::{Bedrock, SoilLayer, SoilProfile};
 pub use relaxation::{Elastic, Hysteretic, KelvinVoigt, Kjartansson, Relaxation};
-pub(crate) use strain_curves::Resolved;
+pub(crate) use strain_curves::ResolvedCurves;
 pub use strain_curves::StrainCurves;
 pub use strength::SoilStrength;
 
@@ -49,8 +50,8 @@ impl Soil {
     pub fn new(shear_modulus: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("shear modulus of the soil", shear_modulus)?;
         positive("density of the soil", density)?;
-        let fits = poisson > -1.0 && poisson < 0.5;
-        require("Poisson's ratio of the soil", poisson, fits, "above -1 and below 0.5")?;
+        let is_in_range = poisson > -1.0 && poisson < 0.5;
+        require("Poisson's ratio of the soil", poisson, is_in_range, "above -1 and below 0.5")?;
         let soil = Self { shear_modulus, poisson, density };
         positive("shear wave speed of the soil", soil.shear_wave_speed())?;
         finite("pressure wave speed of the soil", soil.pressure_wave_speed())?;
@@ -70,7 +71,7 @@ impl Soil {
     pub fn from_shear_wave_speed(speed: f64, poisson: f64, density: f64) -> Result<Self> {
         positive("shear wave speed of the soil", speed)?;
         positive("density of the soil", density)?;
-        Self::new(modulus(density, speed)?, poisson, density)
+        Self::new(modulus_of_speed(density, speed)?, poisson, density)
     }
 
     /// Soil from its wave speeds `c_S`, `c_P` (m/s) and density ρ (kg/m³).
@@ -81,9 +82,9 @@ impl Soil {
         positive("shear wave speed", shear)?;
         positive("pressure wave speed", pressure)?;
         positive("density of the soil", density)?;
-        let slowness = (shear / pressure).powi(2);
-        let poisson = (1.0 - 2.0 * slowness) / (2.0 * (1.0 - slowness));
-        Self::new(modulus(density, shear)?, poisson, density)
+        let speed_ratio_squared = (shear / pressure).powi(2);
+        let poisson = (1.0 - 2.0 * speed_ratio_squared) / (2.0 * (1.0 - speed_ratio_squared));
+        Self::new(modulus_of_speed(density, shear)?, poisson, density)
     }
 
     /// Shear modulus μ, Pa.
@@ -117,6 +118,7 @@ impl Soil {
     }
 }
 
-fn modulus(density: f64, speed: f64) -> Result<f64> {
+/// Shear modulus from density and shear wave speed, Pa.
+fn modulus_of_speed(density: f64, speed: f64) -> Result<f64> {
     positive("shear modulus of the soil, by its density and speed", density * speed * speed)
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::Soil;
 use super::relaxation::{Elastic, Relaxation};
-use crate::error::{Error, Result, SoilError, at_least, positive, require, require_part};
+use crate::error::{Result, SoilError, at_least, positive, require, require_part};
 use crate::linalg::Complex;
 
 /// Layer: an elastic soil, its thickness and its damping.
@@ -44,7 +44,7 @@ pub enum Bedrock {
 /// Horizontal layers, from the surface down, on a half-plane or rigid bedrock.
 ///
 /// With the feature `serde`, profiles with the crate's damping laws can be written and read. Writing a
-/// damping law of your own returns an error.
+/// damping law that the user wrote returns an error.
 ///
 /// ```
 /// use basemat::Soil;
@@ -65,9 +65,9 @@ pub enum Bedrock {
 pub struct SoilProfile {
     layers: Vec<SoilLayer>,
     bedrock: Bedrock,
-    /// Whether a damping came before any layer.
+    /// Whether `with_damping` was called before any layer.
     #[cfg_attr(feature = "serde", serde(skip))]
-    damped_first: bool,
+    has_damping_before_layers: bool,
 }
 
 validated! {
@@ -75,30 +75,30 @@ validated! {
     => SoilProfile::new(layers, bedrock)
 }
 
-/// |Re(μ/s)|/|μ/s| below which the real part counts as zero.
-const ROUNDING: f64 = 1e-12;
+/// Largest |Re(μ/s)|/|μ/s| that counts as zero.
+const PASSIVITY_TOLERANCE: f64 = 1e-12;
 /// Largest number of layers of a profile.
-const MOST_LAYERS: usize = 1000;
+const MAX_LAYERS: usize = 1000;
 
 impl SoilProfile {
     /// A half-plane of an elastic soil, without layers so far.
     pub fn on_half_plane(soil: Soil) -> Self {
         let bedrock = Bedrock::HalfPlane { soil, damping: Arc::new(Elastic) };
-        Self { layers: vec![], bedrock, damped_first: false }
+        Self { layers: vec![], bedrock, has_damping_before_layers: false }
     }
 
     /// Rigid bedrock without layers so far; add at least one.
     pub fn on_rigid_bedrock() -> Self {
-        Self { layers: vec![], bedrock: Bedrock::Rigid, damped_first: false }
+        Self { layers: vec![], bedrock: Bedrock::Rigid, has_damping_before_layers: false }
     }
 
     /// Profile from its layers, from the surface down, and its bedrock.
     ///
     /// # Errors
-    /// [`Error::Item`] for a thickness that is not finite and positive, [`Error::Input`] for
+    /// [`Error::Item`](crate::Error::Item) for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
     /// more than 1000 layers, [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
     pub fn new(layers: Vec<SoilLayer>, bedrock: Bedrock) -> Result<Self> {
-        let profile = Self { layers, bedrock, damped_first: false };
+        let profile = Self { layers, bedrock, has_damping_before_layers: false };
         profile.check_depth()?;
         profile.check()?;
         Ok(profile)
@@ -109,12 +109,16 @@ impl SoilProfile {
     /// It is elastic until [`with_damping`](SoilProfile::with_damping) is called.
     ///
     /// # Errors
-    /// [`Error::Item`] for a thickness that is not finite and positive, [`Error::Input`] for
+    /// [`Error::Item`](crate::Error::Item) for a thickness that is not finite and positive, [`Error::Input`](crate::Error::Input) for
     /// more than 1000 layers, [`Error::Scene`](crate::Error::Scene) for the first layer after
     /// [`with_damping`](SoilProfile::with_damping), which does not damp it.
     pub fn with_layer(mut self, soil: Soil, thickness: f64) -> Result<Self> {
         let needed = "it damps the layer before it: call it after `with_layer`, or `with_bedrock_damping` for the bedrock";
-        require_part("`with_damping` before the first soil layer", !self.damped_first, needed)?;
+        require_part(
+            "`with_damping` before the first soil layer",
+            !self.has_damping_before_layers,
+            needed,
+        )?;
         self.layers.push(SoilLayer { soil, thickness, damping: Arc::new(Elastic) });
         self.check_depth()?;
         Ok(self)
@@ -125,7 +129,12 @@ impl SoilProfile {
     pub fn with_damping(mut self, damping: impl Relaxation + 'static) -> Self {
         match self.layers.last_mut() {
             Some(layer) => layer.damping = Arc::new(damping),
-            None => return Self { damped_first: true, ..self.with_bedrock_damping(damping) },
+            None => {
+                return Self {
+                    has_damping_before_layers: true,
+                    ..self.with_bedrock_damping(damping)
+                };
+            }
         }
         self
     }
@@ -173,9 +182,8 @@ impl SoilProfile {
 
     /// Whether the profile is a half-plane without layers or damping, which has a closed form.
     pub(crate) fn is_elastic_half_plane(&self) -> bool {
-        let elastic = |damping: &Arc<dyn Relaxation>| damping.identity() == Elastic.identity();
-        self.layers.is_empty()
-            && matches!(&self.bedrock, Bedrock::HalfPlane { damping, .. } if elastic(damping))
+        let Bedrock::HalfPlane { damping, .. } = &self.bedrock else { return false };
+        self.layers.is_empty() && damping.identity() == Elastic.identity()
     }
 
     /// Numbers that are equal only for equal profiles; `None` if a damping law has no identity.
@@ -209,10 +217,10 @@ impl SoilProfile {
 
     fn check_depth(&self) -> Result<()> {
         let count = self.layers.len();
-        require("number of soil layers", count as f64, count <= MOST_LAYERS, "at most 1000")?;
+        require("number of soil layers", count as f64, count <= MAX_LAYERS, "at most 1000")?;
         for (index, layer) in self.layers.iter().enumerate() {
-            let of_layer = |error: Error| error.within(layer_name(index));
-            positive("thickness (m)", layer.thickness).map_err(of_layer)?;
+            positive("thickness (m)", layer.thickness)
+                .map_err(|error| error.within(layer_name(index)))?;
         }
         if !self.layers.is_empty() {
             positive("depth of the soil layers", self.depth())?;
@@ -249,27 +257,27 @@ impl SoilProfile {
         moduli.clear();
         // Neighbours of the same damping law share μ(s)/μ.
         let mut ratios = vec![Complex::default(); s.len()];
-        let mut known: Option<Vec<f64>> = None;
+        let mut law_of_ratios: Option<Vec<f64>> = None;
         for (index, (soil, damping)) in self.soils().enumerate() {
             let law = damping.identity();
-            if law.is_none() || law != known {
+            if law.is_none() || law != law_of_ratios {
                 damping.moduli(s, &mut ratios);
-                known = law;
+                law_of_ratios = law;
             }
             let begin = moduli.len();
             moduli.extend_from_slice(&ratios);
-            let own = &mut moduli[begin..];
-            // Re(μ/s) > 0 by far, in range: no need to look closer.
-            let mut passed = true;
-            for (modulus, s) in own.iter_mut().zip(s) {
+            let soil_moduli = &mut moduli[begin..];
+            // Where Re(μ/s) is clearly positive and nothing overflows, the exact check is not needed.
+            let mut are_clearly_passive = true;
+            for (modulus, s) in soil_moduli.iter_mut().zip(s) {
                 *modulus = modulus.scale(soil.shear_modulus());
                 let power = modulus.re * s.re + modulus.im * s.im;
                 let size = modulus.square() * s.square();
-                passed &=
+                are_clearly_passive &=
                     power > 0.0 && power * power > 1e-20 * size && size > 1e-280 && size < 1e280;
             }
-            if !passed {
-                for (modulus, s) in own.iter().zip(s) {
+            if !are_clearly_passive {
+                for (modulus, s) in soil_moduli.iter().zip(s) {
                     check_modulus(index, *s, *modulus)?;
                 }
             }
@@ -291,16 +299,19 @@ impl SoilProfile {
 
     /// The part above a depth (m), on rigid bedrock.
     pub(crate) fn above(&self, depth: f64) -> Self {
-        let (mut rest, mut layers) = (depth, Vec::new());
+        let mut remaining = depth;
+        let mut layers = Vec::new();
         for layer in &self.layers {
-            let thickness = layer.thickness.min(rest);
+            let thickness = layer.thickness.min(remaining);
             if thickness > 0.0 {
                 layers.push(SoilLayer { thickness, ..layer.clone() });
             }
-            rest -= thickness;
+            remaining -= thickness;
         }
-        if let (true, Bedrock::HalfPlane { soil, damping }) = (rest > 0.0, &self.bedrock) {
-            layers.push(SoilLayer { soil: *soil, thickness: rest, damping: damping.clone() });
+        if remaining > 0.0
+            && let Bedrock::HalfPlane { soil, damping } = &self.bedrock
+        {
+            layers.push(SoilLayer { soil: *soil, thickness: remaining, damping: damping.clone() });
         }
         Self { layers, ..Self::on_rigid_bedrock() }
     }
@@ -314,17 +325,19 @@ pub(crate) fn layer_name(index: usize) -> String {
 /// Error for the modulus of a soil, from 0 at the surface, at `s` that no passive soil has.
 fn check_modulus(index: usize, s: Complex, modulus: Complex) -> Result<()> {
     let layer = index + 1;
-    let at_rest = s == Complex::default();
-    if !(modulus.is_finite() && modulus.abs() > 0.0) || (at_rest && modulus.re <= 0.0) {
-        let needed = if at_rest { "finite and above zero" } else { "finite and not zero" };
-        let (quantity, value) = ("shear modulus (Pa)", modulus.re);
-        return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
+    let is_static = s == Complex::default();
+    if !(modulus.is_finite() && modulus.abs() > 0.0) || (is_static && modulus.re <= 0.0) {
+        let needed = if is_static { "finite and above zero" } else { "finite and not zero" };
+        let quantity = "shear modulus (Pa)";
+        let s = [s.re, s.im];
+        return Err(SoilError::Modulus { layer, quantity, value: modulus.re, s, needed }.into());
     }
     let ratio = modulus / s;
     let value = ratio.re / ratio.abs();
     // On the imaginary axis Re(μ/s) of an elastic law is zero up to rounding. Its modulus must then be positive.
-    let passive = value >= ROUNDING || (value >= -ROUNDING && modulus.re > 0.0);
-    if !(at_rest || passive) {
+    let is_passive =
+        value >= PASSIVITY_TOLERANCE || (value >= -PASSIVITY_TOLERANCE && modulus.re > 0.0);
+    if !(is_static || is_passive) {
         let quantity = "Re(mu/s)/|mu/s|";
         let needed = "not negative: the damping law gives energy away";
         return Err(SoilError::Modulus { layer, quantity, value, s: [s.re, s.im], needed }.into());
@@ -339,6 +352,17 @@ impl From<Soil> for SoilProfile {
     }
 }
 
+/// Elastic constants in the columns of the table of a profile.
+fn constants_text(soil: &Soil) -> String {
+    format!(
+        "{:>9.1} {:>9.1} {:>9.1} {:>7.4}",
+        soil.shear_wave_speed(),
+        soil.pressure_wave_speed(),
+        soil.density(),
+        soil.poisson()
+    )
+}
+
 /// A table: one line per layer, then the bedrock and the first frequency of the layers.
 impl fmt::Display for SoilProfile {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -347,14 +371,10 @@ impl fmt::Display for SoilProfile {
             "{:>10} {:>9} {:>9} {:>9} {:>7} {:>9}  damping",
             "h (m)", "c_S (m/s)", "c_P (m/s)", "kg/m3", "nu", "c_S/4h Hz"
         )?;
-        let constants = |soil: &Soil| {
-            let (shear, pressure) = (soil.shear_wave_speed(), soil.pressure_wave_speed());
-            format!("{shear:>9.1} {pressure:>9.1} {:>9.1} {:>7.4}", soil.density(), soil.poisson())
-        };
         for SoilLayer { soil, thickness, damping } in &self.layers {
             let frequency = 0.25 * soil.shear_wave_speed() / thickness;
-            let line = constants(soil);
-            writeln!(f, "{thickness:>10.3} {line} {frequency:>9.3}  {}", damping.describe())?;
+            let constants = constants_text(soil);
+            writeln!(f, "{thickness:>10.3} {constants} {frequency:>9.3}  {}", damping.describe())?;
         }
         match &self.bedrock {
             Bedrock::HalfPlane { soil, damping } => {
@@ -362,7 +382,7 @@ impl fmt::Display for SoilProfile {
                     f,
                     "{:>10} {} {:>9}  {}",
                     "half-plane",
-                    constants(soil),
+                    constants_text(soil),
                     "",
                     damping.describe()
                 )?;

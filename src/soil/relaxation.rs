@@ -199,8 +199,13 @@ impl Kjartansson {
     #[cfg(feature = "serde")]
     fn from_parts(exponent: f64, reference: f64) -> Result<Self> {
         positive("reference frequency of a damping law", reference)?;
-        let fits = (0.0..=1.0).contains(&exponent);
-        crate::error::require("exponent of Kjartansson's damping", exponent, fits, "from 0 to 1")?;
+        let is_in_range = (0.0..=1.0).contains(&exponent);
+        crate::error::require(
+            "exponent of Kjartansson's damping",
+            exponent,
+            is_in_range,
+            "from 0 to 1",
+        )?;
         Ok(Self { exponent, reference })
     }
 }

@@ -1,5 +1,8 @@
 //! Modulus reduction and damping of soils over shear strain.
 
+use super::published_curves::{
+    EPRI_CURVES, NINE_STRAINS, SEED_IDRISS_CURVES, SEVENTEEN_STRAINS, VUCETIC_DOBRY_CURVES,
+};
 use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive, require};
 
 /// Secant shear modulus and damping ratio of a soil as functions of the shear strain's amplitude.
@@ -12,8 +15,8 @@ use crate::error::{Error, Result, damping_ratio, finite, not_negative, positive,
 /// use basemat::soil::StrainCurves;
 /// let clay = StrainCurves::VuceticDobry { plasticity_index: 30.0 };
 /// assert_eq!(clay.at(1.0e-3)?, [0.53, 0.088]); // G/G_max and damping ratio at 0.1 %
-/// let own = StrainCurves::Table(vec![[1.0e-5, 1.0, 0.01], [1.0e-3, 0.5, 0.09]]);
-/// let [reduction, damping] = own.at(1.0e-4)?;
+/// let table = StrainCurves::Table(vec![[1.0e-5, 1.0, 0.01], [1.0e-3, 0.5, 0.09]]);
+/// let [reduction, damping] = table.at(1.0e-4)?;
 /// assert!((reduction - 0.75).abs() < 1e-12 && (damping - 0.05).abs() < 1e-12);
 /// # Ok::<(), basemat::Error>(())
 /// ```
@@ -64,19 +67,26 @@ pub enum StrainCurves {
 
 /// Curves of one layer, ready for evaluation.
 #[derive(Debug)]
-pub(crate) enum Resolved {
+pub(crate) enum ResolvedCurves {
+    /// Rows of strain, G/G_max and damping ratio.
     Rows(Vec<[f64; 3]>),
-    /// Reference strain, small-strain damping, factor of Masing damping.
-    Darendeli([f64; 3]),
+    /// Parameters of Darendeli's model.
+    Darendeli {
+        reference_strain: f64,
+        small_strain_damping: f64,
+        /// Factor of the Masing damping.
+        masing_factor: f64,
+    },
 }
 
 /// Curvature a of Darendeli's hyperbola, φ₅.
-const CURVATURE: f64 = 0.919;
-/// Multiple of the reference strain above which Darendeli's damping is kept constant, because it would decrease.
-const MOST_DAMPED: f64 = 55.45;
+const HYPERBOLA_CURVATURE: f64 = 0.919;
+/// Strain over the reference strain above which Darendeli's damping stays constant: it would decrease.
+const MAX_DAMPING_STRAIN_RATIO: f64 = 55.45;
 /// Largest strain of Darendeli's curves.
-const LARGEST: f64 = 0.01;
-const ATMOSPHERE: f64 = 101_325.0;
+const MAX_DARENDELI_STRAIN: f64 = 0.01;
+/// Atmospheric pressure, Pa.
+const ATMOSPHERIC_PRESSURE: f64 = 101_325.0;
 
 impl StrainCurves {
     /// G/G_max and damping ratio at a `strain` amplitude.
@@ -89,7 +99,7 @@ impl StrainCurves {
     }
 
     /// Checks the parameters of these curves and applies them.
-    pub(crate) fn resolved(&self) -> Result<Resolved> {
+    pub(crate) fn resolved(&self) -> Result<ResolvedCurves> {
         let rows = match self {
             Self::Linear { damping } => {
                 vec![[
@@ -98,17 +108,22 @@ impl StrainCurves {
                     damping_ratio("damping ratio of a linear soil", *damping)?,
                 ]]
             }
-            Self::SeedIdrissMean => rows(&NINE, &SEED_IDRISS[0], &SEED_IDRISS[1]),
-            Self::SeedIdrissUpper => rows(&NINE, &SEED_IDRISS[2], &SEED_IDRISS[3]),
+            Self::SeedIdrissMean => {
+                rows(&NINE_STRAINS, &SEED_IDRISS_CURVES[0], &SEED_IDRISS_CURVES[1])
+            }
+            Self::SeedIdrissUpper => {
+                rows(&NINE_STRAINS, &SEED_IDRISS_CURVES[2], &SEED_IDRISS_CURVES[3])
+            }
             Self::VuceticDobry { plasticity_index } => vucetic_dobry(*plasticity_index)?,
             Self::Epri { depth } => {
-                let known = EPRI.iter().find(|(below, ..)| (0.0..=*below).contains(depth));
-                let (_, reduction, damping) = known.ok_or(Error::Input {
+                let curve =
+                    EPRI_CURVES.iter().find(|curve| (0.0..=curve.parameter).contains(depth));
+                let curve = curve.ok_or(Error::Input {
                     quantity: "depth of EPRI's curves (m)",
                     value: *depth,
                     needed: "from 0 to 304.8",
                 })?;
-                rows(&SEVENTEEN, reduction, damping)
+                rows(&SEVENTEEN_STRAINS, &curve.reduction, &curve.damping)
             }
             &Self::Darendeli {
                 plasticity_index,
@@ -125,34 +140,31 @@ impl StrainCurves {
                     cycles,
                 );
             }
-            Self::Table(rows) => checked(rows)?.to_vec(),
+            Self::Table(rows) => checked_rows(rows)?.to_vec(),
         };
-        Ok(Resolved::Rows(rows))
+        Ok(ResolvedCurves::Rows(rows))
     }
 }
 
-impl Resolved {
+impl ResolvedCurves {
     /// G/G_max and damping ratio at a strain that is not negative.
     pub(crate) fn at(&self, strain: f64) -> [f64; 2] {
         match self {
             Self::Rows(rows) => {
                 let above = rows.partition_point(|row| row[0] <= strain);
-                let [Some(low), high] =
-                    [above.checked_sub(1).map(|i| rows[i]), rows.get(above).copied()]
-                else {
+                let Some(low) = above.checked_sub(1).map(|i| rows[i]) else {
                     return rows.first().map_or([1.0, 0.0], |row| [row[1], row[2]]);
                 };
-                let high = high.unwrap_or(low);
-                let share = if high[0] > low[0] {
+                let high = rows.get(above).copied().unwrap_or(low);
+                let fraction = if high[0] > low[0] {
                     (strain / low[0]).ln() / (high[0] / low[0]).ln()
                 } else {
                     0.0
                 };
-                [1, 2].map(|k| low[k] + share * (high[k] - low[k]))
+                [1, 2].map(|k| low[k] + fraction * (high[k] - low[k]))
             }
-            Self::Darendeli([reference, least, factor]) => {
-                let reduction = |x: f64| 1.0 / (1.0 + x.powf(CURVATURE));
-                let x = (strain / reference).min(MOST_DAMPED);
+            Self::Darendeli { reference_strain, small_strain_damping, masing_factor } => {
+                let x = (strain / reference_strain).min(MAX_DAMPING_STRAIN_RATIO);
                 // Masing damping for a = 1, per cent. For small x the limit 2x/3 is used, because the
                 // difference cancels.
                 let loop_area = if x < 1e-5 {
@@ -161,14 +173,15 @@ impl Resolved {
                     4.0 * (x - x.ln_1p()) * (1.0 + x) / (x * x) - 2.0
                 };
                 let first = 100.0 / std::f64::consts::PI * loop_area;
-                let a = CURVATURE;
+                let a = HYPERBOLA_CURVATURE;
                 let c1 = -1.1143 * a * a + 1.8618 * a + 0.2523;
                 let c2 = 0.0805 * a * a - 0.0710 * a - 0.0095;
                 let c3 = -0.0005 * a * a + 0.0002 * a + 0.0003;
                 let masing = first * (c1 + first * (c2 + first * c3));
                 [
-                    reduction(strain / reference),
-                    least + 0.01 * factor * reduction(x).powf(0.1) * masing,
+                    darendeli_reduction(strain / reference_strain),
+                    small_strain_damping
+                        + 0.01 * masing_factor * darendeli_reduction(x).powf(0.1) * masing,
                 ]
             }
         }
@@ -178,36 +191,45 @@ impl Resolved {
     pub(crate) fn largest(&self) -> f64 {
         match self {
             Self::Rows(rows) => rows.last().map_or(f64::INFINITY, |row| row[0]),
-            Self::Darendeli(_) => LARGEST,
+            Self::Darendeli { .. } => MAX_DARENDELI_STRAIN,
         }
     }
 }
 
-/// Reference strain, small-strain damping and factor of Masing damping (means of Darendeli's model, 2001).
+/// G/G_max of Darendeli's hyperbola at a strain over the reference strain.
+fn darendeli_reduction(strain_ratio: f64) -> f64 {
+    1.0 / (1.0 + strain_ratio.powf(HYPERBOLA_CURVATURE))
+}
+
+/// Parameters of Darendeli's model, by its means (2001).
 fn darendeli(
     index: f64,
     overconsolidation: f64,
     stress: f64,
     frequency: f64,
     cycles: f64,
-) -> Result<Resolved> {
+) -> Result<ResolvedCurves> {
     not_negative("plasticity index", index)?;
     let ratio = positive("overconsolidation ratio", overconsolidation)?;
-    let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERE;
-    let fits = [frequency >= 0.05 && frequency.is_finite(), cycles >= 1.0 && cycles.is_finite()];
+    let stress = positive("mean effective stress (Pa)", stress)? / ATMOSPHERIC_PRESSURE;
+    let is_frequency = frequency >= 0.05 && frequency.is_finite();
     let quantity = "frequency of Darendeli's curves (Hz)";
-    require(quantity, frequency, fits[0], "finite and at least 0.05")?;
-    require("number of cycles of Darendeli's curves", cycles, fits[1], "finite and at least 1")?;
-    let reference = 0.01 * (0.0352 + 0.0010 * index * ratio.powf(0.3246)) * stress.powf(0.3483);
-    let small = 0.01
+    require(quantity, frequency, is_frequency, "finite and at least 0.05")?;
+    let is_count = cycles >= 1.0 && cycles.is_finite();
+    require("number of cycles of Darendeli's curves", cycles, is_count, "finite and at least 1")?;
+    let reference_strain =
+        0.01 * (0.0352 + 0.0010 * index * ratio.powf(0.3246)) * stress.powf(0.3483);
+    let small_strain_damping = 0.01
         * (0.8005 + 0.0129 * index * ratio.powf(-0.1069))
         * stress.powf(-0.2889)
         * (1.0 + 0.2919 * frequency.ln());
-    positive("reference strain of Darendeli's curves", reference)?;
-    damping_ratio("small-strain damping of Darendeli's curves", small)?;
-    Ok(Resolved::Darendeli([reference, small, 0.6329 - 0.00566 * cycles.ln()]))
+    positive("reference strain of Darendeli's curves", reference_strain)?;
+    damping_ratio("small-strain damping of Darendeli's curves", small_strain_damping)?;
+    let masing_factor = 0.6329 - 0.00566 * cycles.ln();
+    Ok(ResolvedCurves::Darendeli { reference_strain, small_strain_damping, masing_factor })
 }
 
+/// Rows of strain, G/G_max and damping ratio.
 fn rows<const N: usize>(
     strains: &[f64; N],
     reduction: &[f64; N],
@@ -218,153 +240,41 @@ fn rows<const N: usize>(
 
 /// Interpolates between the two drawn curves next to a plasticity index.
 fn vucetic_dobry(index: f64) -> Result<Vec<[f64; 3]>> {
-    let last = VUCETIC_DOBRY.len() - 1;
-    let fits = (0.0..=VUCETIC_DOBRY[last].0).contains(&index);
-    require("plasticity index", index, fits, "from 0 to 200")?;
-    let above = VUCETIC_DOBRY.partition_point(|(drawn, ..)| *drawn <= index).clamp(1, last);
-    let ((low, ..), (high, ..)) = (VUCETIC_DOBRY[above - 1], VUCETIC_DOBRY[above]);
-    let share = (index - low) / (high - low);
-    let of = |(_, reduction, damping): &(f64, [f64; 9], [f64; 9])| rows(&NINE, reduction, damping);
-    let pairs = of(&VUCETIC_DOBRY[above - 1]).into_iter().zip(of(&VUCETIC_DOBRY[above]));
-    Ok(pairs
-        .map(|(a, b)| [a[0], a[1] + share * (b[1] - a[1]), a[2] + share * (b[2] - a[2])])
-        .collect())
+    let last = VUCETIC_DOBRY_CURVES.len() - 1;
+    let is_in_range = (0.0..=VUCETIC_DOBRY_CURVES[last].parameter).contains(&index);
+    require("plasticity index", index, is_in_range, "from 0 to 200")?;
+    let above =
+        VUCETIC_DOBRY_CURVES.partition_point(|curve| curve.parameter <= index).clamp(1, last);
+    let low = &VUCETIC_DOBRY_CURVES[above - 1];
+    let high = &VUCETIC_DOBRY_CURVES[above];
+    let fraction = (index - low.parameter) / (high.parameter - low.parameter);
+    let low_rows = rows(&NINE_STRAINS, &low.reduction, &low.damping);
+    let high_rows = rows(&NINE_STRAINS, &high.reduction, &high.damping);
+    let mut interpolated = Vec::with_capacity(low_rows.len());
+    for (low, high) in low_rows.iter().zip(high_rows) {
+        let reduction = low[1] + fraction * (high[1] - low[1]);
+        let damping = low[2] + fraction * (high[2] - low[2]);
+        interpolated.push([low[0], reduction, damping]);
+    }
+    Ok(interpolated)
 }
 
-/// Checks that the rows of a table form a curve, and returns them.
-fn checked(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
+/// The rows of a table; an error unless they form a curve.
+fn checked_rows(rows: &[[f64; 3]]) -> Result<&[[f64; 3]]> {
     let quantity = "number of rows of a table of strain curves";
     require(quantity, rows.len() as f64, !rows.is_empty(), "at least 1")?;
-    let (mut before, mut stiffness) = (0.0, 1.0);
+    let mut previous_strain = 0.0;
+    let mut previous_reduction = 1.0;
     for &[strain, reduction, damping] in rows {
         finite("strain of a table", strain)?;
         let needed = "above zero and above the one before";
-        before = require("strain of a table", strain, strain > before, needed)?;
-        let fits = reduction > 0.0 && reduction <= 1.0;
-        require("G/G_max of a table", reduction, fits, "above 0 and at most 1")?;
+        previous_strain = require("strain of a table", strain, strain > previous_strain, needed)?;
+        let is_ratio = reduction > 0.0 && reduction <= 1.0;
+        require("G/G_max of a table", reduction, is_ratio, "above 0 and at most 1")?;
         let needed = "at most the one before: soil softens as strain grows";
-        stiffness = require("G/G_max of a table", reduction, reduction <= stiffness, needed)?;
+        let softens = reduction <= previous_reduction;
+        previous_reduction = require("G/G_max of a table", reduction, softens, needed)?;
         damping_ratio("damping ratio of a table", damping)?;
     }
     Ok(rows)
 }
-
-/// Strains of the curves of Seed & Idriss and of Vucetic & Dobry.
-const NINE: [f64; 9] = [1e-6, 3.16e-6, 1e-5, 3.16e-5, 1e-4, 3.16e-4, 1e-3, 3.16e-3, 1e-2];
-/// Strains of EPRI's curves.
-const SEVENTEEN: [f64; 17] = [
-    1e-6, 1.778e-6, 3.162e-6, 5.623e-6, 1e-5, 1.778e-5, 3.162e-5, 5.623e-5, 1e-4, 1.778e-4,
-    3.162e-4, 5.623e-4, 1e-3, 1.778e-3, 3.162e-3, 5.623e-3, 1e-2,
-];
-
-/// Modulus and damping of the mean, modulus of the upper bound, damping of the lower bound.
-const SEED_IDRISS: [[f64; 9]; 4] = [
-    [1.0, 0.99, 0.96, 0.88, 0.74, 0.52, 0.29, 0.15, 0.06],
-    [0.0057, 0.0086, 0.017, 0.031, 0.055, 0.095, 0.155, 0.211, 0.246],
-    [1.0, 1.0, 0.99, 0.94, 0.84, 0.65, 0.36, 0.19, 0.08],
-    [0.005, 0.006, 0.008, 0.014, 0.028, 0.053, 0.1, 0.158, 0.215],
-];
-
-/// Plasticity index, G/G_max, damping ratio.
-const VUCETIC_DOBRY: [(f64, [f64; 9], [f64; 9]); 6] = [
-    (
-        0.0,
-        [1.0, 1.0, 0.96, 0.88, 0.7, 0.47, 0.26, 0.11, 0.03],
-        [0.01, 0.01, 0.01, 0.03, 0.054, 0.098, 0.15, 0.203, 0.24],
-    ),
-    (
-        15.0,
-        [1.0, 1.0, 0.99, 0.94, 0.81, 0.64, 0.41, 0.22, 0.1],
-        [0.01, 0.01, 0.01, 0.026, 0.045, 0.075, 0.116, 0.16, 0.2],
-    ),
-    (
-        30.0,
-        [1.0, 1.0, 1.0, 0.98, 0.9, 0.75, 0.53, 0.35, 0.17],
-        [0.01, 0.01, 0.01, 0.021, 0.038, 0.059, 0.088, 0.125, 0.169],
-    ),
-    (
-        50.0,
-        [1.0, 1.0, 1.0, 1.0, 0.95, 0.84, 0.67, 0.47, 0.25],
-        [0.01, 0.01, 0.01, 0.018, 0.029, 0.043, 0.062, 0.095, 0.135],
-    ),
-    (
-        100.0,
-        [1.0, 1.0, 1.0, 1.0, 0.98, 0.92, 0.81, 0.63, 0.37],
-        [0.01, 0.01, 0.01, 0.015, 0.02, 0.029, 0.041, 0.065, 0.098],
-    ),
-    (
-        200.0,
-        [1.0, 1.0, 1.0, 1.0, 1.0, 0.96, 0.89, 0.75, 0.53],
-        [0.01, 0.01, 0.01, 0.013, 0.016, 0.021, 0.03, 0.048, 0.081],
-    ),
-];
-
-/// Depth (m) down to which a curve holds, G/G_max, damping ratio.
-const EPRI: [(f64, [f64; 17], [f64; 17]); 6] = [
-    (
-        6.096,
-        [
-            1.0, 1.0, 1.0, 0.998, 0.986, 0.96, 0.92, 0.851, 0.759, 0.642, 0.515, 0.392, 0.278,
-            0.189, 0.121, 0.073, 0.043,
-        ],
-        [
-            0.01429, 0.01476, 0.01536, 0.01602, 0.01879, 0.02193, 0.02819, 0.03724, 0.05066,
-            0.0694, 0.09346, 0.12201, 0.15443, 0.18703, 0.21704, 0.24541, 0.27217,
-        ],
-    ),
-    (
-        15.24,
-        [
-            1.0, 1.0, 1.0, 0.999, 0.993, 0.979, 0.952, 0.903, 0.83, 0.733, 0.617, 0.488, 0.366,
-            0.258, 0.173, 0.108, 0.066,
-        ],
-        [
-            0.01142, 0.01196, 0.0125, 0.01304, 0.01469, 0.0167, 0.02074, 0.02658, 0.03622, 0.05066,
-            0.07069, 0.09569, 0.125, 0.15688, 0.19004, 0.22022, 0.24699,
-        ],
-    ),
-    (
-        36.576,
-        [
-            1.0, 1.0, 1.0, 0.999, 0.998, 0.988, 0.97, 0.934, 0.878, 0.797, 0.691, 0.567, 0.444,
-            0.328, 0.225, 0.145, 0.092,
-        ],
-        [
-            0.01, 0.00982, 0.00978, 0.01122, 0.01165, 0.01371, 0.0161, 0.02046, 0.0283, 0.03901,
-            0.05493, 0.07662, 0.10381, 0.13383, 0.16643, 0.19766, 0.2258,
-        ],
-    ),
-    (
-        76.2,
-        [
-            1.0, 1.0, 1.0, 0.999, 0.999, 0.994, 0.979, 0.954, 0.909, 0.84, 0.747, 0.631, 0.507,
-            0.384, 0.274, 0.182, 0.118,
-        ],
-        [
-            0.00857, 0.00839, 0.00821, 0.0088, 0.01006, 0.01125, 0.01341, 0.01629, 0.02198,
-            0.03131, 0.0446, 0.06281, 0.08686, 0.11573, 0.1477, 0.17879, 0.20906,
-        ],
-    ),
-    (
-        152.4,
-        [
-            1.0, 1.0, 1.0, 0.999, 0.999, 0.999, 0.986, 0.968, 0.934, 0.879, 0.799, 0.696, 0.575,
-            0.449, 0.332, 0.23, 0.148,
-        ],
-        [
-            0.00786, 0.00792, 0.00799, 0.00811, 0.00867, 0.0095, 0.01081, 0.01344, 0.01774,
-            0.02515, 0.0352, 0.05077, 0.07206, 0.09853, 0.12839, 0.15972, 0.19072,
-        ],
-    ),
-    (
-        304.8,
-        [
-            1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.995, 0.982, 0.96, 0.915, 0.85, 0.765, 0.66, 0.532,
-            0.41, 0.297, 0.2,
-        ],
-        [
-            0.00492, 0.00554, 0.00607, 0.00589, 0.00643, 0.00696, 0.00772, 0.00983, 0.01234,
-            0.01735, 0.02562, 0.03696, 0.05408, 0.07617, 0.10428, 0.13524, 0.16459,
-        ],
-    ),
-];

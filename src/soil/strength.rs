@@ -38,7 +38,7 @@ validated! {
 }
 
 impl SoilStrength {
-    /// Soil with a friction angle (rad), without cohesion, beside a smooth wall.
+    /// Soil with a friction angle (rad), without cohesion, beside a frictionless wall.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for an angle below zero, or of π/2 and more.
@@ -100,11 +100,9 @@ impl SoilStrength {
     /// K σ_v ∓ 2c √K (EN 1997-1:2004, eqs. C.1 and C.2, without adhesion). The active one is below zero where cohesion
     /// holds the soil without a wall.
     pub fn pressures(&self, vertical: f64) -> [f64; 2] {
-        let [active, passive] = self.pressure_ratios();
-        [
-            active * vertical - 2.0 * self.cohesion * active.sqrt(),
-            passive * vertical + 2.0 * self.cohesion * passive.sqrt(),
-        ]
+        let ratios = self.pressure_ratios();
+        let by_cohesion = ratios.map(|ratio| 2.0 * self.cohesion * ratio.sqrt());
+        [ratios[0] * vertical - by_cohesion[0], ratios[1] * vertical + by_cohesion[1]]
     }
 
     /// Friction coefficient between soil and wall, tan δ.

@@ -5,15 +5,13 @@ use std::io::{ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::columns::Columns;
-use super::file::{Ending, name, read};
-use super::gathered::{RowsByCase, gather};
+use super::file::{Ending, RowsByCase, StoredRow, add_rows, name, read};
 use super::run::Sweep;
-use super::table::{CaseTable, FIRST, Row, first_lines, heading_sum};
-use super::{Grid, Parameter, check_names};
+use super::table::{CaseTable, Columns, FILE_BEGINNING, TableRow, first_lines, heading_sum};
+use super::{CaseGrid, Parameter, check_names};
 use crate::error::{Error, Result, SweepError, require_part, same_length};
 use crate::text::check_sum::CheckSum;
-use crate::text::file::{make_folder_of, replaced, unwritten};
+use crate::text::file::{make_folder_of, replace_file, write_error};
 
 /// A file of a sweep's cases for a program that runs them itself: rows are appended, and a later process continues.
 ///
@@ -42,20 +40,28 @@ use crate::text::file::{make_folder_of, replaced, unwritten};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct CaseFile {
-    grid: Arc<Grid>,
+    grid: Arc<CaseGrid>,
     /// Numbers of the cases of the sweep, ascending.
     cases: Vec<usize>,
     path: PathBuf,
-    /// File of the rows while cases are missing.
-    part: PathBuf,
+    /// File of the rows while cases are missing, with `.part` at the end of its name.
+    part_path: PathBuf,
     columns: Columns,
     rows: RowsByCase,
-    /// `part`, unless all rows were there.
+    /// The file at `part_path`, unless all rows were there.
     file: Option<File>,
-    /// Check sum of the rows in `part`.
+    /// Check sum of the rows in that file.
     sum: CheckSum,
-    /// Reason why a row was not written; later rows are then not written either.
+    /// Why a row was not written; later rows are then not written either.
     fault: Option<ErrorKind>,
+}
+
+/// A file of rows that exists already.
+struct StartedFile {
+    columns: Columns,
+    sum: CheckSum,
+    /// Number of bytes up to the end of its last whole row.
+    end: u64,
 }
 
 short_debug! { CaseFile; self; path: self.path, cases: self.cases.len(), rows: self.rows.len() }
@@ -79,68 +85,72 @@ impl CaseFile {
         columns: Columns,
         are_fixed: bool,
     ) -> Result<Self> {
-        let mut part = path.as_os_str().to_owned();
-        part.push(".part");
-        let mut own = Self {
+        let mut part_path = path.as_os_str().to_owned();
+        part_path.push(".part");
+        let mut case_file = Self {
             grid: sweep.grid.clone(),
             cases: sweep.cases().collect(),
             path: path.to_owned(),
-            part: part.into(),
+            part_path: part_path.into(),
             columns,
             rows: RowsByCase::new(),
             file: None,
             sum: CheckSum::default(),
             fault: None,
         };
-        let heading = own.columns.clone();
+        let heading = case_file.columns.clone();
         if path.exists() {
-            own.gather(path, Ending::Whole, are_fixed)?;
+            case_file.read_rows(path, Ending::Whole, are_fixed)?;
         }
-        let mut begun = None;
-        if own.part.exists() {
-            let part = own.part.clone();
-            begun = Some(own.gather(&part, Ending::Anywhere { heading: &heading }, are_fixed)?);
+        let mut started = None;
+        if case_file.part_path.exists() {
+            let path = case_file.part_path.clone();
+            let ending = Ending::Anywhere { heading: &heading };
+            started = Some(case_file.read_rows(&path, ending, are_fixed)?);
         }
         make_folder_of(path)?;
-        if !own.missing().is_empty() {
-            own.begin(begun).map_err(unwritten(&own.part))?;
+        if !case_file.missing().is_empty() {
+            case_file.open_part(started).map_err(write_error(&case_file.part_path))?;
         }
-        Ok(own)
+        Ok(case_file)
     }
 
-    /// Takes the rows of a file; returns its columns, its check sum and the end of its last whole row.
-    fn gather(
+    /// Adds the rows of a file.
+    fn read_rows(
         &mut self,
         path: &Path,
         ending: Ending<'_>,
         are_fixed: bool,
-    ) -> Result<(Columns, CheckSum, u64)> {
+    ) -> Result<StartedFile> {
         let wanted = |case| self.cases.binary_search(&case).is_ok();
         let columns = are_fixed.then_some(&self.columns);
         let content = read(path, &self.grid, &wanted, columns, ending)?;
         self.extend(&content.columns)?;
         let names = &content.columns.names;
-        let rows = content.rows.into_iter().map(|row| Row {
+        let rows = content.rows.into_iter().map(|row| TableRow {
             outcome: row.outcome.map(|results| self.columns.arranged(names, results)),
             ..row
         });
-        gather(&mut self.rows, rows, path, ending)?;
-        Ok((content.columns, content.sum, content.end))
+        add_rows(&mut self.rows, rows, path, ending)?;
+        Ok(StartedFile { columns: content.columns, sum: content.sum, end: content.end })
     }
 
     /// Adds columns; returns whether there are new ones.
     fn extend(&mut self, others: &Columns) -> Result<bool> {
         let mut columns = self.columns.clone();
-        let is_new = |name: &&String| !self.columns.names.contains(name);
-        columns.names.extend(others.names.iter().filter(is_new).cloned());
+        for name in &others.names {
+            if !self.columns.names.contains(name) {
+                columns.names.push(name.clone());
+            }
+        }
         columns.with_warnings |= others.with_warnings;
         let parameters = self.grid.parameters.iter().map(Parameter::name);
         check_names(parameters.chain(columns.names.iter().map(String::as_str)))?;
         if columns == self.columns {
             return Ok(false);
         }
-        for (row, _) in self.rows.values_mut() {
-            if let Ok(results) = &mut row.outcome {
+        for stored in self.rows.values_mut() {
+            if let Ok(results) = &mut stored.row.outcome {
                 results.resize(columns.names.len(), f64::NAN);
             }
         }
@@ -148,32 +158,37 @@ impl CaseFile {
         Ok(true)
     }
 
-    /// Opens the file of rows; `begun`: its columns, its check sum and the end of its rows, if it is there.
-    fn begin(&mut self, begun: Option<(Columns, CheckSum, u64)>) -> std::io::Result<()> {
-        let Some((columns, sum, end)) = begun.filter(|(.., end)| *end > 0) else {
-            return self.begin_anew();
+    /// Opens the file of rows, or begins it.
+    ///
+    /// `started`: the file as it was read, if it exists.
+    fn open_part(&mut self, started: Option<StartedFile>) -> std::io::Result<()> {
+        let Some(started) = started.filter(|started| started.end > 0) else {
+            return self.rewrite_part();
         };
-        if columns != self.columns {
-            return self.begin_anew();
+        if started.columns != self.columns {
+            return self.rewrite_part();
         }
-        let file = OpenOptions::new().write(true).open(&self.part)?;
+        let file = OpenOptions::new().write(true).open(&self.part_path)?;
         // The row within which a process was killed is deleted.
-        file.set_len(end)?;
-        (self.file, self.sum) = (Some(file), sum);
+        file.set_len(started.end)?;
+        self.file = Some(file);
+        self.sum = started.sum;
         Ok(())
     }
 
     /// Writes the file of rows at once, as when columns are added.
-    fn begin_anew(&mut self) -> std::io::Result<()> {
+    fn rewrite_part(&mut self) -> std::io::Result<()> {
         self.sum = heading_sum(&self.grid, &self.columns);
-        let rows = || self.rows.values().map(|(row, _)| row);
-        rows().for_each(|row| row.add_to(&self.grid, &self.columns, &mut self.sum));
-        let mut text = first_lines(&self.grid, &self.columns, self.sum);
-        text.extend(rows().map(|row| row.csv(&self.grid, &self.columns)));
-        // An open file could not be replaced everywhere.
+        let mut lines = Vec::new();
+        for stored in self.rows.values() {
+            stored.row.add_to(&self.grid, &self.columns, &mut self.sum);
+            lines.push(stored.row.csv(&self.grid, &self.columns));
+        }
+        let text = first_lines(&self.grid, &self.columns, self.sum) + &lines.concat();
+        // Some systems cannot replace an open file.
         self.file = None;
-        replaced(&self.part, text.as_bytes())?;
-        self.file = Some(OpenOptions::new().write(true).open(&self.part)?);
+        replace_file(&self.part_path, text.as_bytes())?;
+        self.file = Some(OpenOptions::new().write(true).open(&self.part_path)?);
         Ok(())
     }
 
@@ -187,7 +202,7 @@ impl CaseFile {
     /// A process that is killed later has stored the row.
     ///
     /// # Errors
-    /// [`SweepError::Unwritten`] with all rows so far if the row cannot be written; later rows are then refused in the same
+    /// [`SweepError::Unwritten`] with all rows so far if the row cannot be written; later rows then fail in the same
     /// way, so that only the last line of the file can be incomplete. [`Error::Scene`] for a case that has a row or does
     /// not belong to the sweep, [`Error::Size`] if the numbers of names and results differ, and [`Error::DuplicateName`]
     /// for a result with the name of another column.
@@ -206,27 +221,30 @@ impl CaseFile {
         }
         let columns = Columns { names, with_warnings: !warnings.is_empty() };
         if self.extend(&columns)? && self.fault.is_none() {
-            self.fault = self.begin_anew().err().map(|fault| fault.kind());
+            self.fault = self.rewrite_part().err().map(|fault| fault.kind());
         }
         let outcome = outcome.map(|results| self.columns.arranged(&columns.names, results));
-        let row = Row { warnings: warnings.to_owned(), ..Row::new(case, outcome) };
+        let row = TableRow { warnings: warnings.to_owned(), ..TableRow::new(case, outcome) };
         self.append_row(row)
     }
 
     /// [`CaseFile::append`] for a row with these columns.
-    pub(super) fn append_row(&mut self, row: Row) -> Result<()> {
+    pub(super) fn append_row(&mut self, row: TableRow) -> Result<()> {
         let text = row.csv(&self.grid, &self.columns);
         row.add_to(&self.grid, &self.columns, &mut self.sum);
-        self.rows.insert(row.case, (row, self.part.clone()));
-        if let (Some(file), None) = (&mut self.file, self.fault) {
-            self.fault = append(file, &text, self.sum).err().map(|fault| fault.kind());
+        let path = self.part_path.clone();
+        self.rows.insert(row.case, StoredRow { row, path });
+        if self.fault.is_none()
+            && let Some(file) = &mut self.file
+        {
+            self.fault = append_text(file, &text, self.sum).err().map(|fault| fault.kind());
         }
-        self.fault.map_or(Ok(()), |reason| Err(self.unwritten(&self.part, reason)))
+        self.fault.map_or(Ok(()), |reason| Err(self.unwritten_error(&self.part_path, reason)))
     }
 
     /// The rows so far.
     pub fn table(&self) -> CaseTable {
-        let rows = self.rows.values().map(|(row, _)| row.clone()).collect();
+        let rows = self.rows.values().map(|stored| stored.row.clone()).collect();
         CaseTable { grid: self.grid.clone(), columns: self.columns.clone(), rows }
     }
 
@@ -243,26 +261,34 @@ impl CaseFile {
         }
         let table = self.table();
         let is_open = self.file.take().is_some();
-        if is_open || self.part.exists() || !self.path.exists() {
-            replaced(&self.path, table.csv().as_ref())
-                .map_err(|fault| self.unwritten(&self.path, fault.kind()))?;
+        if is_open || self.part_path.exists() || !self.path.exists() {
+            replace_file(&self.path, table.csv().as_ref())
+                .map_err(|fault| self.unwritten_error(&self.path, fault.kind()))?;
             // If the file cannot be removed, it contains the same rows as the whole file.
-            let _ = remove_file(&self.part);
+            let _ = remove_file(&self.part_path);
         }
         Ok(table)
     }
 
     /// The error for a file that cannot be written, with the rows so far.
-    fn unwritten(&self, file: &Path, reason: ErrorKind) -> Error {
-        let (file, computed, left) = (name(file), self.rows.len(), self.missing().len());
-        SweepError::Unwritten { file, reason, computed, left, rows: self.table().csv().0 }.into()
+    fn unwritten_error(&self, file: &Path, reason: ErrorKind) -> Error {
+        let error = SweepError::Unwritten {
+            file: name(file),
+            reason,
+            computed: self.rows.len(),
+            left: self.missing().len(),
+            rows: self.table().csv().0,
+        };
+        error.into()
     }
 }
 
-/// Adds a row to a file, and then to its check sum: a process that is killed in between has not stored the row.
-fn append(file: &mut File, row: &str, sum: CheckSum) -> std::io::Result<()> {
+/// Appends a row to a file, and then changes its check sum.
+///
+/// A process that is killed in between has not stored the row.
+fn append_text(file: &mut File, row: &str, sum: CheckSum) -> std::io::Result<()> {
     file.seek(SeekFrom::End(0))?;
     file.write_all(row.as_bytes())?;
-    file.seek(SeekFrom::Start(FIRST.len() as u64))?;
+    file.seek(SeekFrom::Start(FILE_BEGINNING.len() as u64))?;
     file.write_all(sum.text().as_bytes())
 }

@@ -1,27 +1,31 @@
 //! Files of cases: a line with format and check sum, a heading, and a row for each case.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+use std::path::{Path, PathBuf};
 
 use csv::{ReaderBuilder, StringRecord};
 
-use super::columns::Columns;
-use super::table::{FIRST, Row, first_lines, heading, heading_sum, parameter_cells};
-use super::{ERROR, Grid, WARNINGS};
+use super::table::{
+    Columns, FILE_BEGINNING, TableRow, first_lines, heading, heading_sum, parameter_cells,
+};
+use super::{CaseGrid, ERROR_COLUMN, WARNINGS_COLUMN};
 use crate::error::{FileFault, Result};
+use crate::text::bounded_line::LineResult;
 use crate::text::check_sum::CheckSum;
 use crate::text::decimal::{excerpt, quoted};
 
 /// Columns and rows of a file, in the file's order.
-pub(super) struct Content {
+pub(super) struct FileContent {
     pub(super) columns: Columns,
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<TableRow>,
     /// Check sum of these rows.
     pub(super) sum: CheckSum,
     /// Number of bytes up to the end of the last of these rows.
     pub(super) end: u64,
 }
 
-/// Permitted endings of a file.
+/// Where a file may end.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Ending<'a> {
     /// The file ends with the last row of its check sum, as a file that was written to its end.
@@ -31,102 +35,133 @@ pub(super) enum Ending<'a> {
     Anywhere { heading: &'a Columns },
 }
 
-/// Fault of a line, numbered from 1.
-type Fault = (usize, FileFault);
-
 /// The path as text.
 pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// Reads a file with rows of `grid`, for the cases that are `wanted`.
+/// Reads a file with rows of `grid`; an error for cases that are not `wanted`.
 ///
 /// `columns`: the columns of results, if they are known. A file whose cases all failed may have no names of results.
 pub(super) fn read(
     path: &Path,
-    grid: &Grid,
+    grid: &CaseGrid,
     wanted: &dyn Fn(usize) -> bool,
     columns: Option<&Columns>,
     ending: Ending<'_>,
-) -> Result<Content> {
+) -> Result<FileContent> {
     let bytes = std::fs::read(path)
         .map_err(|error| FileFault::Unreadable(error.kind()).of(name(path), 0))?;
-    let fault = |(line, fault): Fault| fault.of(name(path), line);
     if let Ending::Anywhere { heading } = ending {
         let sum = heading_sum(grid, heading);
         if first_lines(grid, heading, sum).as_bytes().starts_with(&bytes) {
-            // Not even the heading was written.
-            return Ok(Content { columns: heading.clone(), rows: vec![], sum, end: 0 });
+            // The process was killed before the whole heading was written.
+            return Ok(FileContent { columns: heading.clone(), rows: vec![], sum, end: 0 });
         }
     }
+    read_lines(&bytes, grid, wanted, columns, ending)
+        .map_err(|(line, fault)| fault.of(name(path), line))
+}
+
+/// A part of a file that agrees with its check sum.
+struct IntactPart {
+    sum: CheckSum,
+    /// Number of rows.
+    rows: usize,
+    /// Number of bytes up to its end.
+    end: u64,
+}
+
+/// Reads the content of a file whose heading is complete.
+fn read_lines(
+    bytes: &[u8],
+    grid: &CaseGrid,
+    wanted: &dyn Fn(usize) -> bool,
+    columns: Option<&Columns>,
+    ending: Ending<'_>,
+) -> LineResult<FileContent> {
     // A byte-order mark is skipped.
-    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(&bytes);
-    let first = text.split_inclusive(|&byte| byte == b'\n').next().unwrap_or_default();
-    let stored = stored_sum(first, ending).map_err(fault)?;
-    let start = bytes.len() - text.len() + first.len();
+    let text = bytes.strip_prefix("\u{feff}".as_bytes()).unwrap_or(bytes);
+    let first_line = text.split_inclusive(|&byte| byte == b'\n').next().unwrap_or_default();
+    let stored_sum = stored_sum(first_line, ending)?;
+    let start = bytes.len() - text.len() + first_line.len();
     let mut reader =
         ReaderBuilder::new().has_headers(false).flexible(true).from_reader(&bytes[start..]);
-    let mut found_columns: Option<Columns> = None;
-    let (mut found, mut sum) = (Vec::new(), CheckSum::default());
-    // Sum, number of rows and end of the longest part of the file that agrees with the check sum.
-    let mut intact = None;
+    let mut file_columns: Option<Columns> = None;
+    let mut rows = Vec::new();
+    let mut sum = CheckSum::default();
+    let mut longest_intact: Option<IntactPart> = None;
     let mut record = StringRecord::new();
     loop {
         let line = usize::try_from(reader.position().line()).map_or(usize::MAX, |line| line + 1);
         let read = match reader.read_record(&mut record) {
             Ok(false) => break,
-            Ok(true) => match &found_columns {
-                Some(names) => row(&record, grid, wanted, names).map(|row| found.push(row)),
-                None => headed(&record, grid, columns).map(|own| found_columns = Some(own)),
+            Ok(true) => match &file_columns {
+                Some(columns) => table_row(&record, grid, wanted, columns).map(|row| {
+                    row.add_to(grid, columns, &mut sum);
+                    rows.push(row);
+                }),
+                None => columns_of_heading(&record, grid, columns).map(|columns| {
+                    sum = heading_sum(grid, &columns);
+                    file_columns = Some(columns);
+                }),
             },
             Err(_) => Err(FileFault::format("other bytes", "UTF-8")),
         };
-        match (read, found.last(), &found_columns) {
-            (Ok(()), None, Some(names)) => sum = heading_sum(grid, names),
-            (Ok(()), Some(row), Some(names)) => row.add_to(grid, names, &mut sum),
-            (Err(_), ..) if ending != Ending::Whole && intact.is_some() => break,
-            (Err(reason), ..) => return Err(fault((line, reason))),
-            (Ok(()), _, None) => {}
+        if let Err(fault) = read {
+            let was_cut = ending != Ending::Whole && longest_intact.is_some();
+            if was_cut {
+                break;
+            }
+            return Err((line, fault));
         }
-        if stored.is_none_or(|stored| stored == sum.value()) {
-            intact = Some((sum, found.len(), start as u64 + reader.position().byte()));
+        if stored_sum.is_none_or(|stored| stored == sum.value()) {
+            let end = start as u64 + reader.position().byte();
+            longest_intact = Some(IntactPart { sum, rows: rows.len(), end });
         }
     }
-    let Some((sum, count, end)) = intact else {
-        return Err(fault((0, FileFault::Damaged { quantity: "the table".into() })));
-    };
-    if ending == Ending::Whole && count < found.len() {
-        return Err(fault((0, FileFault::Damaged { quantity: "the table".into() })));
+    match longest_intact {
+        Some(intact) if ending != Ending::Whole || intact.rows == rows.len() => {
+            rows.truncate(intact.rows);
+            let columns = file_columns.unwrap_or_default();
+            Ok(FileContent { columns, rows, sum: intact.sum, end: intact.end })
+        }
+        _ => Err((0, FileFault::Damaged { quantity: "the table".into() })),
     }
-    found.truncate(count);
-    Ok(Content { columns: found_columns.unwrap_or_default(), rows: found, sum, end })
 }
 
 /// The check sum in the first line of a file; `None` if it was deleted from a whole file, to change rows by hand.
-fn stored_sum(line: &[u8], ending: Ending<'_>) -> std::result::Result<Option<u64>, Fault> {
+fn stored_sum(line: &[u8], ending: Ending<'_>) -> LineResult<Option<u64>> {
     let line = String::from_utf8_lossy(line);
     // A program for tables adds empty cells.
     let line = line.trim_end_matches(['\n', '\r', ',']);
-    let Some(sum) = line.strip_prefix(FIRST.trim_end()) else {
-        return Err((1, FileFault::format(excerpt(line), format!("'{FIRST}…'"))));
+    let Some(sum) = line.strip_prefix(FILE_BEGINNING.trim_end()) else {
+        return Err((1, FileFault::format(excerpt(line), format!("'{FILE_BEGINNING}…'"))));
     };
-    let sum = Some(sum.trim()).filter(|sum| !sum.is_empty() || ending != Ending::Whole);
-    let wrong = |sum| FileFault::value("check sum", quoted(sum), "a hexadecimal number");
-    let value = |sum| u64::from_str_radix(sum, 16).map_err(|_| (1, wrong(sum)));
-    sum.map(value).transpose()
+    let sum = sum.trim();
+    if sum.is_empty() && ending == Ending::Whole {
+        return Ok(None);
+    }
+    match u64::from_str_radix(sum, 16) {
+        Ok(value) => Ok(Some(value)),
+        Err(_) => {
+            let fault = FileFault::value("check sum", quoted(sum), "a hexadecimal number");
+            Err((1, fault))
+        }
+    }
 }
 
 /// The columns that a heading names.
-fn headed(
+fn columns_of_heading(
     record: &StringRecord,
-    grid: &Grid,
+    grid: &CaseGrid,
     columns: Option<&Columns>,
 ) -> std::result::Result<Columns, FileFault> {
     let cells: Vec<_> = record.iter().map(str::to_owned).collect();
     // The names between the parameters and the last column belong to the file.
     let names = cells.get(1 + grid.parameters.len()..).unwrap_or_default();
-    let names = names.strip_suffix(&[ERROR.to_owned()]).unwrap_or(names);
-    let results = names.strip_suffix(&[WARNINGS.to_owned()]);
+    let names = names.strip_suffix(&[ERROR_COLUMN.to_owned()]).unwrap_or(names);
+    let results = names.strip_suffix(&[WARNINGS_COLUMN.to_owned()]);
     let with_warnings = results.is_some();
     let mut names = results.unwrap_or(names);
     if let Some(columns) = columns
@@ -134,72 +169,77 @@ fn headed(
     {
         names = &columns.names;
     }
-    let own = Columns { names: names.to_vec(), with_warnings };
-    let wanted = heading(grid, &own);
-    for (column, needed) in wanted.iter().enumerate() {
+    let file_columns = Columns { names: names.to_vec(), with_warnings };
+    let expected = heading(grid, &file_columns);
+    for (column, needed) in expected.iter().enumerate() {
         let found = cells.get(column).map_or("", String::as_str);
         if found != needed {
             let quantity = format!("heading of column {}", column + 1);
             return Err(FileFault::value(quantity, quoted(found), format!("'{needed}'")));
         }
     }
-    if cells.len() != wanted.len() {
-        return Err(FileFault::count("cells", cells.len(), wanted.len().to_string()));
+    if cells.len() != expected.len() {
+        return Err(FileFault::count("cells", cells.len(), expected.len().to_string()));
     }
-    Ok(own)
+    Ok(file_columns)
 }
 
-/// The case of a row with its results or error; checks the parameters against the sweep.
-fn row(
+/// Reads a row; an error unless its case is wanted and has the parameters of the sweep.
+fn table_row(
     record: &StringRecord,
-    grid: &Grid,
+    grid: &CaseGrid,
     wanted: &dyn Fn(usize) -> bool,
     columns: &Columns,
-) -> std::result::Result<Row, FileFault> {
+) -> std::result::Result<TableRow, FileFault> {
     let cells: Vec<_> = record.iter().collect();
     let needed = heading(grid, columns).len();
-    let [text, cells @ .., reason] = &cells[..] else {
+    let [case_text, cells @ .., reason] = &cells[..] else {
         return Err(FileFault::count("cells", cells.len(), needed.to_string()));
     };
     if cells.len() + 2 != needed {
         return Err(FileFault::count("cells", cells.len() + 2, needed.to_string()));
     }
-    let (parameters, results) = cells.split_at(grid.parameters.len());
-    let (results, warnings) = results.split_at(columns.names.len());
-    let warnings = warnings.concat();
-    let digits = !text.is_empty() && text.bytes().all(|sign| sign.is_ascii_digit());
-    let case = digits.then(|| text.parse().ok()).flatten().filter(|&case| wanted(case));
-    let case =
-        case.ok_or_else(|| FileFault::value("case", quoted(text), "one of this sweep, in digits"))?;
+    let results_begin = grid.parameters.len();
+    let results_end = results_begin + columns.names.len();
+    let parameters = &cells[..results_begin];
+    let results = &cells[results_begin..results_end];
+    let warnings = cells[results_end..].concat();
+    let is_in_digits = case_text.bytes().all(|byte| byte.is_ascii_digit());
+    let case = case_text.parse().ok().filter(|&case| is_in_digits && wanted(case));
+    let case = case.ok_or_else(|| {
+        FileFault::value("case", quoted(case_text), "one of this sweep, in digits")
+    })?;
     for (index, (cell, needed)) in parameters.iter().zip(parameter_cells(grid, case)).enumerate() {
         let parameter = &grid.parameters[index];
         // Another program may have printed the numbers, but they must be the same to the last bit.
-        let same = match parameter.number(grid.place_of(case, index)) {
-            Some(number) => parsed(cell).is_some_and(|found| found.to_bits() == number.to_bits()),
+        let is_same = match parameter.number(grid.place_of(case, index)) {
+            Some(number) => {
+                cell_number(cell).is_some_and(|found| found.to_bits() == number.to_bits())
+            }
             None => *cell == needed,
         };
-        if !same {
+        if !is_same {
             let quantity = format!("{} of case {case}", parameter.name());
             return Err(FileFault::value(quantity, quoted(cell), format!("'{needed}'")));
         }
     }
     if reason.is_empty() {
-        let number = |(cell, column): (&&str, &String)| {
-            parsed(cell).ok_or_else(|| FileFault::value(column, quoted(cell), "a number"))
-        };
-        let numbers = results.iter().zip(&columns.names).map(number);
-        let numbers = numbers.collect::<std::result::Result<_, _>>()?;
-        return Ok(Row { warnings, ..Row::new(case, Ok(numbers)) });
+        let mut numbers = Vec::with_capacity(results.len());
+        for (cell, column) in results.iter().zip(&columns.names) {
+            let number = cell_number(cell);
+            numbers.push(number.ok_or_else(|| FileFault::value(column, quoted(cell), "a number"))?);
+        }
+        return Ok(TableRow { warnings, ..TableRow::new(case, Ok(numbers)) });
     }
     if results.iter().any(|cell| !cell.is_empty()) {
         let found = "a row with an error and results";
         return Err(FileFault::value(format!("case {case}"), found, "a row with either"));
     }
-    Ok(Row { warnings, ..Row::new(case, Err((*reason).to_owned())) })
+    Ok(TableRow { warnings, ..TableRow::new(case, Err((*reason).to_owned())) })
 }
 
-/// The number in a cell, as [`Cell`](crate::text::column::Cell) writes it or in any other decimal form.
-fn parsed(cell: &str) -> Option<f64> {
+/// The number in a cell, as [`NumberCell`](crate::text::column::NumberCell) writes it or in any other decimal form.
+fn cell_number(cell: &str) -> Option<f64> {
     match cell {
         "" => Some(f64::NAN),
         "inf" => Some(f64::INFINITY),
@@ -208,10 +248,46 @@ fn parsed(cell: &str) -> Option<f64> {
     }
 }
 
+/// A row, and the file that contains it.
+pub(super) struct StoredRow {
+    pub(super) row: TableRow,
+    pub(super) path: PathBuf,
+}
+
+/// Rows by their cases.
+pub(super) type RowsByCase = BTreeMap<usize, StoredRow>;
+
+/// Adds the rows of a file; an error for a case that has a row already.
+///
+/// Of a file that ends anywhere, a row that is already there may occur again: the file was not removed.
+pub(super) fn add_rows(
+    rows_by_case: &mut RowsByCase,
+    rows: impl IntoIterator<Item = TableRow>,
+    path: &Path,
+    ending: Ending<'_>,
+) -> Result<()> {
+    for row in rows {
+        match rows_by_case.entry(row.case) {
+            Entry::Vacant(entry) => {
+                entry.insert(StoredRow { row, path: path.to_owned() });
+            }
+            Entry::Occupied(entry) => {
+                let stored = entry.get();
+                if ending == Ending::Whole || stored.row != row {
+                    let found = format!("here and in {}", name(&stored.path));
+                    let case = format!("case {}", row.case);
+                    return Err(FileFault::value(case, found, "in one place").of(name(path), 0));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::text::column::Cell;
+    use crate::text::column::NumberCell;
 
     #[test]
     fn numbers_read_back() {
@@ -226,12 +302,12 @@ mod tests {
             (f64::NEG_INFINITY, "-inf"),
             (f64::NAN, ""),
         ] {
-            assert_eq!(Cell(value).to_string(), text);
-            assert_eq!(parsed(text).map(f64::to_bits), Some(value.to_bits()));
+            assert_eq!(NumberCell(value).to_string(), text);
+            assert_eq!(cell_number(text).map(f64::to_bits), Some(value.to_bits()));
         }
-        assert_eq!(parsed("0.20"), Some(0.2));
+        assert_eq!(cell_number("0.20"), Some(0.2));
         for text in ["nan", " ", "1 ", "0,2", "1e999", "infinity"] {
-            assert_eq!(parsed(text), None, "{text}");
+            assert_eq!(cell_number(text), None, "{text}");
         }
     }
 }

@@ -36,16 +36,13 @@
 
 #[cfg(feature = "io")]
 mod case_file;
-mod columns;
 #[cfg(feature = "io")]
 mod file;
-#[cfg(feature = "io")]
-mod gathered;
 mod run;
+mod run_table;
 #[cfg(feature = "io")]
 mod stored;
 mod table;
-mod tables;
 
 pub use crate::error::{CaseError, SweepError};
 #[cfg(feature = "io")]
@@ -58,20 +55,18 @@ use std::hash::Hash;
 
 use crate::error::{Error, Result, all_finite, at_least, memory, require_part};
 
-// Parameters and the grid of cases that they span.
-
 /// Bytes of a case in tables and while files are merged: its number, and its outcome without results.
 const BYTES_PER_CASE: f64 = 40.0;
 
-/// Cases numbered by their place in the grid, the last parameter fastest.
+/// All combinations of the parameters' values, numbered with the last parameter fastest.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Grid {
+pub(super) struct CaseGrid {
     pub(super) parameters: Vec<Parameter>,
     pub(super) count: usize,
 }
 
-impl Grid {
-    /// All combinations of the parameters' values.
+impl CaseGrid {
+    /// An error for a parameter that is not valid, or more cases than a table holds.
     pub(super) fn new(parameters: Vec<Parameter>) -> Result<Self> {
         check_names(parameters.iter().map(Parameter::name))?;
         let mut count = 1_usize;
@@ -91,8 +86,9 @@ impl Grid {
 
     /// Place of case `case` among the values of parameter `index`.
     pub(super) fn place_of(&self, case: usize, index: usize) -> usize {
-        let faster = self.parameters[index + 1..].iter().map(Parameter::len).product::<usize>();
-        case / faster % self.parameters[index].len()
+        let cases_per_value =
+            self.parameters[index + 1..].iter().map(Parameter::len).product::<usize>();
+        case / cases_per_value % self.parameters[index].len()
     }
 
     /// The parameter called `name`, and the place of case `case` among its values.
@@ -125,17 +121,17 @@ impl Grid {
 }
 
 /// Column of a table after the results, in files of programs whose runs warn.
-pub(super) const WARNINGS: &str = "warnings";
+pub(super) const WARNINGS_COLUMN: &str = "warnings";
 
 /// Last column of a table.
-pub(super) const ERROR: &str = "error";
+pub(super) const ERROR_COLUMN: &str = "error";
 
 /// Error for a column without a name, or with a name that occurs twice or is reserved.
 pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()> {
-    let mut before = HashSet::from(["case", WARNINGS, ERROR]);
+    let mut names_before = HashSet::from(["case", WARNINGS_COLUMN, ERROR_COLUMN]);
     for name in names {
         require_part("column", !name.is_empty(), "it must have a name")?;
-        if !before.insert(name) {
+        if !names_before.insert(name) {
             return Err(Error::DuplicateName { quantity: "column", name: name.to_owned() });
         }
     }
@@ -149,11 +145,11 @@ pub(super) fn check_names<'a>(names: impl Iterator<Item = &'a str>) -> Result<()
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,
-    values: Values,
+    values: ParameterValues,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum Values {
+enum ParameterValues {
     Numbers(Vec<f64>),
     Texts(Vec<String>),
 }
@@ -161,7 +157,7 @@ enum Values {
 impl Parameter {
     /// A parameter with numbers; its name should contain the unit: `width_m`.
     pub fn numbers(name: impl Into<String>, values: impl IntoIterator<Item = f64>) -> Self {
-        Self { name: name.into(), values: Values::Numbers(values.into_iter().collect()) }
+        Self { name: name.into(), values: ParameterValues::Numbers(values.into_iter().collect()) }
     }
 
     /// A parameter with texts, for example names of records.
@@ -170,7 +166,7 @@ impl Parameter {
         values: impl IntoIterator<Item = impl Into<String>>,
     ) -> Self {
         let values = values.into_iter().map(Into::into).collect();
-        Self { name: name.into(), values: Values::Texts(values) }
+        Self { name: name.into(), values: ParameterValues::Texts(values) }
     }
 
     /// Name of the parameter and of its column.
@@ -181,53 +177,62 @@ impl Parameter {
     /// Number of values.
     pub(crate) fn len(&self) -> usize {
         match &self.values {
-            Values::Numbers(numbers) => numbers.len(),
-            Values::Texts(texts) => texts.len(),
+            ParameterValues::Numbers(numbers) => numbers.len(),
+            ParameterValues::Texts(texts) => texts.len(),
         }
     }
 
     /// Number at `place`; `None` for a parameter with texts or beyond the last value.
     pub(super) fn number(&self, place: usize) -> Option<f64> {
         match &self.values {
-            Values::Numbers(numbers) => numbers.get(place).copied(),
-            Values::Texts(_) => None,
+            ParameterValues::Numbers(numbers) => numbers.get(place).copied(),
+            ParameterValues::Texts(_) => None,
         }
     }
 
     /// Text at `place`; `None` for a parameter with numbers or beyond the last value.
     pub(super) fn text(&self, place: usize) -> Option<&str> {
         match &self.values {
-            Values::Numbers(_) => None,
-            Values::Texts(texts) => texts.get(place).map(String::as_str),
+            ParameterValues::Numbers(_) => None,
+            ParameterValues::Texts(texts) => texts.get(place).map(String::as_str),
         }
     }
 
     /// Error for no values, a value twice, a number that is not finite, or an empty text.
     pub(super) fn check(&self) -> Result<()> {
-        let named = |error: Error| error.within(format!("parameter '{}'", self.name));
-        at_least("list of values", self.len(), 1).map_err(named)?;
-        let repeated = match &self.values {
-            Values::Numbers(numbers) => {
-                all_finite("list of values", numbers).map_err(named)?;
-                // Positive and negative zero are the same value.
-                let bits = |value: &f64| (value + 0.0).to_bits();
-                first_repeated(numbers, bits).map(f64::to_string)
-            }
-            Values::Texts(texts) => {
-                let filled = !texts.iter().any(String::is_empty);
-                require_part("value", filled, "it must not be an empty text").map_err(named)?;
-                first_repeated(texts, String::as_str).cloned()
-            }
-        };
+        let repeated = self.repeated_value();
+        let repeated =
+            repeated.map_err(|error| error.within(format!("parameter '{}'", self.name)))?;
         match repeated {
-            Some(name) => Err(named(Error::DuplicateName { quantity: "value", name })),
             None => Ok(()),
+            Some(name) => {
+                let error = Error::DuplicateName { quantity: "value", name };
+                Err(error.within(format!("parameter '{}'", self.name)))
+            }
+        }
+    }
+
+    /// A value that occurs twice; an error for no values or a value that is not valid.
+    fn repeated_value(&self) -> Result<Option<String>> {
+        at_least("list of values", self.len(), 1)?;
+        match &self.values {
+            ParameterValues::Numbers(numbers) => {
+                all_finite("list of values", numbers)?;
+                // Positive and negative zero are the same value.
+                let repeated = first_repeated(numbers, |value| (value + 0.0).to_bits());
+                Ok(repeated.map(f64::to_string))
+            }
+            ParameterValues::Texts(texts) => {
+                let has_no_empty_text = !texts.iter().any(String::is_empty);
+                require_part("value", has_no_empty_text, "it must not be an empty text")?;
+                Ok(first_repeated(texts, String::as_str).cloned())
+            }
         }
     }
 }
 
 /// The first value whose key has occurred before.
 fn first_repeated<'a, T, K: Hash + Eq>(values: &'a [T], key: impl Fn(&'a T) -> K) -> Option<&'a T> {
-    let mut before = HashSet::new();
-    values.iter().find(|value| !before.insert(key(value)))
+    let mut keys_before = HashSet::new();
+    values.iter().find(|value| !keys_before.insert(key(value)))
 }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Grid, Parameter};
+use super::{CaseGrid, Parameter};
 use crate::error::{CaseError, Error, Result};
 
 /// A number of cases, each run by the same closure.
@@ -39,7 +39,7 @@ use crate::error::{CaseError, Error, Result};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 pub struct Sweep<'a> {
-    pub(super) grid: Arc<Grid>,
+    pub(super) grid: Arc<CaseGrid>,
     /// Cases `first`, `first + stride`, … of the grid.
     first: usize,
     stride: NonZeroUsize,
@@ -57,7 +57,7 @@ short_debug! {
 pub struct SweepCase<'a> {
     /// Number of the case in the whole sweep, from 0.
     pub index: usize,
-    grid: &'a Grid,
+    grid: &'a CaseGrid,
     progress: &'a (dyn Fn(usize, f64) + Sync),
 }
 
@@ -100,7 +100,7 @@ impl SweepCase<'_> {
 impl<'a> Sweep<'a> {
     /// A sweep over the cases 0 … `count` − 1.
     pub fn new(count: usize) -> Self {
-        Self::over(Grid { parameters: Vec::new(), count })
+        Self::over(CaseGrid { parameters: Vec::new(), count })
     }
 
     /// A sweep over all combinations of the parameters' values.
@@ -113,10 +113,11 @@ impl<'a> Sweep<'a> {
     /// `error`; [`Error::Sweep`] for a parameter without a name or values, and for a value that occurs twice,
     /// is not finite or is an empty text; [`Error::Memory`] for more cases than a table holds.
     pub fn grid(parameters: impl IntoIterator<Item = Parameter>) -> Result<Self> {
-        Ok(Self::over(Grid::new(parameters.into_iter().collect())?))
+        Ok(Self::over(CaseGrid::new(parameters.into_iter().collect())?))
     }
 
-    fn over(grid: Grid) -> Self {
+    /// The sweep over all cases of a grid.
+    fn over(grid: CaseGrid) -> Self {
         let progress = Box::new(|_, _| ());
         Self { grid: Arc::new(grid), first: 0, stride: NonZeroUsize::MIN, progress }
     }
@@ -143,8 +144,8 @@ impl<'a> Sweep<'a> {
     /// Position of a case among the cases that are run; `None` if it is not run.
     #[cfg(feature = "io")]
     pub(super) fn place(&self, case: usize) -> Option<usize> {
-        let behind = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
-        (behind % self.stride == 0).then(|| behind / self.stride)
+        let distance = case.checked_sub(self.first).filter(|_| case < self.grid.count)?;
+        (distance % self.stride == 0).then(|| distance / self.stride)
     }
 
     /// Calls `progress` with a case's number and its completed fraction.
@@ -183,8 +184,8 @@ impl<'a> Sweep<'a> {
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<T, E> + Sync,
         mut sink: impl FnMut(usize, std::result::Result<T, CaseError<E>>) + Send,
     ) {
-        let case = |place: usize| self.first + place * self.stride.get();
-        self.run_each(self.cases().len(), &case, run, |index, result| {
+        let number = |place: usize| self.first + place * self.stride.get();
+        self.run_each(self.cases().len(), &number, run, |index, result| {
             sink(index, result);
             ControlFlow::Continue(())
         });
@@ -204,7 +205,7 @@ impl<'a> Sweep<'a> {
         for_each(count, &|place| {
             let index = number(place);
             let case = SweepCase { index, grid: &self.grid, progress: &*self.progress };
-            // A panicking case drops its own values; the caller must keep state that cases share sound.
+            // A case that panics drops its values; the caller must keep state that cases share valid.
             let result = match catch_unwind(AssertUnwindSafe(|| run(&case))) {
                 Ok(result) => result.map_err(CaseError::Failed),
                 Err(payload) => Err(CaseError::panicked(payload.as_ref())),
@@ -216,6 +217,7 @@ impl<'a> Sweep<'a> {
     }
 }
 
+/// Calls `run` for the numbers below `count`, on all processors, until it breaks.
 #[cfg(feature = "rayon")]
 fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     use rayon::iter::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
@@ -223,6 +225,7 @@ fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     let _ = (0..count).into_par_iter().with_max_len(1).try_for_each(run);
 }
 
+/// Calls `run` for the numbers below `count`, one after the other, until it breaks.
 #[cfg(not(feature = "rayon"))]
 fn for_each(count: usize, run: &(dyn Fn(usize) -> ControlFlow<()> + Sync)) {
     let _ = (0..count).try_for_each(run);

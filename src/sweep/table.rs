@@ -3,15 +3,14 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::columns::Columns;
-use super::{ERROR, Grid, WARNINGS};
+use super::{CaseGrid, ERROR_COLUMN, WARNINGS_COLUMN};
 use crate::error::{Error, Result};
 use crate::text::check_sum::CheckSum;
-use crate::text::column::Cell;
+use crate::text::column::NumberCell;
 use crate::text::csv::{Csv, csv_line};
-use crate::text::line_breaks::in_columns;
+use crate::text::line_breaks::broken_lines;
 use crate::text::readable_number::number;
-use crate::text::table::{LONGEST_LINE, Table};
+use crate::text::table::{MAX_LINE_CHARACTERS, Table};
 
 /// The results of a [`Sweep`](super::Sweep), one row for each case.
 ///
@@ -21,27 +20,63 @@ use crate::text::table::{LONGEST_LINE, Table};
 /// Tables are equal if all their bits are equal; every NaN counts as the same.
 #[derive(Debug, Clone)]
 pub struct CaseTable {
-    pub(super) grid: Arc<Grid>,
+    pub(super) grid: Arc<CaseGrid>,
     pub(super) columns: Columns,
     /// Rows, ascending by case.
-    pub(super) rows: Vec<Row>,
+    pub(super) rows: Vec<TableRow>,
+}
+
+/// Columns between the parameters and the errors.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Columns {
+    /// Names of the results.
+    pub(super) names: Vec<String>,
+    /// Whether a column of warnings follows the results.
+    pub(super) with_warnings: bool,
+}
+
+impl Columns {
+    /// Columns of results without warnings.
+    pub(super) fn of_results(names: Vec<String>) -> Self {
+        Self { names, with_warnings: false }
+    }
+
+    /// The `results` of columns with other `names`, in the order of these columns; NaN where there is none.
+    #[cfg(feature = "io")]
+    pub(super) fn arranged(&self, names: &[String], results: Vec<f64>) -> Vec<f64> {
+        if self.names == names {
+            return results;
+        }
+        let mut arranged = Vec::with_capacity(self.names.len());
+        for name in &self.names {
+            let index = names.iter().position(|other| other == name);
+            arranged.push(index.map_or(f64::NAN, |index| results[index]));
+        }
+        arranged
+    }
 }
 
 /// A case with its results or its error.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
+pub(super) struct TableRow {
     pub(super) case: usize,
     pub(super) outcome: std::result::Result<Vec<f64>, String>,
     /// Texts of the run's warnings, empty without any.
     pub(super) warnings: String,
 }
 
-impl Row {
+impl TableRow {
     /// Makes a row; a NaN loses its sign and payload, and an empty error text becomes "failed".
     pub(super) fn new(case: usize, outcome: std::result::Result<Vec<f64>, String>) -> Self {
-        let clean = |value: f64| if value.is_nan() { f64::NAN } else { value };
         let outcome = match outcome {
-            Ok(results) => Ok(results.into_iter().map(clean).collect()),
+            Ok(mut results) => {
+                for value in &mut results {
+                    if value.is_nan() {
+                        *value = f64::NAN;
+                    }
+                }
+                Ok(results)
+            }
             Err(reason) if reason.is_empty() => Err("failed".to_owned()),
             Err(reason) => Err(reason),
         };
@@ -49,9 +84,11 @@ impl Row {
     }
 
     /// Adds the values of all cells to the check sum of a table.
-    pub(super) fn add_to(&self, grid: &Grid, columns: &Columns, sum: &mut CheckSum) {
+    pub(super) fn add_to(&self, grid: &CaseGrid, columns: &Columns, sum: &mut CheckSum) {
         sum.add(self.case as u64);
-        parameter_cells(grid, self.case).for_each(|cell| sum.add_text(&cell));
+        for cell in parameter_cells(grid, self.case) {
+            sum.add_text(&cell);
+        }
         match &self.outcome {
             Ok(results) => sum.add_numbers(results),
             Err(reason) => sum.add_text(reason),
@@ -61,12 +98,20 @@ impl Row {
         }
     }
 
+    /// The outcome with its numbers as bits.
+    fn outcome_bits(&self) -> std::result::Result<Vec<u64>, &str> {
+        match &self.outcome {
+            Ok(results) => Ok(results.iter().map(|value| value.to_bits()).collect()),
+            Err(reason) => Err(reason),
+        }
+    }
+
     /// Writes the row as a line of CSV, with its line end.
-    pub(super) fn csv(&self, grid: &Grid, columns: &Columns) -> String {
+    pub(super) fn csv(&self, grid: &CaseGrid, columns: &Columns) -> String {
         let mut cells = vec![self.case.to_string()];
         cells.extend(parameter_cells(grid, self.case));
         match &self.outcome {
-            Ok(results) => cells.extend(results.iter().map(|&value| Cell(value).to_string())),
+            Ok(results) => cells.extend(results.iter().map(|&value| NumberCell(value).to_string())),
             Err(_) => cells.extend(columns.names.iter().map(|_| String::new())),
         }
         if columns.with_warnings {
@@ -77,13 +122,11 @@ impl Row {
     }
 }
 
-impl PartialEq for Row {
+impl PartialEq for TableRow {
     fn eq(&self, other: &Self) -> bool {
-        let bits = |row: &Self| match &row.outcome {
-            Ok(results) => Ok(results.iter().map(|value| value.to_bits()).collect::<Vec<_>>()),
-            Err(reason) => Err(reason.clone()),
-        };
-        self.case == other.case && self.warnings == other.warnings && bits(self) == bits(other)
+        self.case == other.case
+            && self.warnings == other.warnings
+            && self.outcome_bits() == other.outcome_bits()
     }
 }
 
@@ -94,31 +137,33 @@ impl PartialEq for CaseTable {
 }
 
 /// Values of a case's parameters, as text.
-pub(super) fn parameter_cells(grid: &Grid, case: usize) -> impl Iterator<Item = String> {
+pub(super) fn parameter_cells(grid: &CaseGrid, case: usize) -> impl Iterator<Item = String> {
     grid.parameters.iter().enumerate().map(move |(index, parameter)| {
         let place = grid.place_of(case, index);
-        let text = || parameter.text(place).unwrap_or_default().to_owned();
-        parameter.number(place).map_or_else(text, |value| Cell(value).to_string())
+        match parameter.number(place) {
+            Some(number) => NumberCell(number).to_string(),
+            None => parameter.text(place).unwrap_or_default().to_owned(),
+        }
     })
 }
 
 /// Headings of all columns.
-pub(super) fn heading(grid: &Grid, columns: &Columns) -> Vec<String> {
+pub(super) fn heading(grid: &CaseGrid, columns: &Columns) -> Vec<String> {
     let mut cells = vec!["case".to_owned()];
     cells.extend(grid.parameters.iter().map(|parameter| parameter.name().to_owned()));
     cells.extend_from_slice(&columns.names);
     if columns.with_warnings {
-        cells.push(WARNINGS.to_owned());
+        cells.push(WARNINGS_COLUMN.to_owned());
     }
-    cells.push(ERROR.to_owned());
+    cells.push(ERROR_COLUMN.to_owned());
     cells
 }
 
-/// First line of a table's file, up to its check sum. The number is the version of the format.
-pub(super) const FIRST: &str = "# basemat sweep 1 check sum ";
+/// Beginning of a table's file, up to its check sum. The number is the version of the format.
+pub(super) const FILE_BEGINNING: &str = "# basemat sweep 1 check sum ";
 
 /// Check sum of a table without rows.
-pub(super) fn heading_sum(grid: &Grid, columns: &Columns) -> CheckSum {
+pub(super) fn heading_sum(grid: &CaseGrid, columns: &Columns) -> CheckSum {
     let mut sum = CheckSum::default();
     for name in heading(grid, columns) {
         sum.add_text(&name);
@@ -127,8 +172,8 @@ pub(super) fn heading_sum(grid: &Grid, columns: &Columns) -> CheckSum {
 }
 
 /// The first two lines of a table's file.
-pub(super) fn first_lines(grid: &Grid, columns: &Columns, sum: CheckSum) -> String {
-    format!("{FIRST}{}\n{}", sum.text(), csv_line(&heading(grid, columns)))
+pub(super) fn first_lines(grid: &CaseGrid, columns: &Columns, sum: CheckSum) -> String {
+    format!("{FILE_BEGINNING}{}\n{}", sum.text(), csv_line(&heading(grid, columns)))
 }
 
 /// A row of a [`CaseTable`].
@@ -200,11 +245,14 @@ impl CaseTable {
     ///
     /// The comment has the version of the format and the check sum of all values, which are needed to read the table
     /// again: other programs skip the first line. Columns are `case`, the parameters, the results, `warnings` if a case of a
-    /// [`CaseFile`](super::CaseFile) has some, and `error`. Numbers, in the caller's units, have enough digits to be read back to the last bit. NaN is an empty cell, infinities are
-    /// `inf` and `-inf`. A case that failed has empty results and a text in `error`.
+    /// [`CaseFile`](super::CaseFile) has some, and `error`. Numbers, in the caller's units, have enough digits to be read
+    /// back to the last bit. NaN is an empty cell, infinities are `inf` and `-inf`. A case that failed has empty results and
+    /// a text in `error`.
     pub fn csv(&self) -> Csv {
         let mut sum = heading_sum(&self.grid, &self.columns);
-        self.rows.iter().for_each(|row| row.add_to(&self.grid, &self.columns, &mut sum));
+        for row in &self.rows {
+            row.add_to(&self.grid, &self.columns, &mut sum);
+        }
         let mut text = first_lines(&self.grid, &self.columns, sum);
         text.extend(self.rows.iter().map(|row| row.csv(&self.grid, &self.columns)));
         Csv(text)
@@ -212,7 +260,7 @@ impl CaseTable {
 }
 
 /// Writes a number with five figures, a whole number in full, the smallest numbers with an exponent.
-fn figures(value: f64) -> String {
+fn five_figures(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e15 {
         // Adding zero removes a negative sign of zero.
         format!("{}", value + 0.0)
@@ -233,25 +281,30 @@ impl fmt::Display for CaseTable {
             let mut cells = vec![row.case.to_string()];
             cells.extend(parameter_cells(&self.grid, row.case));
             match &row.outcome {
-                Ok(results) => cells.extend(results.iter().map(|&value| figures(value))),
+                Ok(results) => cells.extend(results.iter().map(|&value| five_figures(value))),
                 Err(_) => cells.extend(std::iter::repeat_n("failed".to_owned(), columns)),
             }
             cells
         });
         f.write_str(&Table { heading, repeated: 1, rows: rows.collect() }.text())?;
-        let failed = |row: &Row| {
-            row.outcome.as_ref().err().map(|reason| format!("case {} failed: {reason}", row.case))
-        };
-        let warned = |row: &Row| {
-            (!row.warnings.is_empty()).then(|| format!("case {} warns: {}", row.case, row.warnings))
-        };
-        for text in self.rows.iter().flat_map(|row| [failed(row), warned(row)]).flatten() {
-            for line in in_columns(&text, LONGEST_LINE) {
-                write!(f, "\n{line}")?;
+        for row in &self.rows {
+            if let Err(reason) = &row.outcome {
+                write_lines(f, &format!("case {} failed: {reason}", row.case))?;
+            }
+            if !row.warnings.is_empty() {
+                write_lines(f, &format!("case {} warns: {}", row.case, row.warnings))?;
             }
         }
         Ok(())
     }
+}
+
+/// Writes a text below a table, in lines of limited length.
+fn write_lines(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    for line in broken_lines(text, MAX_LINE_CHARACTERS) {
+        write!(f, "\n{line}")?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -260,8 +313,11 @@ mod tests {
 
     #[test]
     fn figures_of_cells() {
-        assert_eq!(figures(1e-12), "1.000e-12");
-        assert_eq!([-0.0, 3600.0, 0.5, 1.25e20].map(figures), ["0", "3600", "0.50000", "1.250e20"]);
-        assert_eq!([figures(f64::NAN), figures(f64::NEG_INFINITY)], ["NaN", "-inf"]);
+        assert_eq!(five_figures(1e-12), "1.000e-12");
+        assert_eq!(
+            [-0.0, 3600.0, 0.5, 1.25e20].map(five_figures),
+            ["0", "3600", "0.50000", "1.250e20"]
+        );
+        assert_eq!([five_figures(f64::NAN), five_figures(f64::NEG_INFINITY)], ["NaN", "-inf"]);
     }
 }

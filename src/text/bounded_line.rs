@@ -7,14 +7,19 @@ use std::io::{BufRead, BufReader, Read};
 
 use crate::error::FileFault;
 
-/// Longest line, bytes, so that a file without line ends does not fill the memory.
-const LONGEST: u64 = 65_536;
+/// Largest length of a line, bytes, so that a file without line ends does not fill the memory.
+const MAX_LINE_BYTES: u64 = 65_536;
 /// UTF-8's byte-order mark.
-const MARK: &[u8] = b"\xef\xbb\xbf";
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The byte with which DOS ends a file.
-const END_OF_FILE: u8 = 0x1a;
+const DOS_END_OF_FILE: u8 = 0x1a;
 
-/// The lines of a text, one at a time; a byte-order mark before the first line is skipped.
+/// Result of reading lines, or the number of a line and its fault.
+pub(crate) type LineResult<T> = Result<T, (usize, FileFault)>;
+
+/// The lines of a text, read one by one.
+///
+/// A byte-order mark before the first line is skipped.
 pub(crate) struct Lines<R> {
     source: BufReader<R>,
     bytes: Vec<u8>,
@@ -27,27 +32,30 @@ impl<R: Read> Lines<R> {
         Self { source: BufReader::new(source), bytes: Vec::new(), number: 0 }
     }
 
-    /// Goes to the next line; `false` at the end of the source.
-    ///
-    /// An error includes the line's number.
-    pub(crate) fn advance(&mut self) -> Result<bool, (usize, FileFault)> {
-        let there = self.read().map_err(|fault| (self.number + 1, fault))?;
-        self.number += usize::from(there);
-        if self.number == 1 && self.bytes.starts_with(MARK) {
-            self.bytes.drain(..MARK.len());
+    /// Reads the next line; `false` at the end of the source.
+    pub(crate) fn advance(&mut self) -> LineResult<bool> {
+        let has_line = self.read().map_err(|fault| (self.number + 1, fault))?;
+        self.number += usize::from(has_line);
+        if self.number == 1 && self.bytes.starts_with(BYTE_ORDER_MARK) {
+            self.bytes.drain(..BYTE_ORDER_MARK.len());
         }
-        Ok(there)
+        Ok(has_line)
     }
 
+    /// Reads the bytes of the next line; `false` at the end of the source.
     fn read(&mut self) -> Result<bool, FileFault> {
         self.bytes.clear();
-        match self.source.by_ref().take(LONGEST).read_until(b'\n', &mut self.bytes) {
+        match self.source.by_ref().take(MAX_LINE_BYTES).read_until(b'\n', &mut self.bytes) {
             Err(error) => Err(FileFault::Unreadable(error.kind())),
-            Ok(count) if count as u64 == LONGEST && self.bytes.last() != Some(&b'\n') => Err(
-                FileFault::value("length of the line", format!("{count} bytes or more"), "less"),
-            ),
+            Ok(count) if count as u64 == MAX_LINE_BYTES && self.bytes.last() != Some(&b'\n') => {
+                Err(FileFault::value(
+                    "length of the line",
+                    format!("{count} bytes or more"),
+                    "less",
+                ))
+            }
             Ok(count) => {
-                if self.bytes.last() == Some(&END_OF_FILE) {
+                if self.bytes.last() == Some(&DOS_END_OF_FILE) {
                     self.bytes.pop();
                 }
                 Ok(count > 0)
@@ -55,7 +63,7 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Fills `bytes` with what follows the present line; `false` if the source ends before.
+    /// Fills `bytes` from behind the present line; `false` if the source ends before.
     #[cfg(feature = "io")]
     pub(crate) fn fill(&mut self, bytes: &mut [u8]) -> Result<bool, FileFault> {
         match self.source.read_exact(bytes) {
@@ -65,7 +73,9 @@ impl<R: Read> Lines<R> {
         }
     }
 
-    /// Skips all bytes up to `end` and `end` itself, which begins with its only `$`; `false` if it is not there.
+    /// Skips all bytes up to and with `end`; `false` if the source does not contain it.
+    ///
+    /// `end` begins with its only `$`.
     #[cfg(feature = "io")]
     pub(crate) fn skip_behind(&mut self, end: &[u8]) -> Result<bool, FileFault> {
         let mut matched = 0;
@@ -81,18 +91,23 @@ impl<R: Read> Lines<R> {
     }
 
     /// The next line without white space at its ends; `None` at the end of the source.
-    pub(crate) fn next(&mut self) -> Result<Option<String>, (usize, FileFault)> {
-        Ok(self.next_columns()?.map(|line| line.trim_start().to_owned()))
+    pub(crate) fn next(&mut self) -> LineResult<Option<String>> {
+        Ok(self.next_indented()?.map(|line| line.trim_start().to_owned()))
     }
 
     /// The next line, including the white space at its beginning; `None` at the end of the source.
-    pub(crate) fn next_columns(&mut self) -> Result<Option<String>, (usize, FileFault)> {
+    pub(crate) fn next_indented(&mut self) -> LineResult<Option<String>> {
         Ok(self.advance()?.then(|| self.text().trim_end().to_owned()))
     }
 
-    /// An error with the number of the present line.
-    pub(crate) fn refuse(&self, fault: FileFault) -> (usize, FileFault) {
+    /// Fault of the present line, with its number.
+    pub(crate) fn fault(&self, fault: FileFault) -> (usize, FileFault) {
         (self.number, fault)
+    }
+
+    /// Adds the number of the present line to the fault of a result.
+    pub(crate) fn with_line_number<T>(&self, result: Result<T, FileFault>) -> LineResult<T> {
+        result.map_err(|fault| self.fault(fault))
     }
 
     /// The present line with its line end.

@@ -24,7 +24,9 @@ impl CheckSum {
     /// Adds the length of a list and its entries, so that no entry can move to the next list.
     pub(crate) fn add_list(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.add(words.len() as u64);
-        words.for_each(|word| self.add(word));
+        for word in words {
+            self.add(word);
+        }
     }
 
     pub(crate) fn add_numbers(&mut self, numbers: &[f64]) {
@@ -58,6 +60,14 @@ mod tests {
         sum.value()
     }
 
+    fn sum_of_texts(texts: &[&str]) -> String {
+        let mut sum = CheckSum::default();
+        for text in texts {
+            sum.add_text(text);
+        }
+        sum.text()
+    }
+
     #[test]
     fn every_bit_of_every_word_counts() {
         let words = [0, 1, u64::MAX, 0x3ff0_0000_0000_0000, 0];
@@ -77,15 +87,8 @@ mod tests {
 
     #[test]
     fn lists_and_texts_keep_their_ends() {
-        let of = |texts: &[&str]| {
-            let mut sum = CheckSum::default();
-            for text in texts {
-                sum.add_text(text);
-            }
-            sum.text()
-        };
-        assert_ne!(of(&["ab", "c"]), of(&["a", "bc"]));
-        assert_ne!(of(&["", "a"]), of(&["a", ""]));
-        assert_eq!(of(&[]), "cbf29ce484222325");
+        assert_ne!(sum_of_texts(&["ab", "c"]), sum_of_texts(&["a", "bc"]));
+        assert_ne!(sum_of_texts(&["", "a"]), sum_of_texts(&["a", ""]));
+        assert_eq!(sum_of_texts(&[]), "cbf29ce484222325");
     }
 }

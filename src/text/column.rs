@@ -8,11 +8,11 @@ use std::fmt::Write;
 ///
 /// Units are, for example, `_n_per_m`, `_m_per_s2`, `_rad`; a ratio has no unit.
 pub(crate) fn column(name: &str, unit: &str) -> String {
-    let mut text = snake(name);
+    let mut text = snake_case(name);
     if text.is_empty() {
         text.push_str("unnamed");
     }
-    let unit = snake(&spelled(unit));
+    let unit = snake_case(&in_words(unit));
     if !unit.is_empty() {
         text.push('_');
         text += &unit;
@@ -24,29 +24,33 @@ pub(crate) fn column(name: &str, unit: &str) -> String {
 ///
 /// Of equal names the second ends in `_2`, the third in `_3`.
 pub(crate) fn distinct(taken: &[String], columns: impl Iterator<Item = String>) -> Vec<String> {
-    let mut known: BTreeSet<String> = taken.iter().cloned().collect();
-    let mut rename = |column: String| {
-        let numbered = (2_usize..).map(|k| format!("{column}_{k}"));
-        let free = std::iter::once(column.clone()).chain(numbered).find(|c| !known.contains(c));
-        let free = free.unwrap_or(column);
-        known.insert(free.clone());
-        free
-    };
-    columns.map(&mut rename).collect()
+    let mut used: BTreeSet<String> = taken.iter().cloned().collect();
+    let mut distinct = Vec::new();
+    for column in columns {
+        let mut name = column.clone();
+        let mut number = 1_usize;
+        while used.contains(&name) {
+            number += 1;
+            name = format!("{column}_{number}");
+        }
+        used.insert(name.clone());
+        distinct.push(name);
+    }
+    distinct
 }
 
 /// Letters and digits in lower case, with an underscore for all characters between them.
-fn snake(text: &str) -> String {
-    let words = text.split(|sign: char| !sign.is_alphanumeric());
+fn snake_case(text: &str) -> String {
+    let words = text.split(|character: char| !character.is_alphanumeric());
     let words = words.filter(|word| !word.is_empty()).map(str::to_lowercase);
     words.collect::<Vec<_>>().join("_")
 }
 
 /// A unit with its symbols as words.
-fn spelled(unit: &str) -> String {
+fn in_words(unit: &str) -> String {
     let mut text = String::new();
-    for sign in unit.chars() {
-        match sign {
+    for character in unit.chars() {
+        match character {
             '/' => text += " per ",
             '%' => text += " percent ",
             '°' => text += " deg ",
@@ -66,17 +70,17 @@ fn spelled(unit: &str) -> String {
 ///
 /// NaN is an empty cell, infinities are `inf` and `-inf`.
 #[derive(Clone, Copy)]
-pub(crate) struct Cell(pub(crate) f64);
+pub(crate) struct NumberCell(pub(crate) f64);
 
-impl fmt::Display for Cell {
+impl fmt::Display for NumberCell {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // The debug format uses an exponent where it is shorter.
         if self.0.is_nan() { Ok(()) } else { write!(f, "{:?}", self.0) }
     }
 }
 
-/// Cells of one line.
-pub(crate) fn line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> String {
+/// The cells of a line, separated by commas, with its line end.
+pub(crate) fn cell_line<T: fmt::Display>(cells: impl IntoIterator<Item = T>) -> String {
     let mut text = String::new();
     for (k, cell) in cells.into_iter().enumerate() {
         let comma = if k > 0 { "," } else { "" };
@@ -93,7 +97,7 @@ mod tests {
 
     #[test]
     fn names_and_units_by_one_rule() {
-        for (name, unit, known) in [
+        for (name, unit, expected) in [
             ("base shear", "N/m", "base_shear_n_per_m"),
             ("base moment", "N·m/m", "base_moment_n_m_per_m"),
             ("Roof, left (top)", "m/s²", "roof_left_top_m_per_s2"),
@@ -108,7 +112,7 @@ mod tests {
             ("", "", "unnamed"),
             ("a,b\"c\nd", "", "a_b_c_d"),
         ] {
-            assert_eq!(column(name, unit), known);
+            assert_eq!(column(name, unit), expected);
         }
     }
 
@@ -122,9 +126,12 @@ mod tests {
     #[test]
     fn cells_read_back_as_the_same_number() {
         for value in [0.1, -0.0, 1.0 / 3.0, 1e300, 5e-324, f64::INFINITY, -f64::INFINITY] {
-            let text = Cell(value).to_string();
+            let text = NumberCell(value).to_string();
             assert_eq!(text.parse::<f64>().map(f64::to_bits), Ok(value.to_bits()), "{text}");
         }
-        assert_eq!(line([1.0, f64::NAN, f64::INFINITY, 1e-9].map(Cell)), "1.0,,inf,1e-9\n");
+        assert_eq!(
+            cell_line([1.0, f64::NAN, f64::INFINITY, 1e-9].map(NumberCell)),
+            "1.0,,inf,1e-9\n"
+        );
     }
 }

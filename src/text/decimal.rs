@@ -2,13 +2,12 @@
 //!
 //! [`finite`] defines which text counts as a number.
 
-/// The finite number that the whole of `text` is; `None` for any other text.
+/// The finite number that a whole text is; `None` for any other text.
 ///
 /// The exponent may have the form of C or Fortran: `1.5`, `-2E+3`, `.5D-2`. A unit after the number, a
 /// decimal comma and `inf` are not accepted.
 pub(crate) fn finite(text: &str) -> Option<f64> {
-    let known = |sign: u8| sign.is_ascii_digit() || b"+-.eEdD".contains(&sign);
-    if !text.bytes().all(known) {
+    if !text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eEdD".contains(&byte)) {
         return None;
     }
     let value: f64 = match text.find(['d', 'D']) {
@@ -29,12 +28,12 @@ pub(crate) fn quoted(text: &str) -> String {
 /// the value is printed.
 pub(crate) fn in_field(text: &str, decimals: u16, scale: u16) -> Option<f64> {
     let (digits, exponent) = match text.find(['e', 'E', 'd', 'D']) {
-        Some(at) => (&text[..at], Some(text[at + 1..].parse::<i32>().ok()?)),
+        Some(position) => (&text[..position], Some(text[position + 1..].parse::<i32>().ok()?)),
         None => (text, None),
     };
-    let implied = if has_implied_point(text) { i32::from(decimals) } else { 0 };
+    let implied_decimals = if has_implied_point(text) { i32::from(decimals) } else { 0 };
     let scale = if exponent.is_some() { 0 } else { i32::from(scale) };
-    match exponent.unwrap_or(0).checked_sub(implied + scale)? {
+    match exponent.unwrap_or(0).checked_sub(implied_decimals + scale)? {
         0 => finite(digits),
         exponent => finite(&format!("{digits}e{exponent}")),
     }
@@ -45,14 +44,20 @@ pub(crate) fn has_implied_point(text: &str) -> bool {
     !text.contains('.')
 }
 
-/// The first 40 characters, for errors; invisible characters are escaped, as in `\u{feff}`.
+/// Largest number of characters of an [`excerpt`].
+const MAX_EXCERPT_CHARACTERS: usize = 40;
+
+/// The first characters of a text, for errors; invisible ones are escaped, as in `\u{feff}`.
 pub(crate) fn excerpt(text: &str) -> String {
-    let hidden =
-        |sign: char| sign.is_control() || matches!(sign, '\u{feff}' | '\u{200b}'..='\u{200f}');
-    let shown = |sign: char| {
-        if hidden(sign) { sign.escape_unicode().to_string() } else { sign.to_string() }
-    };
-    text.chars().take(40).map(shown).collect()
+    let mut excerpt = String::new();
+    for character in text.chars().take(MAX_EXCERPT_CHARACTERS) {
+        if character.is_control() || matches!(character, '\u{feff}' | '\u{200b}'..='\u{200f}') {
+            excerpt.extend(character.escape_unicode());
+        } else {
+            excerpt.push(character);
+        }
+    }
+    excerpt
 }
 
 #[cfg(test)]

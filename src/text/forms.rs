@@ -1,4 +1,4 @@
-//! Forms of values in serde's formats.
+//! Forms in which values are stored in serde's formats.
 
 /// Implements `Deserialize` through a constructor, which checks the values.
 ///
@@ -47,12 +47,16 @@ pub(crate) mod number {
     }
 
     pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<f64, D::Error> {
-        if from.is_human_readable() { from.deserialize_any(Number) } else { f64::deserialize(from) }
+        if from.is_human_readable() {
+            from.deserialize_any(NumberVisitor)
+        } else {
+            f64::deserialize(from)
+        }
     }
 
-    struct Number;
+    struct NumberVisitor;
 
-    impl Visitor<'_> for Number {
+    impl Visitor<'_> for NumberVisitor {
         type Value = f64;
 
         fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -97,15 +101,16 @@ pub(crate) mod lists {
 
     #[derive(serde::Serialize, serde::Deserialize)]
     #[serde(transparent)]
-    struct Number(#[serde(with = "super::number")] f64);
+    struct StoredNumber(#[serde(with = "super::number")] f64);
 
     pub(crate) fn serialize<S: Serializer>(lists: &[Vec<f64>], to: S) -> Result<S::Ok, S::Error> {
-        let numbers = |list: &Vec<f64>| list.iter().copied().map(Number).collect::<Vec<_>>();
-        to.collect_seq(lists.iter().map(numbers))
+        to.collect_seq(
+            lists.iter().map(|list| list.iter().copied().map(StoredNumber).collect::<Vec<_>>()),
+        )
     }
 
     pub(crate) fn deserialize<'a, D: Deserializer<'a>>(from: D) -> Result<Vec<Vec<f64>>, D::Error> {
-        let lists = Vec::<Vec<Number>>::deserialize(from)?.into_iter();
+        let lists = Vec::<Vec<StoredNumber>>::deserialize(from)?.into_iter();
         Ok(lists.map(|list| list.into_iter().map(|number| number.0).collect()).collect())
     }
 }

@@ -1,57 +1,58 @@
 //! Text broken into lines.
 
-/// Replaces the rest of a text that was cut.
-const CUT: char = '…';
+/// Character that replaces the rest of a text that was cut.
+const CUT_MARK: char = '…';
 
-/// The text in lines of at most the `width` `room`, broken between words where possible.
+/// The text in lines no wider than `max_width`, broken between words where possible.
 ///
-/// A text that needs more than `most` lines is cut, and ends in "…".
+/// `width`: function that measures a text. A text that needs more than `max_lines` is cut, and ends in "…".
 pub(crate) fn wrapped(
     text: &str,
-    room: f64,
-    most: usize,
+    max_width: f64,
+    max_lines: usize,
     width: impl Fn(&str) -> f64,
 ) -> Vec<String> {
     let mut lines = vec![String::new()];
-    let mut cut = false;
-    'all: for word in text.split_whitespace() {
+    let mut is_cut = false;
+    'words: for word in text.split_whitespace() {
         let mut line = lines.len() - 1;
         if !lines[line].is_empty() {
             // The last line takes as much of the word as fits.
-            let fits = width(&format!("{} {word}", lines[line])) <= room;
-            if fits || lines.len() == most {
+            let fits = width(&format!("{} {word}", lines[line])) <= max_width;
+            if fits || lines.len() == max_lines {
                 lines[line].push(' ');
             } else {
                 lines.push(String::new());
                 line += 1;
             }
         }
-        for c in word.chars() {
-            let wider = width(&format!("{}{c}", lines[line])) > room;
-            if wider && lines.len() == most {
-                cut = true;
-                break 'all;
+        for character in word.chars() {
+            let is_too_wide = width(&format!("{}{character}", lines[line])) > max_width;
+            if is_too_wide && lines.len() == max_lines {
+                is_cut = true;
+                break 'words;
             }
-            if wider {
+            if is_too_wide {
                 lines.push(String::new());
                 line += 1;
             }
-            lines[line].push(c);
+            lines[line].push(character);
         }
     }
-    if let (true, Some(last)) = (cut, lines.last_mut()) {
-        while !last.is_empty() && width(&format!("{last}{CUT}")) > room {
+    if is_cut && let Some(last) = lines.last_mut() {
+        while !last.is_empty() && width(&format!("{last}{CUT_MARK}")) > max_width {
             last.pop();
         }
-        *last = format!("{}{CUT}", last.trim_end());
+        *last = format!("{}{CUT_MARK}", last.trim_end());
     }
     lines
 }
 
-/// The text in lines of at most `most` characters, without control characters.
-pub(crate) fn in_columns(text: &str, most: usize) -> Vec<String> {
-    let plain = text.replace(|sign: char| sign.is_control() && !sign.is_whitespace(), "");
-    wrapped(&plain, most as f64, usize::MAX, |line| line.chars().count() as f64)
+/// The text in lines of limited length, without control characters.
+pub(crate) fn broken_lines(text: &str, max_characters: usize) -> Vec<String> {
+    let plain =
+        text.replace(|character: char| character.is_control() && !character.is_whitespace(), "");
+    wrapped(&plain, max_characters as f64, usize::MAX, |line| line.chars().count() as f64)
 }
 
 #[cfg(test)]
@@ -60,8 +61,8 @@ mod tests {
 
     #[test]
     fn long_texts_break() {
-        assert_eq!(in_columns("one two\n three", 7), ["one two", "three"]);
-        assert_eq!(in_columns("abcdefgh\u{7} ij", 3), ["abc", "def", "gh", "ij"]);
-        assert_eq!(in_columns("", 3), [""]);
+        assert_eq!(broken_lines("one two\n three", 7), ["one two", "three"]);
+        assert_eq!(broken_lines("abcdefgh\u{7} ij", 3), ["abc", "def", "gh", "ij"]);
+        assert_eq!(broken_lines("", 3), [""]);
     }
 }

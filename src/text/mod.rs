@@ -5,9 +5,7 @@ pub(crate) mod words;
 #[macro_use]
 pub(crate) mod forms;
 #[macro_use]
-mod forward;
-#[macro_use]
-mod short_debug;
+mod trait_macros;
 pub(crate) mod bounded_line;
 pub(crate) mod check_sum;
 pub(crate) mod column;

@@ -17,12 +17,12 @@ pub(crate) fn of_body(unit: &str, in_plan: bool) -> &str {
 }
 
 /// Limit, in printed units, below which a number counts as rounding.
-const NOTHING: f64 = 1e-9;
+const ROUNDING_LIMIT: f64 = 1e-9;
 
 /// Prints five figures, with an exponent only for very small or large numbers, and no negative zero.
 pub(crate) fn number(value: f64) -> String {
     let magnitude = value.abs();
-    if magnitude < NOTHING {
+    if magnitude < ROUNDING_LIMIT {
         "0".to_owned()
     } else if !(1e-3..1e6).contains(&magnitude) {
         format!("{value:.3e}")

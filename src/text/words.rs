@@ -3,9 +3,10 @@
 use crate::error::Error;
 use crate::text::decimal::{excerpt, finite};
 
-/// Implements `Display`, `FromStr` and the list `ALL` (with the given visibility) for an enum without fields.
+/// Implements `Display`, `FromStr` and the list `ALL` for an enum without fields.
 ///
-/// The macro lists each variant and its word. The error for another spelling states the right one.
+/// The macro lists each variant and its word; the visibility before the type applies to `ALL`. The error for another
+/// spelling states the right one.
 macro_rules! words {
     ($all:vis $type:ident, $quantity:literal, { $($variant:ident = $word:literal),+ $(,)? }) => {
         impl $type {
@@ -32,7 +33,7 @@ macro_rules! words {
             type Err = crate::error::Error;
 
             fn from_str(text: &str) -> crate::error::Result<Self> {
-                let found = Self::ALL.into_iter().find(|own| own.word() == text);
+                let found = Self::ALL.into_iter().find(|choice| choice.word() == text);
                 found.ok_or_else(|| crate::text::words::unknown($quantity, text, &[$($word),+]))
             }
         }
@@ -55,7 +56,7 @@ macro_rules! words_with_numbers {
                 match self {
                     $(Self::$plain => f.pad($word),)+
                     $(Self::$variant { $field } => {
-                        f.pad(&format!(concat!($numbered, "({})"), $field.shown()))
+                        f.pad(&format!(concat!($numbered, "({})"), $field.text()))
                     })+
                 }
             }
@@ -82,11 +83,11 @@ macro_rules! words_with_numbers {
     };
 }
 
-/// Error for a word that is not known; of a known word in another spelling it has the right spelling only.
+/// Error for an unknown word; for another spelling of a known word, it names only that word.
 pub(crate) fn unknown(quantity: &'static str, text: &str, known: &'static [&'static str]) -> Error {
     let spelled = text.trim().to_lowercase().replace([' ', '-'], "_");
-    let right = known.iter().position(|word| *word == spelled);
-    let known = right.map_or(known, |place| &known[place..=place]);
+    let index = known.iter().position(|word| *word == spelled);
+    let known = index.map_or(known, |index| &known[index..=index]);
     Error::no_name(quantity, &excerpt(text), known.iter().copied())
 }
 
@@ -103,8 +104,10 @@ pub(crate) fn with_number(text: &str) -> Option<(&str, Option<f64>)> {
 
 /// A number that may follow a word in brackets.
 pub(crate) trait Bracketed: Sized {
+    /// Converts the number that was read; `None` if it is not allowed.
     fn read(number: f64) -> Option<Self>;
-    fn shown(&self) -> String;
+    /// The number as it is written.
+    fn text(&self) -> String;
 }
 
 impl Bracketed for f64 {
@@ -112,20 +115,20 @@ impl Bracketed for f64 {
         Some(number)
     }
 
-    fn shown(&self) -> String {
+    fn text(&self) -> String {
         format!("{self:e}")
     }
 }
 
 impl Bracketed for usize {
     fn read(number: f64) -> Option<Self> {
-        let most = 9.0e15_f64.min(usize::MAX as f64);
-        let counts = (0.0..=most).contains(&number) && number.fract() == 0.0;
+        let max_count = 9.0e15_f64.min(usize::MAX as f64);
+        let is_count = (0.0..=max_count).contains(&number) && number.fract() == 0.0;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
-        counts.then_some(number as usize)
+        is_count.then_some(number as usize)
     }
 
-    fn shown(&self) -> String {
+    fn text(&self) -> String {
         self.to_string()
     }
 }

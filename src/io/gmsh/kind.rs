@@ -4,7 +4,7 @@ use crate::error::FileFault;
 
 /// Kind of an element that a reader accepts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum ElementKind {
     Point,
     Line,
     /// Line with a node in its middle.
@@ -16,7 +16,7 @@ pub(super) enum Kind {
     Brick,
 }
 
-impl Kind {
+impl ElementKind {
     /// Name of one element.
     pub(super) fn name(self) -> &'static str {
         match self {
@@ -61,9 +61,9 @@ impl Kind {
 
 /// Kinds of elements that a reader accepts.
 #[derive(Debug)]
-pub(super) struct Accepted {
+pub(super) struct AcceptedKinds {
     /// Number of the kind in the format, and the kind.
-    kinds: &'static [(u32, Kind)],
+    kinds: &'static [(u32, ElementKind)],
     /// The same in words.
     needed: &'static str,
     /// Settings of Gmsh that avoid kinds that are not accepted, by the numbers of these kinds.
@@ -71,13 +71,13 @@ pub(super) struct Accepted {
 }
 
 /// Kinds of a mesh in the plane.
-pub(super) const IN_PLANE: Accepted = Accepted {
+pub(super) const KINDS_IN_PLANE: AcceptedKinds = AcceptedKinds {
     kinds: &[
-        (15, Kind::Point),
-        (1, Kind::Line),
-        (8, Kind::SecondOrderLine),
-        (3, Kind::Quadrilateral),
-        (16, Kind::SecondOrderQuadrilateral),
+        (15, ElementKind::Point),
+        (1, ElementKind::Line),
+        (8, ElementKind::SecondOrderLine),
+        (3, ElementKind::Quadrilateral),
+        (16, ElementKind::SecondOrderQuadrilateral),
     ],
     needed: "lines and quadrilaterals of the first or second order",
     remedies: &[
@@ -87,13 +87,13 @@ pub(super) const IN_PLANE: Accepted = Accepted {
 };
 
 /// Kinds of a mesh in space.
-pub(super) const IN_SPACE: Accepted = Accepted {
+pub(super) const KINDS_IN_SPACE: AcceptedKinds = AcceptedKinds {
     kinds: &[
-        (15, Kind::Point),
-        (1, Kind::Line),
-        (2, Kind::Triangle),
-        (3, Kind::Quadrilateral),
-        (5, Kind::Brick),
+        (15, ElementKind::Point),
+        (1, ElementKind::Line),
+        (2, ElementKind::Triangle),
+        (3, ElementKind::Quadrilateral),
+        (5, ElementKind::Brick),
     ],
     needed: "points, lines, triangles, quadrilaterals and bricks of the first order",
     remedies: &[
@@ -103,7 +103,7 @@ pub(super) const IN_SPACE: Accepted = Accepted {
 };
 
 /// Names of the kinds 1 to 19.
-const NAMES: [&str; 19] = [
+const KIND_NAMES: [&str; 19] = [
     "lines",
     "triangles",
     "quadrilaterals",
@@ -125,13 +125,13 @@ const NAMES: [&str; 19] = [
     "pyramids of 13 nodes",
 ];
 
-impl Accepted {
+impl AcceptedKinds {
     /// Kind with this `number` in the format; the fault names the `count` of elements that are not accepted.
-    pub(super) fn kind(&self, number: u32, count: u64) -> Result<Kind, FileFault> {
-        if let Some((_, kind)) = self.kinds.iter().find(|(own, _)| *own == number) {
+    pub(super) fn kind(&self, number: u32, count: u64) -> Result<ElementKind, FileFault> {
+        if let Some((_, kind)) = self.kinds.iter().find(|(other, _)| *other == number) {
             return Ok(*kind);
         }
-        let name = (1..).zip(NAMES).find(|(own, _)| *own == number).map(|(_, name)| name);
+        let name = (1..).zip(KIND_NAMES).find(|(other, _)| *other == number).map(|(_, name)| name);
         let found = format!("{count} {} (type {number})", name.unwrap_or("elements"));
         let remedy = self.remedies.iter().find(|(numbers, _)| numbers.contains(&number));
         let remedy = remedy.map_or(String::new(), |(_, remedy)| format!(": {remedy}"));

@@ -4,13 +4,14 @@ use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::Path;
 
-use super::cell::{self, Cell, group_names};
-use super::kind::{IN_PLANE, Kind};
+use super::cell::{self, MeshCell, group_names};
+use super::kind::{ElementKind, KINDS_IN_PLANE};
 use super::merge::MergedNumbers;
 use super::parse;
-use super::raw::{Point, twice};
+use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
 use crate::fem::{Material, Mesh, Quad4, Quad8, QuadFormulation};
+use crate::text::file::open_file;
 
 /// A mesh of quadrilaterals as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -2 -format msh41`).
 ///
@@ -47,12 +48,12 @@ pub struct GmshMesh {
     file: String,
     /// Coordinates of the nodes that quadrilaterals use, in the order of the file.
     nodes: Vec<[f64; 2]>,
-    quads: Vec<Cell>,
-    lines: Vec<Cell>,
+    quads: Vec<MeshCell>,
+    lines: Vec<MeshCell>,
 }
 
 /// Distance from the plane z = 0 that counts as rounding, relative to the size of the mesh.
-const FLAT: f64 = 1e-9;
+const PLANE_TOLERANCE: f64 = 1e-9;
 
 impl GmshMesh {
     /// Reads a `.msh` file.
@@ -60,8 +61,8 @@ impl GmshMesh {
     /// # Errors
     /// [`Error::File`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let (name, file) = parse::open(path.as_ref())?;
-        Self::from_reader(&name, file)
+        let path = path.as_ref();
+        Self::from_reader(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
@@ -69,28 +70,29 @@ impl GmshMesh {
     /// # Errors
     /// [`Error::File`] with the line and the reason.
     pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
-        let refuse = |(line, fault): (usize, FileFault)| fault.of(name, line);
-        let raw = parse::read(source, &IN_PLANE).map_err(refuse)?;
-        let is_quad = |kind: Kind| kind.dimension() == 2;
+        let file_mesh =
+            parse::read(source, &KINDS_IN_PLANE).map_err(|(line, fault)| fault.of(name, line))?;
         // Lines of the geometry that touch no quadrilateral are ignored.
-        let numbered = cell::number(&raw, |cell| is_quad(cell.kind)).map_err(refuse)?;
-        let size = numbered.points.iter().fold(0.0_f64, |most, point| {
-            let [x, y, _] = point.values;
-            most.max(x.abs()).max(y.abs())
+        let numbered = cell::number(&file_mesh, |cell| cell.kind.dimension() == 2)
+            .map_err(|(line, fault)| fault.of(name, line))?;
+        let size = numbered.points.iter().fold(0.0_f64, |size, point| {
+            size.max(point.values[0].abs()).max(point.values[1].abs())
         });
-        let off = |point: &&Point| point.values[2].abs() > FLAT * size;
-        if let Some(point) = numbered.points.iter().copied().find(off) {
-            let fault = FileFault::value("z of a node", point.values[2].to_string(), "0");
-            return Err(refuse((point.line, fault)));
+        for point in &numbered.points {
+            let z = point.values[2];
+            if z.abs() > PLANE_TOLERANCE * size {
+                let fault = FileFault::value("z of a node", z.to_string(), "0");
+                return Err(fault.of(name, point.line));
+            }
         }
         let nodes =
             numbered.points.iter().map(|point| [point.values[0], point.values[1]]).collect();
         let mut mesh = Self { file: name.to_owned(), nodes, quads: Vec::new(), lines: Vec::new() };
         for mut cell in numbered.cells {
-            if is_quad(cell.kind) {
+            if cell.kind.dimension() == 2 {
                 mesh.turn_counter_clockwise(&mut cell.nodes);
                 mesh.quads.push(cell);
-            } else if cell.kind != Kind::Point {
+            } else if cell.kind != ElementKind::Point {
                 mesh.lines.push(cell);
             }
         }
@@ -117,9 +119,9 @@ impl GmshMesh {
         let numbers = MergedNumbers::new(&points, tolerance)?;
         numbers.check(&self.file, self.quads.iter().chain(&self.lines))?;
         for cell in self.quads.iter_mut().chain(&mut self.lines) {
-            numbers.apply(&mut cell.nodes);
+            numbers.renumber(&mut cell.nodes);
         }
-        self.nodes = numbers.kept(&self.nodes);
+        self.nodes = numbers.kept_items(&self.nodes);
         Ok(points.len() - self.nodes.len())
     }
 
@@ -155,11 +157,11 @@ impl GmshMesh {
     ) -> Result<Mesh> {
         let surfaces = self.surfaces();
         if let Some((name, _)) = materials.iter().find(|(name, _)| !surfaces.contains(name)) {
-            return Err(self.missing(format!("surface '{name}'")));
+            return Err(self.missing_item(format!("surface '{name}'")));
         }
         for (k, (name, _)) in materials.iter().enumerate() {
             if materials[..k].iter().any(|(other, _)| other == name) {
-                return Err(self.refuse(twice(format!("material of surface '{name}'"))));
+                return Err(self.file_error(given_twice(format!("material of surface '{name}'"))));
             }
         }
         let mut mesh = Mesh::new();
@@ -181,21 +183,20 @@ impl GmshMesh {
     }
 
     /// The one material of a quadrilateral.
-    fn material(&self, quad: &Cell, materials: &[(&str, Material)]) -> Result<Material> {
-        let own = |(name, _): &&(&str, Material)| quad.is_in(name);
-        let mut found = materials.iter().filter(own);
+    fn material(&self, quad: &MeshCell, materials: &[(&str, Material)]) -> Result<Material> {
+        let mut found = materials.iter().filter(|(name, _)| quad.is_in(name));
         match (found.next(), found.next()) {
             (Some((_, material)), None) => Ok(*material),
             (Some((one, _)), Some((other, _))) => {
-                let what = format!(
+                let item = format!(
                     "material of element {}, which is in the surfaces '{one}' and '{other}',",
                     quad.tag
                 );
-                Err(twice(what).of(&self.file, quad.line))
+                Err(given_twice(item).of(&self.file, quad.line))
             }
             (None, _) => {
                 let surfaces = quad.groups.join("' or '");
-                Err(self.missing(format!("material for its surface '{surfaces}'")))
+                Err(self.missing_item(format!("material for its surface '{surfaces}'")))
             }
         }
     }
@@ -212,7 +213,7 @@ impl GmshMesh {
             (_, others) => {
                 let needed = "1 (`GmshMesh::foundations` gives the pieces)";
                 let items = format!("pieces of line '{name}'");
-                Err(self.refuse(FileFault::count(&items, others + 1, needed)))
+                Err(self.file_error(FileFault::count(&items, others + 1, needed)))
             }
         }
     }
@@ -229,44 +230,48 @@ impl GmshMesh {
     pub fn foundations(&self, name: &str) -> Result<Vec<Vec<usize>>> {
         let mut pieces: Vec<BTreeSet<usize>> = Vec::new();
         for line in self.lines.iter().filter(|line| line.is_in(name)) {
-            let mut joined: BTreeSet<usize> = line.nodes.iter().copied().collect();
+            let mut connected: BTreeSet<usize> = line.nodes.iter().copied().collect();
             pieces.retain_mut(|piece| {
-                let apart = line.nodes.iter().all(|node| !piece.contains(node));
-                if !apart {
-                    joined.append(piece);
+                let is_separate = line.nodes.iter().all(|node| !piece.contains(node));
+                if !is_separate {
+                    connected.append(piece);
                 }
-                apart
+                is_separate
             });
-            pieces.push(joined);
+            pieces.push(connected);
         }
         if pieces.is_empty() {
-            return Err(self.missing(format!("line '{name}'")));
+            return Err(self.missing_item(format!("line '{name}'")));
         }
-        let x = |node: usize| self.nodes[node][0];
-        let from_the_left = |piece: BTreeSet<usize>| {
+        let mut sorted_pieces = Vec::with_capacity(pieces.len());
+        for piece in pieces {
             let mut nodes: Vec<usize> = piece.into_iter().collect();
-            nodes.sort_by(|&a, &b| x(a).total_cmp(&x(b)).then(a.cmp(&b)));
-            nodes
-        };
-        let mut pieces: Vec<Vec<usize>> = pieces.into_iter().map(from_the_left).collect();
-        pieces.sort_by(|a, b| x(a[0]).total_cmp(&x(b[0])));
-        Ok(pieces)
+            nodes.sort_by(|&a, &b| self.x(a).total_cmp(&self.x(b)).then(a.cmp(&b)));
+            sorted_pieces.push(nodes);
+        }
+        sorted_pieces.sort_by(|a, b| self.x(a[0]).total_cmp(&self.x(b[0])));
+        Ok(sorted_pieces)
     }
 
-    fn missing(&self, what: String) -> Error {
-        self.refuse(FileFault::missing(what))
+    fn x(&self, node: usize) -> f64 {
+        self.nodes[node][0]
     }
 
-    fn refuse(&self, fault: FileFault) -> Error {
+    /// Error for an item that the file does not have.
+    fn missing_item(&self, item: String) -> Error {
+        self.file_error(FileFault::missing(item))
+    }
+
+    /// Error of the whole file.
+    fn file_error(&self, fault: FileFault) -> Error {
         fault.of(&self.file, 0)
     }
 
     /// Reverses clockwise nodes. Corners come first, then the nodes between them, in Gmsh as in [`Quad8`].
     fn turn_counter_clockwise(&self, nodes: &mut [usize]) {
-        let place = |k: usize| self.nodes[nodes[k]];
-        let [a, b, c, d] = [place(0), place(1), place(2), place(3)];
-        let area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
-        if area < 0.0 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.nodes[nodes[k]]);
+        let twice_area = (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
+        if twice_area < 0.0 {
             nodes[1..4].reverse();
             nodes[4..].reverse();
         }

@@ -4,14 +4,55 @@ use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
-use super::cell::{self, Cell, group_names, sorted};
-use super::kind::{IN_SPACE, Kind};
+use super::cell::{self, MeshCell, group_names, sorted};
+use super::kind::{ElementKind, KINDS_IN_SPACE};
 use super::merge::MergedNumbers;
 use super::parse;
-use super::part::GmshPart;
-use super::raw::twice;
+use super::raw::given_twice;
 use crate::error::{Error, FileFault, Result};
-use crate::fem::{Hex8, Mesh, Shell, SpaceBeam};
+use crate::fem::{BeamSection, Hex8, Material, Mesh, Shell, SpaceBeam};
+use crate::text::file::open_file;
+
+/// Part of a structure that a physical group stands for, for [`GmshSpaceMesh`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum GmshPart {
+    /// Lines become [`SpaceBeam`](crate::fem::SpaceBeam)s of this material, section and orientation.
+    ///
+    /// The orientation is the vector of [`SpaceBeam::new`](crate::fem::SpaceBeam::new), the same for all lines of the
+    /// group.
+    Beam(Material, BeamSection, [f64; 3]),
+    /// Triangles and quadrilaterals become [`Shell`](crate::fem::Shell)s of this material and thickness (m).
+    ///
+    /// Let Gmsh recombine curved shells: triangles are too stiff there.
+    Shell(Material, f64),
+    /// Hexahedra become [`Hex8`](crate::fem::Hex8) bricks of this material.
+    Solid(Material),
+    /// Lines, surfaces and volumes of this name make no elements; others can be added.
+    LeftOut,
+}
+
+impl GmshPart {
+    /// Dimension of its elements; `None` for all.
+    fn dimension(&self) -> Option<usize> {
+        match self {
+            Self::Beam(..) => Some(1),
+            Self::Shell(..) => Some(2),
+            Self::Solid(_) => Some(3),
+            Self::LeftOut => None,
+        }
+    }
+
+    /// Whether it is the part of an element, if it is the part of the group `name`.
+    fn is_of(&self, cell: &MeshCell, name: &str) -> bool {
+        self.fits(cell.kind.dimension()) && cell.is_in(name)
+    }
+
+    /// Whether it is a part for elements of this dimension.
+    fn fits(&self, dimension: usize) -> bool {
+        self.dimension().map_or(dimension > 0, |part| part == dimension)
+    }
+}
 
 /// A mesh in space as Gmsh writes it: file formats 4.1 and 2.2, as text or binary (`gmsh -3 -format msh41`).
 ///
@@ -51,7 +92,7 @@ pub struct GmshSpaceMesh {
     file: String,
     /// Coordinates of the nodes, in the order of the file.
     nodes: Vec<[f64; 3]>,
-    cells: Vec<Cell>,
+    cells: Vec<MeshCell>,
 }
 
 impl GmshSpaceMesh {
@@ -60,8 +101,8 @@ impl GmshSpaceMesh {
     /// # Errors
     /// [`Error::File`] with the line and the reason.
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
-        let (name, file) = parse::open(path.as_ref())?;
-        Self::from_reader(&name, file)
+        let path = path.as_ref();
+        Self::from_reader(&path.display().to_string(), open_file(path)?)
     }
 
     /// Reads the same from any source of bytes; errors use `name` for the source.
@@ -70,15 +111,16 @@ impl GmshSpaceMesh {
     /// [`Error::File`] with the line and the reason. Elements that are not read, such as tetrahedra, are named with
     /// their number.
     pub fn from_reader(name: &str, source: impl Read) -> Result<Self> {
-        let refuse = |(line, fault): (usize, FileFault)| fault.of(name, line);
-        let raw = parse::read(source, &IN_SPACE).map_err(refuse)?;
+        let file_mesh =
+            parse::read(source, &KINDS_IN_SPACE).map_err(|(line, fault)| fault.of(name, line))?;
         // A point without a group may be the centre of an arc.
-        let numbered =
-            cell::number(&raw, |cell| cell.kind != Kind::Point || raw.is_in_a_group(cell));
-        let numbered = numbered.map_err(refuse)?;
+        let numbered = cell::number(&file_mesh, |cell| {
+            cell.kind != ElementKind::Point || file_mesh.is_in_a_group(cell)
+        });
+        let numbered = numbered.map_err(|(line, fault)| fault.of(name, line))?;
         let nodes: Vec<[f64; 3]> = numbered.points.iter().map(|point| point.values).collect();
         let mut cells = numbered.cells;
-        for cell in cells.iter_mut().filter(|cell| cell.kind == Kind::Brick) {
+        for cell in cells.iter_mut().filter(|cell| cell.kind == ElementKind::Brick) {
             let corners: Vec<[f64; 3]> = cell.nodes.iter().map(|&node| nodes[node]).collect();
             if Hex8::is_inside_out(&corners) {
                 cell.nodes.rotate_left(4);
@@ -107,9 +149,9 @@ impl GmshSpaceMesh {
         let numbers = MergedNumbers::new(&points, tolerance)?;
         numbers.check(&self.file, self.cells.iter())?;
         for cell in &mut self.cells {
-            numbers.apply(&mut cell.nodes);
+            numbers.renumber(&mut cell.nodes);
         }
-        self.nodes = numbers.kept(&self.nodes);
+        self.nodes = numbers.kept_items(&self.nodes);
         Ok(points.len() - self.nodes.len())
     }
 
@@ -127,9 +169,12 @@ impl GmshSpaceMesh {
     /// # Errors
     /// [`Error::File`] if there is no such group.
     pub fn cells(&self, dimension: usize, name: &str) -> Result<Vec<Vec<usize>>> {
-        let own = |cell: &&Cell| cell.kind.dimension() == dimension && cell.is_in(name);
-        let found: Vec<Vec<usize>> =
-            self.cells.iter().filter(own).map(|cell| cell.nodes.clone()).collect();
+        let mut found = Vec::new();
+        for cell in &self.cells {
+            if cell.kind.dimension() == dimension && cell.is_in(name) {
+                found.push(cell.nodes.clone());
+            }
+        }
         if found.is_empty() { Err(self.no_group(Some(dimension), name)) } else { Ok(found) }
     }
 
@@ -143,9 +188,9 @@ impl GmshSpaceMesh {
     /// a brick. [`Error::File`] also for a part without a group or given twice.
     pub fn mesh(&self, parts: &[(&str, GmshPart)]) -> Result<Mesh> {
         self.check(parts)?;
-        let placed = self.placed(parts)?;
+        let elements = self.elements_with_parts(parts)?;
         let mut shells = Vec::new();
-        for (cell, part) in &placed {
+        for (cell, part) in &elements {
             if let GmshPart::Shell(material, thickness) = part {
                 let shell = Shell::new(&cell.nodes, *material, *thickness);
                 shells.push(shell.map_err(|error| cell.unusable(&self.file, error))?);
@@ -157,7 +202,7 @@ impl GmshSpaceMesh {
         for &node in &self.nodes {
             mesh.add_node_at(node)?;
         }
-        for (cell, part) in placed {
+        for (cell, part) in elements {
             let added = match (part, &cell.nodes[..]) {
                 (GmshPart::Beam(material, section, orientation), &[a, b]) => {
                     SpaceBeam::new([a, b], material, section, orientation)
@@ -177,44 +222,44 @@ impl GmshSpaceMesh {
     /// Error for a part without a group or given twice.
     fn check(&self, parts: &[(&str, GmshPart)]) -> Result<()> {
         for (k, (name, part)) in parts.iter().enumerate() {
-            let own = |cell: &Cell| part.fits(cell.kind.dimension()) && cell.is_in(name);
-            if !self.cells.iter().any(own) {
+            if !self.cells.iter().any(|cell| part.is_of(cell, name)) {
                 return Err(self.no_group(part.dimension(), name));
             }
-            let again = |(other, before): &(&str, GmshPart)| {
-                other == name && before.dimension() == part.dimension()
-            };
-            if parts[..k].iter().any(again) {
-                return Err(twice(format!("part of group '{name}'")).of(&self.file, 0));
+            let occurred_before = parts[..k].iter().any(|(other_name, other)| {
+                other_name == name && other.dimension() == part.dimension()
+            });
+            if occurred_before {
+                return Err(given_twice(format!("part of group '{name}'")).of(&self.file, 0));
             }
         }
         Ok(())
     }
 
-    /// Elements that have a part, with it.
-    fn placed(&self, parts: &[(&str, GmshPart)]) -> Result<Vec<(&Cell, GmshPart)>> {
-        let mut placed = Vec::with_capacity(self.cells.len());
-        let mut bare = Vec::new();
-        for cell in self.cells.iter().filter(|cell| cell.kind != Kind::Point) {
-            let mut own = parts
-                .iter()
-                .filter(|(name, part)| part.fits(cell.kind.dimension()) && cell.is_in(name));
-            match (own.next(), own.next()) {
-                (Some((_, part)), None) => placed.push((cell, *part)),
-                (None, _) => bare.push(cell),
+    /// Elements that have a part, each with its part.
+    fn elements_with_parts(
+        &self,
+        parts: &[(&str, GmshPart)],
+    ) -> Result<Vec<(&MeshCell, GmshPart)>> {
+        let mut elements = Vec::with_capacity(self.cells.len());
+        let mut without_part = Vec::new();
+        for cell in self.cells.iter().filter(|cell| cell.kind != ElementKind::Point) {
+            let mut parts_of_cell = parts.iter().filter(|(name, part)| part.is_of(cell, name));
+            match (parts_of_cell.next(), parts_of_cell.next()) {
+                (Some((_, part)), None) => elements.push((cell, *part)),
+                (None, _) => without_part.push(cell),
                 (Some((one, _)), Some((other, _))) => {
-                    let what = format!("part of {}, in '{one}' and '{other}',", title(cell));
-                    return Err(twice(what).of(&self.file, cell.line));
+                    let item = format!("part of {}, in '{one}' and '{other}',", title(cell));
+                    return Err(given_twice(item).of(&self.file, cell.line));
                 }
             }
         }
-        let sides = if bare.is_empty() { HashSet::new() } else { self.sides() };
-        match bare.into_iter().find(|cell| !sides.contains(&sorted(&cell.nodes))) {
-            None => Ok(placed),
+        let sides = if without_part.is_empty() { HashSet::new() } else { self.sides() };
+        match without_part.into_iter().find(|cell| !sides.contains(&sorted(&cell.nodes))) {
+            None => Ok(elements),
             Some(cell) => {
                 let groups = cell.groups.join("' or '");
-                let what = format!("part for {} of the group '{groups}'", title(cell));
-                Err(FileFault::missing(what).of(&self.file, cell.line))
+                let item = format!("part for {} of the group '{groups}'", title(cell));
+                Err(FileFault::missing(item).of(&self.file, cell.line))
             }
         }
     }
@@ -223,18 +268,19 @@ impl GmshSpaceMesh {
     fn sides(&self) -> HashSet<Vec<usize>> {
         let mut sides = HashSet::new();
         for cell in &self.cells {
-            let own = &cell.nodes[..];
+            let nodes = &cell.nodes[..];
             let faces: Vec<Vec<usize>> = match cell.kind.dimension() {
-                2 => vec![own.to_vec()],
-                3 => {
-                    Hex8::FACES.iter().map(|face| face.map(|corner| own[corner]).to_vec()).collect()
-                }
+                2 => vec![nodes.to_vec()],
+                3 => Hex8::FACES
+                    .iter()
+                    .map(|face| face.map(|corner| nodes[corner]).to_vec())
+                    .collect(),
                 _ => continue,
             };
             for face in faces {
                 let edges = face.iter().zip(face.iter().cycle().skip(1));
                 sides.extend(edges.map(|(&from, &to)| sorted(&[from, to])));
-                if cell.kind == Kind::Brick {
+                if cell.kind == ElementKind::Brick {
                     sides.insert(sorted(&face));
                 }
             }
@@ -242,6 +288,7 @@ impl GmshSpaceMesh {
         sides
     }
 
+    /// Error for a group that the file does not have.
     fn no_group(&self, dimension: Option<usize>, name: &str) -> Error {
         let item = match dimension {
             Some(0) => "point",
@@ -255,6 +302,6 @@ impl GmshSpaceMesh {
 }
 
 /// Kind and tag of an element.
-fn title(cell: &Cell) -> String {
+fn title(cell: &MeshCell) -> String {
     format!("{} {}", cell.kind.name(), cell.tag)
 }

@@ -3,46 +3,47 @@
 use std::collections::{BTreeMap, HashMap};
 use std::io::Read;
 
-use super::fields::{Fields, Reason};
-use super::kind::{Accepted, Kind};
-use super::raw::{Point, Raw, RawCell, twice};
+use super::fields::{LineResult, MshFields};
+use super::kind::{AcceptedKinds, ElementKind};
+use super::raw::{FileCell, FileMesh, FilePoint, given_twice};
 
-pub(super) fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+/// Reads the section of nodes.
+pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
     let count: u64 = fields.text("number of nodes")?;
     for (_, place) in (0..count).zip(0..) {
         let tag = fields.int("tag of a node")?;
-        if raw.places.insert(tag, place).is_some() {
-            return Err(fields.refuse(twice(format!("node {tag}"))));
+        if mesh.places.insert(tag, place).is_some() {
+            return Err(fields.fault(given_twice(format!("node {tag}"))));
         }
         let mut values = [0.0; 3];
         for value in &mut values {
             *value = fields.number()?;
         }
-        raw.coordinates.push(Point { values, line: fields.line });
+        mesh.coordinates.push(FilePoint { values, line: fields.line });
     }
     Ok(())
 }
 
-/// Elements come in blocks in a binary file, one by one in a text.
+/// Reads the section of elements, which come in blocks in a binary file, one by one in a text.
 pub(super) fn elements(
-    fields: &mut Fields<impl Read>,
-    raw: &mut Raw,
-    accepted: &Accepted,
-) -> Reason<()> {
+    fields: &mut MshFields<impl Read>,
+    mesh: &mut FileMesh,
+    accepted: &AcceptedKinds,
+) -> LineResult<()> {
     let announced: u64 = fields.text("number of elements")?;
     let mut grouped = GroupedCells::default();
     let mut found = 0;
     while found < announced {
-        let mut head = None;
+        let mut single_tag = None;
         if !fields.is_binary() {
-            head = Some(fields.int("tag of an element")?);
+            single_tag = Some(fields.int("tag of an element")?);
         }
         let number: u32 = fields.int("type of elements")?;
-        let count: u64 = if head.is_some() { 1 } else { fields.int("number of elements")? };
+        let count: u64 = if single_tag.is_some() { 1 } else { fields.int("number of elements")? };
         let tags: u64 = fields.int("number of tags")?;
-        let kind = accepted.kind(number, count).map_err(|reason| fields.refuse(reason))?;
+        let kind = accepted.kind(number, count).map_err(|fault| fields.fault(fault))?;
         for _ in 0..count {
-            let tag = match head {
+            let tag = match single_tag {
                 Some(tag) => tag,
                 None => fields.int("tag of an element")?,
             };
@@ -61,18 +62,18 @@ pub(super) fn elements(
             for _ in 0..kind.nodes() {
                 nodes.push(fields.int("tag of a node")?);
             }
-            grouped.add(Tagged { kind, tag, nodes, line: fields.line }, entity, group);
+            grouped.add(TaggedElement { kind, tag, nodes, line: fields.line }, entity, group);
         }
         found = found.saturating_add(count.max(1));
     }
-    fields.agree("elements", found, announced)?;
-    grouped.finish(raw);
+    fields.check_count("elements", found, announced)?;
+    grouped.finish(mesh);
     Ok(())
 }
 
 /// An element with the tags of its nodes.
-struct Tagged {
-    kind: Kind,
+struct TaggedElement {
+    kind: ElementKind,
     tag: u64,
     nodes: Vec<u64>,
     line: usize,
@@ -81,19 +82,19 @@ struct Tagged {
 /// Elements with all their groups: an element of several groups stands in the file once for each.
 #[derive(Default)]
 struct GroupedCells {
-    cells: Vec<(Tagged, Vec<i64>)>,
+    cells: Vec<(TaggedElement, Vec<i64>)>,
     /// Index of an element by its entity and nodes.
     index: HashMap<(i64, Vec<u64>), usize>,
 }
 
 impl GroupedCells {
     /// Adds an element, or the `group` to an element that stood before.
-    fn add(&mut self, cell: Tagged, entity: i64, group: i64) {
+    fn add(&mut self, cell: TaggedElement, entity: i64, group: i64) {
         let key = (entity, cell.nodes.clone());
         let before = self.index.get(&key).and_then(|&index| self.cells.get_mut(index));
-        let same =
-            before.filter(|(known, groups)| known.kind == cell.kind && !groups.contains(&group));
-        if let Some((_, groups)) = same {
+        let same_element =
+            before.filter(|(other, groups)| other.kind == cell.kind && !groups.contains(&group));
+        if let Some((_, groups)) = same_element {
             groups.push(group);
         } else {
             self.index.insert(key, self.cells.len());
@@ -101,10 +102,10 @@ impl GroupedCells {
         }
     }
 
-    /// Appends the elements to `raw`, each in an entity for its set of groups.
-    fn finish(self, raw: &mut Raw) {
+    /// Appends the elements to a mesh, each in an entity for its set of groups.
+    fn finish(self, mesh: &mut FileMesh) {
         let mut entities: BTreeMap<(u8, Vec<i64>), i64> = BTreeMap::new();
-        for (Tagged { kind, tag, nodes, line }, mut groups) in self.cells {
+        for (TaggedElement { kind, tag, nodes, line }, mut groups) in self.cells {
             // Zero stands for an element without a group.
             groups.retain(|&group| group != 0);
             groups.sort_unstable();
@@ -112,8 +113,8 @@ impl GroupedCells {
             let next = i64::try_from(entities.len()).unwrap_or(i64::MAX);
             let number = *entities.entry((dimension, groups.clone())).or_insert(next);
             let entity = (dimension, number);
-            raw.groups.insert(entity, groups);
-            raw.cells.push(RawCell { kind, entity, tag, nodes, line });
+            mesh.groups.insert(entity, groups);
+            mesh.cells.push(FileCell { kind, entity, tag, nodes, line });
         }
     }
 }

@@ -2,26 +2,30 @@
 
 use std::io::Read;
 
-use super::fields::{Fields, Reason};
-use super::kind::Accepted;
-use super::raw::{Point, Raw, RawCell, twice};
+use super::fields::{LineResult, MshFields};
+use super::kind::AcceptedKinds;
+use super::raw::{FileCell, FileMesh, FilePoint, given_twice};
 
-/// The parts of a partitioned mesh: separate entities, with the groups of their parents.
-pub(super) fn partitioned_entities(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
+/// Reads the parts of a partitioned mesh: separate entities, with the groups of their parents.
+pub(super) fn partitioned_entities(
+    fields: &mut MshFields<impl Read>,
+    mesh: &mut FileMesh,
+) -> LineResult<()> {
     fields.size("number of partitions")?;
     let ghosts = fields.size("number of ghost entities")?;
     for _ in 0..ghosts {
         let _: i64 = fields.int("tag of a ghost entity")?;
         let _: i64 = fields.int("partition")?;
     }
-    entities(fields, raw, true)
+    entities(fields, mesh, true)
 }
 
+/// Reads the section of entities.
 pub(super) fn entities(
-    fields: &mut Fields<impl Read>,
-    raw: &mut Raw,
-    partitioned: bool,
-) -> Reason<()> {
+    fields: &mut MshFields<impl Read>,
+    mesh: &mut FileMesh,
+    is_partitioned: bool,
+) -> LineResult<()> {
     let mut counts = [0; 4];
     for count in &mut counts {
         *count = fields.size("number of entities")?;
@@ -29,7 +33,7 @@ pub(super) fn entities(
     for (dimension, count) in (0_u8..).zip(counts) {
         for _ in 0..count {
             let tag: i64 = fields.int("tag of an entity")?;
-            if partitioned {
+            if is_partitioned {
                 let _: u8 = fields.int("dimension of the parent")?;
                 let _: i64 = fields.int("tag of the parent")?;
                 let partitions = fields.size("number of partitions")?;
@@ -46,14 +50,15 @@ pub(super) fn entities(
             for _ in 0..number {
                 groups.push(fields.int("tag of a group")?);
             }
-            let before = raw.groups.get(&(dimension, tag));
-            let other = before.is_some_and(|before| *before != groups && !groups.is_empty());
-            if other && !partitioned {
-                let what = format!("group of entity {tag} of dimension {dimension}");
-                return Err(fields.refuse(twice(what)));
+            let groups_before = mesh.groups.get(&(dimension, tag));
+            let differs =
+                groups_before.is_some_and(|before| *before != groups && !groups.is_empty());
+            if differs && !is_partitioned {
+                let item = format!("group of entity {tag} of dimension {dimension}");
+                return Err(fields.fault(given_twice(item)));
             }
             if !groups.is_empty() {
-                raw.groups.insert((dimension, tag), groups);
+                mesh.groups.insert((dimension, tag), groups);
             }
             if dimension > 0 {
                 let bounds = fields.size("number of bounding entities")?;
@@ -66,18 +71,19 @@ pub(super) fn entities(
     Ok(())
 }
 
-pub(super) fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()> {
-    let (blocks, announced) = counts(fields, "number of nodes")?;
+/// Reads the section of nodes.
+pub(super) fn nodes(fields: &mut MshFields<impl Read>, mesh: &mut FileMesh) -> LineResult<()> {
+    let BlockCounts { blocks, entries } = block_counts(fields, "number of nodes")?;
     for _ in 0..blocks {
         let dimension: usize = fields.int("dimension of an entity")?;
         let _: i64 = fields.int("tag of an entity")?;
         let parametric: u8 = fields.int("0 or 1")?;
         let count = fields.size("number of nodes")?;
-        let first = raw.coordinates.len();
+        let first = mesh.coordinates.len();
         for (_, place) in (0..count).zip(first..) {
             let tag = fields.size("tag of a node")?;
-            if raw.places.insert(tag, place).is_some() {
-                return Err(fields.refuse(twice(format!("node {tag}"))));
+            if mesh.places.insert(tag, place).is_some() {
+                return Err(fields.fault(given_twice(format!("node {tag}"))));
             }
         }
         for _ in 0..count {
@@ -85,43 +91,50 @@ pub(super) fn nodes(fields: &mut Fields<impl Read>, raw: &mut Raw) -> Reason<()>
             for value in &mut values {
                 *value = fields.number()?;
             }
-            raw.coordinates.push(Point { values, line: fields.line });
+            mesh.coordinates.push(FilePoint { values, line: fields.line });
             for _ in 0..if parametric == 0 { 0 } else { dimension.min(3) } {
                 fields.number()?;
             }
         }
     }
-    fields.agree("nodes", raw.coordinates.len() as u64, announced)
+    fields.check_count("nodes", mesh.coordinates.len() as u64, entries)
 }
 
-/// Numbers of blocks and of entries in them; the smallest and the largest tag follow in the file.
-fn counts(fields: &mut Fields<impl Read>, what: &'static str) -> Reason<(u64, u64)> {
-    let counts = (fields.size("number of blocks")?, fields.size(what)?);
-    for tag in ["smallest tag", "largest tag"] {
-        fields.size(tag)?;
-    }
-    Ok(counts)
+/// Numbers of blocks and of entries in them.
+struct BlockCounts {
+    blocks: u64,
+    entries: u64,
 }
 
+/// Reads the head of a section; the smallest and the largest tag follow the counts.
+fn block_counts(fields: &mut MshFields<impl Read>, item: &'static str) -> LineResult<BlockCounts> {
+    let blocks = fields.size("number of blocks")?;
+    let entries = fields.size(item)?;
+    fields.size("smallest tag")?;
+    fields.size("largest tag")?;
+    Ok(BlockCounts { blocks, entries })
+}
+
+/// Reads the section of elements.
 pub(super) fn elements(
-    fields: &mut Fields<impl Read>,
-    raw: &mut Raw,
-    accepted: &Accepted,
-) -> Reason<()> {
-    let (blocks, announced) = counts(fields, "number of elements")?;
+    fields: &mut MshFields<impl Read>,
+    mesh: &mut FileMesh,
+    accepted: &AcceptedKinds,
+) -> LineResult<()> {
+    let BlockCounts { blocks, entries } = block_counts(fields, "number of elements")?;
     for _ in 0..blocks {
         let entity = (fields.int("dimension of an entity")?, fields.int("tag of an entity")?);
         let number: u32 = fields.int("type of elements")?;
         let count = fields.size("number of elements")?;
-        let kind = accepted.kind(number, count).map_err(|reason| fields.refuse(reason))?;
+        let kind = accepted.kind(number, count).map_err(|fault| fields.fault(fault))?;
         for _ in 0..count {
             let tag = fields.size("tag of an element")?;
             let mut nodes = Vec::with_capacity(kind.nodes());
             for _ in 0..kind.nodes() {
                 nodes.push(fields.size("tag of a node")?);
             }
-            raw.cells.push(RawCell { kind, entity, tag, nodes, line: fields.line });
+            mesh.cells.push(FileCell { kind, entity, tag, nodes, line: fields.line });
         }
     }
-    fields.agree("elements", raw.cells.len() as u64, announced)
+    fields.check_count("elements", mesh.cells.len() as u64, entries)
 }

@@ -1,20 +1,19 @@
-//! Tables of a sweep.
+//! Runs a sweep into a table.
 
 use std::fmt::Display;
 
-use super::columns::Columns;
 use super::run::{Sweep, SweepCase};
-use super::table::{CaseTable, Row};
+use super::table::{CaseTable, Columns, TableRow};
 use super::{Parameter, check_names};
 use crate::error::CaseError;
 use crate::error::Result;
 
 /// Row of a case from its result.
-pub(super) fn row<const N: usize, E: Display>(
+pub(super) fn table_row<const N: usize, E: Display>(
     case: usize,
     result: std::result::Result<[f64; N], CaseError<E>>,
-) -> Row {
-    Row::new(case, result.map(Vec::from).map_err(|error| error.to_string()))
+) -> TableRow {
+    TableRow::new(case, result.map(Vec::from).map_err(|error| error.to_string()))
 }
 
 impl Sweep<'_> {
@@ -44,21 +43,18 @@ impl Sweep<'_> {
         columns: [&str; N],
         run: impl Fn(&SweepCase<'_>) -> std::result::Result<[f64; N], E> + Sync,
     ) -> Result<CaseTable> {
-        let columns = self.named(&columns)?;
+        let columns = self.checked_columns(&columns)?;
         let mut rows = Vec::new();
-        self.run(run, |case, result| rows.push(row(case, result)));
-        Ok(self.tabled(columns, rows))
-    }
-
-    /// The columns' names, checked together with the parameters' names.
-    pub(super) fn named<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
-        let own = || columns.iter().map(AsRef::as_ref);
-        check_names(self.grid.parameters.iter().map(Parameter::name).chain(own()))?;
-        Ok(own().map(str::to_owned).collect())
-    }
-
-    pub(super) fn tabled(&self, columns: Vec<String>, mut rows: Vec<Row>) -> CaseTable {
+        self.run(run, |case, result| rows.push(table_row(case, result)));
         rows.sort_unstable_by_key(|row| row.case);
-        CaseTable { grid: self.grid.clone(), columns: Columns::of_results(columns), rows }
+        Ok(CaseTable { grid: self.grid.clone(), columns: Columns::of_results(columns), rows })
+    }
+
+    /// The columns' names; an error if one is empty, reserved or occurs twice.
+    pub(super) fn checked_columns<S: AsRef<str>>(&self, columns: &[S]) -> Result<Vec<String>> {
+        let columns: Vec<String> = columns.iter().map(|name| name.as_ref().to_owned()).collect();
+        let parameters = self.grid.parameters.iter().map(Parameter::name);
+        check_names(parameters.chain(columns.iter().map(String::as_str)))?;
+        Ok(columns)
     }
 }
