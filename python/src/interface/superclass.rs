@@ -71,12 +71,12 @@ impl PyInterfaceLaw {
     }
 }
 
-/// The recipe of a law of this package, or of one written in Python, for a ground in plan or in the plane.
-fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn InterfaceLaw>> {
+/// The recipe of a law of this package, or of one written in Python.
+fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
     if let Ok(own) = object.cast::<PyInterfaceLaw>() {
         return Ok(own.get().make.clone());
     }
-    if object.hasattr("conditions")? || (in_plan && object.hasattr("limits")?) {
+    if object.hasattr("limits")? || object.hasattr("conditions")? {
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
@@ -85,20 +85,17 @@ fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn Inter
     } else if object.is_callable() {
         "VariableFriction(function) has the friction coefficient that a function returns".into()
     } else {
-        format!("it has no method `{}`", if in_plan { "limits" } else { "conditions" })
+        "it has no method `limits`".into()
     };
     let found = object.get_type().name()?;
-    Err(refuse(format!("{found} is no interface law for this ground: {hint}")))
+    Err(refuse(format!("{found} is no interface law: {hint}")))
 }
 
 /// One law for all elements, or a sequence of one each.
-pub(crate) fn recipes(
-    object: &Bound<'_, PyAny>,
-    in_plan: bool,
-) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+pub(crate) fn recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
     no_class(object)?;
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
-        Ok(list) => list.iter().map(|law| recipe(law, in_plan)).collect(),
-        Err(_) => Ok(vec![recipe(object, in_plan)?]),
+        Ok(list) => list.iter().map(recipe).collect(),
+        Err(_) => Ok(vec![recipe(object)?]),
     }
 }

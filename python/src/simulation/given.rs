@@ -79,8 +79,7 @@ impl Given {
     /// A builder of parts of its own.
     pub(super) fn made(&self, py: Python<'_>) -> PyResult<Made> {
         let (ground, own_ground) = ground::made(self.ground.bind(py))?;
-        let in_plan = ground.elements().first().is_some_and(|own| own.directions().len() == 3);
-        let laws = interface::recipes(self.interface.bind(py), in_plan)?;
+        let laws = interface::recipes(self.interface.bind(py))?;
         let laws = laws.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
         user::made_springs();
         let (structure, object) = structure::made(self.structure.bind(py))?;
