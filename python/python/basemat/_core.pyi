@@ -140,8 +140,8 @@ class Refinement:
         """Observed order of convergence in the time step; NaN if nothing depends on it."""
     @property
     def mismatch(self) -> float:
-        """Distance of the last setting's results from those that the other errors foretell, relative to
-        the size of the results.
+        """Distance of the last setting's results from those predicted from the other errors, relative to the size of the
+        results.
         """
     @property
     def is_regular(self) -> bool:
@@ -274,12 +274,12 @@ class ElasticGround(Ground):
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
     half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
-    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
-    given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
-    unless given). ``kernels``: `SharedKernels` of several simulations; own ones unless given.
+    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (unless given, 1e-12 with "auto" and
+    1e-10 with "exponentials"); ``history_memory``: bytes that the history may take (1 GiB unless given).
+    ``kernels``: `SharedKernels` of several simulations; not shared unless given.
     Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
     ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
-    ``kernel_file``: path of a file that keeps them (none unless given).
+    ``kernel_file``: path of a file that stores them (none unless given).
     """
 
     def __new__(
@@ -535,7 +535,7 @@ class Strip:
 @final
 class Plan:
     """Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
-    cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
+    cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it), with ``cells`` along the shorter side of them all.
     Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
     """
 
@@ -579,8 +579,8 @@ class Plan:
 
 @disjoint_base
 class InterfaceLaw:
-    """A law between base and ground: what an element of the contact does in a step, its mode (see
-    `MODES`), and which conditions that imposes.
+    """A law between base and ground: the limits of an element's tractions, and in the plane its contact modes (see
+    `MODES`) and the conditions that each of them imposes.
     """
 
     @property
@@ -602,7 +602,7 @@ class InterfaceLaw:
         ``tolerance`` left aside.
         """
     def limits(self, start: PreviousContact) -> Limits:
-        """The `Limits` of an element's tractions on a ground in plan, in the step after ``start``
+        """The `Limits` of an element's tractions in the step after ``start``
         (`PreviousContact`).
         """
 
@@ -617,7 +617,7 @@ class Coulomb(InterfaceLaw):
     """Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 
     ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
-    With 3 or more, steps in plan may have several solutions: hold the run against one of a mirror image.
+    With 3 or more, steps in plan may have several solutions: compare the run with one of the mirror image.
     ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
     contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
     rule); on the gap unless given.
@@ -668,8 +668,8 @@ class ThinLayer(InterfaceLaw):
 
     ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
     coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
-    stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
-    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
+    stiffness that remains when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
+    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
     ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
     default), "velocity" or "last_velocity" (of this step or the one before).
@@ -1345,10 +1345,10 @@ class Summary:
         """Sliding distance: |slip| of it summed over time, m."""
     @property
     def least_sliding_safety(self) -> Peak | None:
-        """Least factor of safety against sliding, a `Peak`; None without a friction coefficient."""
+        """Lowest factor of safety against sliding, a `Peak`; None without a friction coefficient."""
     @property
     def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
+        """Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the
         left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
         middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
         """
@@ -1358,7 +1358,7 @@ class Summary:
 
 @final
 class ServiceCheck:
-    """A limit of service, held against a run."""
+    """Comparison of a run with a limit of service."""
 
     @property
     def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation"]:
@@ -1374,7 +1374,7 @@ class ServiceCheck:
         """End of the first step beyond the limit, s; None if there was none."""
     @property
     def is_met(self) -> bool:
-        """Whether the limit was kept."""
+        """Whether the run stays within the limit."""
     @property
     def margin(self) -> float:
         """Unused fraction of the limit; below zero where it is exceeded."""
@@ -1499,7 +1499,7 @@ class Run(Summary):
         """The ground motion in words, as on the page of the run."""
     @property
     def time(self) -> NDArray[np.float64]:
-        """Times of the kept steps: array of shape (steps + 1,), s; the first is the start."""
+        """Times of the recorded steps: array of shape (steps + 1,), s; the first is the start."""
     def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
     def series(self) -> dict[str, NDArray[np.float64]]:
@@ -1521,7 +1521,7 @@ class Run(Summary):
     @property
     def static_displacement(self) -> NDArray[np.float64]:
         """Static displacement of the degrees of freedom, under weight and loads at the start: array of shape (n,), m and rad. It
-        is kept with the motion: give ``motion_every`` to `Simulation.run`.
+        is recorded with the motion: give ``motion_every`` to `Simulation.run`.
         """
     @property
     def dof_names(self) -> list[str] | None:
@@ -1714,7 +1714,7 @@ class Run(Summary):
         """A check of each limit of service that the simulation was given: list of `ServiceCheck`."""
     @property
     def is_serviceable(self) -> bool | None:
-        """Whether all limits of service were kept; None without limits."""
+        """Whether the run stays within all limits of service; None without limits."""
     @property
     def envelope(self) -> dict[str, NDArray[np.float64]]:
         """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
@@ -1739,7 +1739,7 @@ class Run(Summary):
         """The `EnergyBalance` at the end."""
     @property
     def energy_error(self) -> float:
-        """Largest residual of the energy balance, relative to the largest energy; NaN if none is kept."""
+        """Largest residual of the energy balance, relative to the largest energy; NaN without an energy balance."""
     @property
     def energy_fractions(self) -> dict[str, float] | None:
         """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
@@ -1835,8 +1835,8 @@ class DofCombination:
     """A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 
     ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
-    ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
-    is asked for. Rows add, subtract and scale.
+    ``(dof, weight)``, an array of all n weights, or another row. Arguments that are rows may have any of these forms.
+    Rows add, subtract and scale.
     """
 
     def __new__(cls, terms: _RowLike) -> Self: ...
@@ -1924,7 +1924,7 @@ class InitialConditions:
             after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
             nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
             "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
-            static state, weight and loads act from t = 0 on, as for a block let go.
+            static state, weight and loads act from t = 0 on, as for a block that is released.
         displacement: of the n degrees of freedom at t = 0 against the static state, array of
             shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
         velocity: the same for velocities, m/s and rad/s; zero unless given.
@@ -1955,7 +1955,7 @@ class SolverOptions:
         rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
             run goes on; infinite: runs end by their steps alone.
         flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-            most so many iterations a step, for comparison with their paper; the robust search unless
+            most this number of iterations a step, for comparison with their paper; the robust search unless
             given.
     """
 
@@ -1976,7 +1976,7 @@ class ResultOptions:
     Args:
         moment_center: x of the point about which the base moment is taken, m; the middle of the base
             unless given.
-        energy_balance: whether energies are booked; True by default. Without them a step takes less
+        energy_balance: whether energies are computed; True by default. Without them a step takes less
             time, and `Run.energy_error` is NaN.
         safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
             interface law unless given.
@@ -2079,7 +2079,7 @@ class Simulation:
         it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
         stays at the last accepted step.
 
-        ``series``: whether time series are kept, True by default: the scalars of every ``every``th step (1 by default, as
+        ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
         floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
         ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
         ``observe``, which may end the run, only the values of the steps made.
@@ -2135,7 +2135,7 @@ class Simulation:
         """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
     @property
     def history_choice(self) -> str | None:
-        """Which history the ground keeps, in words; None for a ground without one."""
+        """The method by which the ground computes its history, in words; None for a ground without history."""
     @property
     def conditioning(self) -> tuple[float, float, float]:
         """Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem."""
@@ -2152,8 +2152,8 @@ class Simulation:
         first mode (ASCE 7, chapter 19). This simulation stays where it is.
 
         T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
-        structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
-        let go. The soil is linear: give it the moduli of the design motion.
+        structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
+        deflection in this mode. The soil is linear: give it the moduli of the design motion.
         """
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
@@ -2825,7 +2825,7 @@ class ReducedModel(Structure):
 
 @final
 class StructureGroup(Structure):
-    """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
+    """ListOf structures on one ground, coupled through the soil: ``members`` is a list of pairs
     ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
     each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
     """
@@ -3283,7 +3283,7 @@ class MatrixModel(Structure):
     in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
     metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
     (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-    list of n names, each another one, for `dof`, frames and errors; none unless given.
+    list of n different names, for `dof`, frames and errors; none unless given.
     """
 
     def __new__(
@@ -3580,7 +3580,7 @@ class WithSprings(Structure):
 class Condition:
     """One linear condition on an element at the end of a step:
     ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
-    pressure p and shear traction τ (Pa); what is not given is 0.
+    pressure p and shear traction τ (Pa). Each coefficient is 0 by default.
     """
 
     def __new__(
@@ -3657,7 +3657,7 @@ class ContactState:
 
 @final
 class Tolerance:
-    """Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+    """Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
     pressure and shear (Pa).
     """
 
@@ -3708,8 +3708,7 @@ class PreviousContact(ContactState):
 
 @final
 class Limits:
-    """Limits of an element's tractions on a ground in plan, in the step after a `PreviousContact`: what
-    `UserPlanLaw.limits` returns.
+    """Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
 
     Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
@@ -3737,13 +3736,13 @@ class Limits:
         """Pressure that friction acts on in addition to the contact pressure, Pa."""
     @property
     def shear_strength(self) -> float:
-        """Shear traction that is borne beside friction, Pa."""
+        """Shear strength in addition to friction, Pa."""
     @property
     def tension(self) -> float:
         """Tensile strength, Pa."""
     @property
     def pressure_cap(self) -> float:
-        """Greatest pressure, Pa."""
+        """Largest pressure, Pa."""
     @property
     def gap_offset(self) -> float:
         """Gap of a closed element, m."""
@@ -3854,12 +3853,12 @@ def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = Fa
     right or, if ``vertical`` (False by default), up.
     """
 def memory_limit() -> int:
-    """Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
-    4 GiB unless `set_memory_limit` was called.
+    """Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take; 4 GiB unless `set_memory_limit` was
+    called.
     """
 def set_memory_limit(bytes: int) -> None:
-    """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
-    Sizes are held against it before anything is allocated, and raise an error that says what they would take.
+    """Sets the memory limit of this process: ``bytes``, the memory of the machine less that of its other programs.
+    Sizes are compared with it before anything is allocated; an error states the memory that they would take.
     """
 def _cancel_when(event: Any = None) -> None: ...
 def _collect_warnings(collect: bool) -> list[str]: ...

@@ -22,8 +22,8 @@ Ended = Callable[[int, Outcome], None]
 
 def run_in_turn(arguments: Sequence[Any], ended: Ended) -> None:
     """Runs cases in this thread."""
-    for place, own in enumerate(arguments):
-        ended(place, run_case(*own))
+    for place, case_arguments in enumerate(arguments):
+        ended(place, run_case(*case_arguments))
 
 
 def run_in_threads(arguments: Sequence[Any], jobs: int, ended: Ended) -> None:
@@ -98,7 +98,7 @@ def _run(
                 lost[place] = error
                 continue
             futures.append(future)
-            future.add_done_callback(lambda own, place=place: done.put((place, own)))
+            future.add_done_callback(lambda future, place=place: done.put((place, future)))
         for _ in range(len(futures)):
             place, future = _next(done)
             found = _outcome(future)

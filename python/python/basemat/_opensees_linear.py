@@ -92,7 +92,7 @@ class Elements:
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
             text = self._part("elements", tag).text if self._type(tag) not in _SOLIDS else ""
-            reasons = [self._name("material", own) for own in self._uses("material", text) if self._one_sided(own)]
+            reasons = [self._name("material", material) for material in self._uses("material", text) if self._one_sided(material)]
             if reasons or "Contact" in self._type(tag):
                 found.setdefault(", ".join([self._type(tag), *dict.fromkeys(reasons)]), []).append(int(tag))
         return found
@@ -105,7 +105,7 @@ class Elements:
                 continue
             [name] = self._uses("section", self._part("elements", tag).text) or [""]
             printed = re.search(r'"(?:t|totalT)hickness": "?([^",}]+)', self._part("section", name).text)
-            nodes = [int(own) for own in self._ops.eleNodes(tag)]
+            nodes = [int(node) for node in self._ops.eleNodes(tag)]
             found[int(tag)] = nodes, float(printed[1]) if printed else None
         return found
 
@@ -128,7 +128,7 @@ class Elements:
         """Tags of this kind in a text."""
         single = re.findall(rf'"{kind}": "?(\d+)"?', text, re.IGNORECASE)
         several = re.findall(rf'"{kind}s": \[([^\]]*)\]', text)
-        return list(dict.fromkeys(single + [own for found in several for own in re.findall(r"\d+", found)]))
+        return list(dict.fromkeys(single + [number for found in several for number in re.findall(r"\d+", found)]))
 
     def _reasons(self, tag: int) -> Iterator[str]:
         """What makes an element nonlinear, as far as it is printed."""
@@ -182,4 +182,4 @@ class Elements:
         if part.type == "ViscousMaterial":
             power = re.search(r"Alpha: (\S+)", part.text)
             return power is None or float(power[1]) != 1.0
-        return any(self._one_sided(own) for own in self._uses("material", part.text))
+        return any(self._one_sided(material) for material in self._uses("material", part.text))

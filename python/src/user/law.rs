@@ -7,15 +7,15 @@ use basemat::interface::{
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use super::object::{UserObject, ask};
+use super::object::{UserObject, call_unless_raised};
 use super::{PyContactState, PyLimits, PyPreviousContact};
 use crate::array::{Count, Numbers};
-use crate::error::{has_raised, refuse, returned};
+use crate::error::{extract_returned, has_stored_exception, input_error};
 use crate::names::{mode, mode_name};
 
 /// One linear condition on an element at the end of a step:
 /// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
-/// pressure p and shear traction τ (Pa); what is not given is 0.
+/// pressure p and shear traction τ (Pa). Each coefficient is 0 by default.
 #[pyclass(name = "Condition", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyCondition(pub(crate) Condition);
@@ -83,7 +83,7 @@ impl PyCondition {
     }
 }
 
-/// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+/// Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
 /// pressure and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -154,25 +154,29 @@ impl UserLaw {
     pub(crate) fn new(law: &Bound<'_, PyAny>) -> PyResult<Self> {
         let object = UserObject::new(law, "interface law", &OPTIONAL_METHODS)?;
         let state_variables = match attribute(law, "state_variables")? {
-            Some(count) => returned::<Count>("state_variables of the interface law", &count)?.0,
+            Some(count) => {
+                extract_returned::<Count>("state_variables of the interface law", &count)?.0
+            }
             None => 0,
         };
         let friction_coefficient = match attribute(law, "friction_coefficient")? {
-            Some(value) => Some(returned("friction_coefficient of the interface law", &value)?),
+            Some(value) => {
+                Some(extract_returned("friction_coefficient of the interface law", &value)?)
+            }
             None => None,
         };
         for method in ["initial_state_variables", "commit"] {
             if state_variables == 0 && object.has(method) {
                 let text = "but no `state_variables`, the count of numbers that it returns";
-                return Err(refuse(format!("the law has `{method}`, {text}")));
+                return Err(input_error(format!("the law has `{method}`, {text}")));
             }
         }
         let mut user_law =
             Self { object, modes: Vec::new(), state_variables, friction_coefficient };
         user_law.modes = if user_law.object.has("conditions") {
             let names =
-                law.getattr_opt("modes")?.ok_or_else(|| refuse("the law has no `modes`"))?;
-            let names: Vec<String> = returned("modes of the interface law", &names)?;
+                law.getattr_opt("modes")?.ok_or_else(|| input_error("the law has no `modes`"))?;
+            let names: Vec<String> = extract_returned("modes of the interface law", &names)?;
             names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?
         } else {
             LimitsOf(&user_law).modes().to_vec()
@@ -188,13 +192,13 @@ impl UserLaw {
         state_variables: &mut [f64],
     ) {
         let count = state_variables.len();
-        let found = ask(None, |py| {
+        let found = call_unless_raised(None, |py| {
             let Numbers(values) = self.object.call(py, method, arguments(py)?)?;
             if values.len() == count {
                 return Ok(Some(values));
             }
             let text = format!("the law remembers {count} numbers, but returned {}", values.len());
-            Err(refuse(text))
+            Err(input_error(text))
         });
         match found {
             Some(values) => state_variables.copy_from_slice(&values),
@@ -217,11 +221,11 @@ impl InterfaceLaw for UserLaw {
         if !self.object.has("conditions") {
             return LimitsOf(self).conditions(mode, start);
         }
-        ask([UNDEFINED_CONDITION; 2], |py| {
+        call_unless_raised([UNDEFINED_CONDITION; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
-            let [first, second]: [Bound<'_, PyCondition>; 2] =
+            let conditions: [Bound<'_, PyCondition>; 2] =
                 self.object.call(py, "conditions", arguments)?;
-            Ok([first.get().0, second.get().0])
+            Ok(conditions.map(|condition| condition.get().0))
         })
     }
 
@@ -235,7 +239,7 @@ impl InterfaceLaw for UserLaw {
         if !self.object.has("conditions") {
             return LimitsOf(self).next_mode(mode, start, trial, tolerance);
         }
-        ask(mode, |py| {
+        call_unless_raised(mode, |py| {
             let start = PyPreviousContact::from_core(py, start)?;
             let arguments =
                 (mode_name(mode), start, PyContactState(*trial), PyTolerance(tolerance));
@@ -247,9 +251,9 @@ impl InterfaceLaw for UserLaw {
     /// Called before a step is accepted, so that an exception of `next_mode` ends it.
     fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
         if !self.object.has("compliance") {
-            return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
+            return if has_stored_exception() { [f64::NAN; 2] } else { [0.0; 2] };
         }
-        ask([f64::NAN; 2], |py| {
+        call_unless_raised([f64::NAN; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
             self.object.call(py, "compliance", arguments)
         })
@@ -298,7 +302,7 @@ impl InterfaceLaw for UserLaw {
             let reason = "it has no method `limits`, to act on a ground in plan";
             return Err(basemat::Error::part(name, reason));
         }
-        self.object.attempt(|py| {
+        self.object.try_call(|py| {
             let start = (PyPreviousContact::from_core(py, start)?,);
             let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
             Ok(found.get().0)
@@ -314,6 +318,6 @@ impl InterfaceLaw for UserLaw {
             return Ok(());
         }
         let numbers = (scene.gravity, scene.time_step);
-        self.object.attempt(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
+        self.object.try_call(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
     }
 }
