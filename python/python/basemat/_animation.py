@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ._protocols import UserStructure
 
 Drawn = Callable[[int], "list[Any]"]
-"""A function that draws a snapshot, of which it gets the number."""
+"""A function that draws the snapshot with a number."""
 
 
 def animate(
@@ -101,7 +101,7 @@ def _clock(axes: Axes, times: Any, place: tuple[float, float] = (0.01, 0.97)) ->
 
 
 def _structure(run: Run, axes: Axes, shape: DeformedShape, scale: float | None, times: Any) -> Drawn:
-    """The structure in its motion; axes have room for all of the snapshots."""
+    """The moving structure, in axes with room for all snapshots."""
     motion = run.motion
     outline = Outline(shape)
     nearest = {float(time): int(np.argmin(np.abs(motion["time"] - time))) for time in times}

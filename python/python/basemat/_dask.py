@@ -23,17 +23,17 @@ def run(
     options: tuple[Any, ...],
     ended: Ended,
 ) -> None:
-    """Runs cases, and tells of each when it ends, whichever worker it ran on and however often.
+    """Runs cases on any workers, and calls ``ended`` once for each.
 
     Dask runs the cases of a worker that died on another one. It counts a death against every case
-    that the worker had been given, and gives up one with more than ``allowed-failures``: also one
-    that only waited behind the case that kills. Such cases are therefore run again one by one,
-    where no other can be the reason.
+    assigned to the worker, and gives up a case with more than ``allowed-failures`` deaths: also one
+    that only waited behind the case that kills. Such cases therefore run again one by one, where no
+    other case can be the reason.
     """
     from distributed import KilledWorker, as_completed
 
     def some(places: Sequence[int]) -> dict[int, BaseException]:
-        """Runs these cases; returns those that the scheduler gave up."""
+        """Runs these cases; returns the errors of those that the scheduler gave up."""
         # In one group the scheduler hands cases out as workers come free, and not all at once.
         futures = client.map(_run, [cases[place] for place in places], make=make, options=options, pure=False)
         place_of = dict(zip(futures, places))

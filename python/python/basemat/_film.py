@@ -25,7 +25,7 @@ class Film(NamedTuple):
 
     @contextmanager
     def baked(self, dpi: float | None = None) -> Iterator[Callable[[], Any]]:
-        """While it lasts, all that does not move is one image; gives the function that returns a frame's pixels."""
+        """Context in which the artists that do not move are one image; its value is a function of a frame's pixels."""
         from matplotlib import artist, rcParams
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 

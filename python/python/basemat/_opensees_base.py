@@ -81,7 +81,7 @@ def faces_of(
 
 
 def _outlines(outline: Sequence[Any]) -> list[Any]:
-    """A list of outlines, or one by itself, as arrays of corners."""
+    """A list of outlines, or a single one, as arrays of corners."""
     try:
         found = [np.asarray(corners, dtype=float) for corners in outline]
         if found and all(corners.ndim == 1 for corners in found):
@@ -190,7 +190,7 @@ def moves(rows: Rows, used: Any) -> str:
 
 
 def masses(rows: Rows, mass: Any, up: str) -> str:
-    """Words for masses that differ by direction; the one up makes the weight."""
+    """Text about masses that differ by direction; the vertical one gives the weight."""
     names = [name for name in rows.directions if name in ("x", "y", "z")]
     found = {}
     for name in names:

@@ -137,7 +137,7 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
 
 
 class _Fixes:
-    """Supports that are put on a model for a while, beside its own."""
+    """Temporary supports in addition to those of a model."""
 
     def __init__(self, ops: Any, counts: dict[int, int], held: dict[int, set[int]]) -> None:
         self._ops, self._counts = ops, counts

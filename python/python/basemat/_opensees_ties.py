@@ -18,7 +18,7 @@ _MOST = 8
 
 
 def fixes(ops: Any) -> dict[int, set[int]]:
-    """Directions, by their numbers, that supports hold of each node (its tag)."""
+    """Numbers of the directions that supports restrain, by the tag of the node."""
     return {int(tag): {int(direction) - 1 for direction in ops.getFixedDOFs(tag)} for tag in ops.getFixedNodes()}
 
 
@@ -59,7 +59,9 @@ class Ties:
         for (tag, _), held in self._pairs.items():
             followed.setdefault(tag, set()).update(held)
         #: Ties in a chain: a node that follows a second one, which follows a third.
-        self.chains = [pair for pair, directions in retained.items() if followed.get(pair[1], set()).intersection(directions)]
+        self.chains = [
+            pair for pair, directions in retained.items() if followed.get(pair[1], set()).intersection(directions)
+        ]
         #: Displacements of constrained places as (places, weights) of such as are left.
         self._followed: dict[int, tuple[Any, Any]] = {}
         for part in self._parts():
@@ -169,9 +171,12 @@ class Ties:
         )
 
     def about(self, place: int) -> str:
-        """The constraints of the degree of freedom at ``place`` and of all that are tied to it, for people."""
+        """Text about the constraints of the degree of freedom at ``place`` and of all that are tied to it."""
         seen = self._hanging(place)
-        nodes = {tag: [k for k in range(len(places)) if places[k] in seen] for tag, places in self._places.items() if seen & set(places)}
+        nodes = {}
+        for tag, places in self._places.items():
+            if seen & set(places):
+                nodes[tag] = [k for k in range(len(places)) if places[k] in seen]
         found = []
         for tag, directions in nodes.items():
             if held := [k for k in directions if k in self._fixed.get(tag, ())]:
@@ -182,7 +187,7 @@ class Ties:
         return ", ".join(found[:_MOST] + more) or "a constraint"
 
     def named(self, pair: tuple[int, int], directions: Sequence[int] | None = None) -> str:
-        """A tie for people, as far as it is one of these directions; all of them unless given."""
+        """A tie as a text, restricted to these directions; all of them unless given."""
         held = [k for k in self._pairs[pair] if directions is None or k in directions]
         return f"{self._command(*pair, held)} of node {pair[0]} ({self._listed(held)}) to node {pair[1]}" if held else ""
 

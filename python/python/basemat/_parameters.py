@@ -23,7 +23,7 @@ Row = tuple[str, str, str]
 
 
 Known = Mapping[int, str]
-"""Words for objects that have their own rows, by their numbers (``id``)."""
+"""Names of objects that have separate rows, by their ``id``."""
 
 
 def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
@@ -61,7 +61,8 @@ def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:
     parameters = {argument: one for argument, one in _signature(function).items() if argument != "self"}
     given = {argument: one.default for argument, one in parameters.items() if one.default not in (None, one.empty)}
     arguments = {**dict(zip(parameters, made.arguments)), **made.keywords}
-    ordered = {argument: arguments.get(argument, given.get(argument)) for argument in parameters if argument in arguments or argument in given}
+    values = {**given, **arguments}
+    ordered = {argument: values[argument] for argument in parameters if argument in values}
     docs = "\n".join(inspect.getdoc(documented) or "" for documented in (function, owner))
     yield from _rows_of_arguments(name, ordered, docs, known)
     for method, values, keywords in made.calls:
@@ -97,7 +98,7 @@ def _rows_of_list(name: str, values: Any, known: Known) -> Iterator[Row]:
 
 
 def _is_description(value: Any) -> bool:
-    """Whether rows of its own say more than its text."""
+    """Whether a value needs separate rows."""
     return isinstance(value, Made) or _MADE in getattr(value, "__dict__", {}) or isinstance(value, (_core.Record, _core.Soil))
 
 

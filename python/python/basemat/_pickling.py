@@ -18,7 +18,7 @@ from . import _core
 
 _MADE = "_made"
 _CALLS = "_calls"
-"""Where a description keeps what it was made of, and a mesh what was added to it."""
+"""Attributes: what a description was made of, and what was added to a mesh."""
 
 _RETURNING = (
     (_core.PlaneWave, "field_from_horizontal"),
@@ -104,7 +104,7 @@ def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]
 
 
 def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
-    """``call``, after which ``note`` hears of its result and arguments."""
+    """``call``, followed by ``note`` with its result and arguments."""
 
     @functools.wraps(call)
     def noting(*arguments: Any, **keywords: Any) -> Any:
@@ -206,7 +206,7 @@ def _layer(profile: _core.SoilProfile, number: int) -> _core.SoilLayer:
 
 
 def _prepare_layers() -> None:
-    """The layers that a profile gives back know that they are its own."""
+    """Lets the layers that a profile returns pickle as layers of the profile."""
     get: Any = _core.SoilProfile.layers
 
     def layers(self: _core.SoilProfile) -> list[_core.SoilLayer]:

@@ -139,7 +139,7 @@ class UserLaw(Protocol):
     def next_mode(
         self, mode: Mode, start: PreviousContact, trial: ContactState, tolerance: Tolerance
     ) -> str:
-        """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""
+        """The mode to try next, after the ``trial`` with the conditions of ``mode``; ``mode`` itself if the trial is admissible."""
 
 
 class UserPlanLaw(Protocol):
@@ -151,7 +151,7 @@ class UserPlanLaw(Protocol):
     """
 
     def limits(self, start: PreviousContact) -> Limits:
-        """Limits of an element's tractions in the step after ``start``; asked once per attempted step. While the weight
+        """Limits of an element's tractions in the step after ``start``; in plan called once per attempted step. While the weight
         comes on without friction, all but friction, attraction and shear strength hold."""
 
 

@@ -49,7 +49,7 @@ show(0); start();
 </script>
 """
 _LEFT_OUT = {"time", "sliding_safety", "overturning_safety", "overturning_safety_across"}
-"""Time series whose largest value says nothing."""
+"""Time series that are left out of the table of peaks."""
 _ROUNDING = 1e-6
 """Response on a fixed base, over the one on the ground, that is zero but for rounding."""
 
@@ -213,7 +213,7 @@ def _largest(run: Run, name: str) -> _core.Peak | None:
 
 
 def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
-    """Pictures of whatever the run kept."""
+    """Pictures of all that the run recorded."""
     try:
         axes = run.plot()
     except InputError:

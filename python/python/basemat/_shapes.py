@@ -66,7 +66,7 @@ def usual_scale(points: NDArray[np.float64], largest: float) -> float:
 
 
 def _nice(least: float) -> float:
-    """The least of 1, 2 and 5 times a power of ten that is not below a value."""
+    """The smallest number of 1, 2 or 5 times a power of ten that is not below a value."""
     power = 10.0 ** np.floor(np.log10(least))
     return float(min(digit for digit in (1.0, 2.0, 5.0, 10.0) if digit * power >= least * (1.0 - 1e-12)) * power)
 
