@@ -61,8 +61,8 @@ def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:
     parameters = {argument: one for argument, one in _signature(function).items() if argument != "self"}
     given = {argument: one.default for argument, one in parameters.items() if one.default not in (None, one.empty)}
     arguments = {**dict(zip(parameters, made.arguments)), **made.keywords}
-    values = {**given, **arguments}
-    ordered = {argument: values[argument] for argument in parameters if argument in values}
+    merged = {**given, **arguments}
+    ordered = {argument: merged[argument] for argument in parameters if argument in merged}
     docs = "\n".join(inspect.getdoc(documented) or "" for documented in (function, owner))
     yield from _rows_of_arguments(name, ordered, docs, known)
     for method, values, keywords in made.calls:
