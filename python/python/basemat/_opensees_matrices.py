@@ -97,12 +97,12 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
     done: set[int] = set()
     try:
         for pair in pairs:
-            tags = [tag for group in pair for tag in groups[group]]
-            if all(len(held.get(tag, ())) == counts[tag] for tag in tags):
+            pair_tags = [tag for group in pair for tag in groups[group]]
+            if all(len(held.get(tag, ())) == counts[tag] for tag in pair_tags):
                 continue
-            closed.but(tags)
+            closed.but(pair_tags)
             found = _assembled(ops, ("Auto", "-userPenalty", 0.0), np.eye(4))
-            if in_ties.intersection(tags):
+            if in_ties.intersection(pair_tags):
                 found += _assembled(ops, ("Auto", "-userPenalty", 1.0), np.zeros((1, 4)))
             numbers = [
                 (place, group, int(number))
