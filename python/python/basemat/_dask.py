@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import functools
+import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from ._case import Outcome, described, run_case
 from ._executors import Ended
+
+
+_START_TIME = 2.0
+"""Seconds before the first case of a worker process."""
 
 
 def is_client(executor: Any) -> bool:
@@ -62,4 +68,18 @@ def run(
 
 
 def _run(case: dict[str, Any], make: Callable[..., Any], options: tuple[Any, ...]) -> Outcome:
+    from distributed import get_worker
+
+    if get_worker().nanny:
+        _finish_start()
     return run_case(make, case, *options)
+
+
+@functools.lru_cache(maxsize=None)
+def _finish_start() -> None:
+    """Waits, once in a worker process, until its nanny has recorded the start.
+
+    A worker takes cases before that. If a case then kills the process, the nanny does not start another one; a case that
+    kills one worker after another would leave a cluster without workers, on which the other cases wait for ever.
+    """
+    time.sleep(_START_TIME)
