@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+import threading
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
@@ -13,6 +13,8 @@ from ._executors import Ended
 
 _START_TIME = 2.0
 """Seconds before the first case of a worker process."""
+_STARTED = threading.Event()
+"""Whether this process has waited so long."""
 
 
 def is_client(executor: Any) -> bool:
@@ -75,11 +77,12 @@ def _run(case: dict[str, Any], make: Callable[..., Any], options: tuple[Any, ...
     return run_case(make, case, *options)
 
 
-@functools.lru_cache(maxsize=None)
 def _finish_start() -> None:
     """Waits, once in a worker process, until its nanny has recorded the start.
 
     A worker takes cases before that. If a case then kills the process, the nanny does not start another one; a case that
     kills one worker after another would leave a cluster without workers, on which the other cases wait for ever.
     """
-    time.sleep(_START_TIME)
+    if not _STARTED.is_set():
+        time.sleep(_START_TIME)
+        _STARTED.set()
