@@ -22,7 +22,7 @@ long="$(find src python tests examples tools -name '*.rs' -o -name '*.py' | xarg
 wheel="$(ls -t "$CARGO_TARGET_DIR"/wheels/basemat-*.whl | head -1)"
 "$programs/pip" install -q --force-reinstall --no-deps "$wheel"
 "$programs/pip" install -q "$wheel[test]"
-# The stubs are what the tool writes of the module, cells of the notebook those of the walkthrough.
+# The stubs are what the tool writes of the module and its Rust sources, cells of the notebook those of the walkthrough.
 "$programs/python" tools/stubs.py --check
 "$programs/python" tools/notebook.py --check
 "$programs/python" -m pytest -q

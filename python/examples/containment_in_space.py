@@ -58,7 +58,7 @@ def main() -> None:
             probes=[probe],
         )
         run = simulation.run(duration=10.0)
-        shear = max(run.extremes(own).magnitude for own in ("base_shear", "shear_across"))
+        shear = max(run.extremes(quantity).magnitude for quantity in ("base_shear", "shear_across"))
         values = (1e-6 * shear, np.abs(run["top"]).max(), 100 * run.uplifted_fraction.value)
         print(f"{name:14}{values[0]:16.1f}{values[1]:12.2f}{values[2]:13.1f}{1e3 * run.mean_slip.magnitude:10.2f}")
         assert run.energy_error < 1e-9

@@ -64,8 +64,8 @@ def motions(short: bool = False) -> dict[str, bm.Record]:
     found = {}
     for factor in [1.0] if short else [0.7, 1.0, 1.4]:
         name = "" if factor == 1.0 else f", {factor:g} × as long"
-        own = bm.Record(factor * record.time_step, record.accelerations)
-        found[f"El Centro 1940{name}"] = own
+        scaled = bm.Record(factor * record.time_step, record.accelerations)
+        found[f"El Centro 1940{name}"] = scaled
     shapes = [(1.5, 0.0), (2.0, 90.0)] if short else [(1.3, 0.0), (2.0, 90.0), (3.0, 45.0)]
     for period in [0.6, 1.6] if short else [0.4, 0.6, 1.0, 1.6, 2.5]:
         for oscillations, phase in shapes:

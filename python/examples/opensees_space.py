@@ -39,7 +39,7 @@ def frame() -> None:
                 if end in GRID:
                     beam = (0.18, CONCRETE, SHEAR, 4e-3, 2e-3, 5e-3, 2)
                     ops.element("elasticBeamColumn", 10000 * k + tag, tag, node(*end, level), *beam)
-        ops.rigidDiaphragm(3, node(1, 1, level), *(node(*own, level) for own in GRID if own != (1, 1)))
+        ops.rigidDiaphragm(3, node(1, 1, level), *(node(*corner, level) for corner in GRID if corner != (1, 1)))
 
 
 def mat() -> list[int]:

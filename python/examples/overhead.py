@@ -23,7 +23,7 @@ def program() -> str:
     command = ["cargo", "build", "--release", "--example", "reference", "--message-format=json"]
     built = subprocess.run(command, cwd=CRATE, check=True, capture_output=True, text=True)
     messages = [json.loads(line) for line in built.stdout.splitlines()]
-    return next(str(own["executable"]) for own in messages if own.get("executable"))
+    return next(str(message["executable"]) for message in messages if message.get("executable"))
 
 
 def rust(executable: str, steps: int) -> float:

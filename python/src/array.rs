@@ -6,13 +6,12 @@ use numpy::{Complex64, Element, PyArray, PyArray1, PyArray2, PyArrayMethods, PyR
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyFloat};
 
-use crate::error::refuse;
+use crate::error::input_error;
 
-/// Anything that numpy takes for an array of real numbers, of as many axes as `shape` names.
+/// The array of real numbers that numpy makes of an object, with the number of axes of `shape`.
 ///
-/// Numpy by itself would cut the imaginary part off complex numbers, read texts as numbers and take
-/// None for NaN.
-fn reals<'py, D: numpy::ndarray::Dimension>(
+/// An error for complex numbers, texts and None, which numpy would convert.
+fn real_array<'py, D: numpy::ndarray::Dimension>(
     object: &Bound<'py, PyAny>,
     shape: &str,
 ) -> PyResult<PyReadonlyArray<'py, f64, D>> {
@@ -21,21 +20,21 @@ fn reals<'py, D: numpy::ndarray::Dimension>(
     }
     let numpy = object.py().import("numpy")?;
     let array = numpy.call_method1("asarray", (object,)).map_err(|error| {
-        refuse(format!("no array of numbers, but must be one of shape {shape} ({error})"))
+        input_error(format!("no array of numbers, but must be one of shape {shape} ({error})"))
     })?;
     let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
     let array = match kind.as_str() {
         "f" | "i" | "u" | "b" => array,
         "O" => {
             let values = array.call_method0("ravel")?.call_method0("tolist")?;
-            let each = values.try_iter()?.map(|value| real("an entry", &value?));
+            let each = values.try_iter()?.map(|value| real_number("an entry", &value?));
             let values = each.collect::<PyResult<Vec<f64>>>()?;
             let list = numpy.call_method1("array", (values,))?;
             list.call_method1("reshape", (array.getattr("shape")?,))?
         }
         _ => {
             let found = array.getattr("dtype")?;
-            return Err(refuse(format!("an array of {found}, but must be of real numbers")));
+            return Err(input_error(format!("an array of {found}, but must be of real numbers")));
         }
     };
     let array = array.call_method1("astype", ("float64",))?;
@@ -43,7 +42,7 @@ fn reals<'py, D: numpy::ndarray::Dimension>(
         return readonly(array);
     }
     let found = array.getattr("shape")?;
-    Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")))
+    Err(input_error(format!("an array of shape {found}, but must be of shape {shape}")))
 }
 
 fn readonly<'py, T: Element, D: numpy::ndarray::Dimension>(
@@ -52,8 +51,8 @@ fn readonly<'py, T: Element, D: numpy::ndarray::Dimension>(
     Ok(array.try_readonly()?)
 }
 
-/// A real number: not complex, whose imaginary part numpy's scalars drop, and no text.
-pub(crate) fn real(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+/// The real number of an object; an error for complex numbers, whose imaginary part numpy drops, and for texts.
+pub(crate) fn real_number(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if let Ok(number) = value.cast::<PyFloat>() {
         return Ok(number.value());
     }
@@ -62,12 +61,12 @@ pub(crate) fn real(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = if complex { None } else { value.extract::<f64>().ok() };
     match number {
         Some(number) => Ok(number),
-        None => Err(refuse(format!("{name} is {}, but must be a real number", value.repr()?))),
+        None => Err(input_error(format!("{name} is {}, but must be a real number", value.repr()?))),
     }
 }
 
 /// Whole numbers from 0 on: a count, an index, or a list of them.
-pub(crate) fn whole<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
+pub(crate) fn whole_numbers<'py, T>(object: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
@@ -75,11 +74,11 @@ where
         return Ok(found);
     }
     let found = object.repr()?;
-    Err(refuse(format!("{found}, but only whole numbers from 0 on will do")))
+    Err(input_error(format!("{found}, but only whole numbers from 0 on will do")))
 }
 
-/// An array of this shape of `values`, in a memory that numpy allocates: it raises a `MemoryError` if there is too little.
-pub(crate) fn filled<T: Element>(
+/// An array of `values` in a new array of numpy, which raises a `MemoryError` if it does not fit.
+pub(crate) fn filled_array<T: Element>(
     py: Python<'_>,
     shape: [usize; 2],
     values: impl Iterator<Item = T>,
@@ -87,15 +86,19 @@ pub(crate) fn filled<T: Element>(
     let numpy = py.import("numpy")?;
     let array = numpy.call_method1("empty", (shape, numpy::dtype::<T>(py)))?;
     let array = array.cast_into::<PyArray2<T>>()?;
-    array.try_readwrite()?.as_slice_mut()?.iter_mut().zip(values).for_each(|(to, own)| *to = own);
+    let mut view = array.try_readwrite()?;
+    for (entry, value) in view.as_slice_mut()?.iter_mut().zip(values) {
+        *entry = value;
+    }
+    drop(view);
     Ok(array)
 }
 
-/// As many whole numbers from 0 on as a base has directions.
-pub(crate) fn wholes<const N: usize>(object: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
-    let found: Vec<usize> = whole(object)?;
+/// `N` whole numbers from 0 on.
+pub(crate) fn whole_array<const N: usize>(object: &Bound<'_, PyAny>) -> PyResult<[usize; N]> {
+    let found: Vec<usize> = whole_numbers(object)?;
     let count = found.len();
-    found.try_into().map_err(|_| refuse(format!("{count} numbers, but must be {N}")))
+    found.try_into().map_err(|_| input_error(format!("{count} numbers, but must be {N}")))
 }
 
 /// Numbers that Python gets as an array of shape (n,).
@@ -148,15 +151,15 @@ impl<'py> IntoPyObject<'py> for Rows {
 }
 
 /// Pairs of keys and values that Python gets as a dict, in this order.
-pub(crate) struct Named<K, V>(pub(crate) Vec<(K, V)>);
+pub(crate) struct OrderedDict<K, V>(pub(crate) Vec<(K, V)>);
 
-impl<K, V> FromIterator<(K, V)> for Named<K, V> {
+impl<K, V> FromIterator<(K, V)> for OrderedDict<K, V> {
     fn from_iter<I: IntoIterator<Item = (K, V)>>(pairs: I) -> Self {
         Self(pairs.into_iter().collect())
     }
 }
 
-impl<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>> IntoPyObject<'py> for Named<K, V> {
+impl<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>> IntoPyObject<'py> for OrderedDict<K, V> {
     type Target = PyDict;
     type Output = Bound<'py, PyDict>;
     type Error = PyErr;
@@ -170,12 +173,12 @@ impl<'py, K: IntoPyObject<'py>, V: IntoPyObject<'py>> IntoPyObject<'py> for Name
 #[derive(Clone, Copy)]
 pub(crate) struct Count(pub(crate) usize);
 
-extracts!(Count, object => Ok(Self(whole(&object)?)));
+extracts!(Count, object => Ok(Self(whole_numbers(&object)?)));
 
 /// Numbers of anything that numpy takes for a list of them.
 pub(crate) struct Numbers(pub(crate) Vec<f64>);
 
-extracts!(Numbers, object => Ok(Self(reals::<Ix1>(&object, "(n,)")?.as_array().to_vec())));
+extracts!(Numbers, object => Ok(Self(real_array::<Ix1>(&object, "(n,)")?.as_array().to_vec())));
 
 /// Pairs of numbers: anything that numpy takes for an array of shape (n, 2).
 pub(crate) struct Pairs(pub(crate) Vec<[f64; 2]>);
@@ -184,7 +187,7 @@ extracts!(Pairs, object => {
     let Table { columns, rows } = Table::read(&object, "(n, 2)")?;
     let pairs = rows.into_iter().map(<[f64; 2]>::try_from).collect::<Result<Vec<_>, _>>();
     Ok(Self(pairs.map_err(|row| {
-        refuse(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
+        input_error(format!("an array of {columns} columns, but must be of shape (n, 2): {row:?}"))
     })?))
 });
 
@@ -198,7 +201,7 @@ extracts!(Points, object => {
     let Table { columns, rows } = Table::read(&object, "(n, 3), or (n, 2) in the plane")?;
     if !(columns == 2 || columns == 3) {
         let needed = "must be of shape (n, 3), or (n, 2) in the plane";
-        return Err(refuse(format!("an array of {columns} columns, but {needed}")));
+        return Err(input_error(format!("an array of {columns} columns, but {needed}")));
     }
     Ok(Self { columns, rows })
 });
@@ -206,13 +209,13 @@ extracts!(Points, object => {
 impl Points {
     /// Places [x, y, z], with z = 0 for points in the plane.
     pub(crate) fn in_plane(self) -> Vec<[f64; 3]> {
-        let z = |row: &Vec<f64>| row.get(2).copied().unwrap_or_default();
-        self.rows.iter().map(|row| [row[0], row[1], z(row)]).collect()
+        let places = self.rows.iter();
+        places.map(|row| [row[0], row[1], row.get(2).copied().unwrap_or_default()]).collect()
     }
 
-    /// Number of coordinates, two or three, and places [x, y, z].
-    pub(crate) fn places(self) -> (usize, Vec<[f64; 3]>) {
-        (self.columns, self.in_plane())
+    /// Number of coordinates of a point, two or three.
+    pub(crate) fn axis_count(&self) -> usize {
+        self.columns
     }
 
     /// Places [x, y, z]; an error for points of two coordinates.
@@ -220,7 +223,7 @@ impl Points {
         if self.columns == 3 {
             return Ok(self.in_plane());
         }
-        Err(refuse("an array of 2 columns, but must have 3 in space: x, y and z"))
+        Err(input_error("an array of 2 columns, but must have 3 in space: x, y and z"))
     }
 }
 
@@ -234,15 +237,14 @@ pub(crate) struct Surface {
 
 extracts!(Surface, object => {
     let shape = "(rows, columns, 3)";
-    let array = reals::<Ix3>(&object, shape)?;
-    let (rows, columns, axes) = array.as_array().dim();
-    if axes != 3 {
-        let found = format!("({rows}, {columns}, {axes})");
-        return Err(refuse(format!("an array of shape {found}, but must be of shape {shape}")));
-    }
+    let array = real_array::<Ix3>(&object, shape)?;
     let array = array.as_array();
+    let found = array.dim();
+    if found.2 != 3 {
+        return Err(input_error(format!("an array of shape {found:?}, but must be of shape {shape}")));
+    }
     let points = array.rows().into_iter().map(|point| [point[0], point[1], point[2]]).collect();
-    Ok(Self { shape: [rows, columns], points })
+    Ok(Self { shape: [found.0, found.1], points })
 });
 
 /// Rows of numbers: anything that numpy takes for an array of two axes.
@@ -253,7 +255,7 @@ pub(crate) struct Table {
 
 impl Table {
     pub(crate) fn read(object: &Bound<'_, PyAny>, shape: &str) -> PyResult<Self> {
-        let array = reals::<Ix2>(object, shape)?;
+        let array = real_array::<Ix2>(object, shape)?;
         let array = array.as_array();
         let rows = array.rows().into_iter().map(|row| row.to_vec()).collect();
         Ok(Self { columns: array.ncols(), rows })
@@ -271,25 +273,29 @@ fn square(shape: (usize, usize)) -> PyResult<Triplets> {
     if shape.0 == shape.1 {
         return Ok(Triplets::new(shape.0));
     }
-    Err(refuse(format!("a matrix of shape {shape:?}, but must be square")))
+    Err(input_error(format!("a matrix of shape {shape:?}, but must be square")))
 }
 
 fn sparse(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
-    let list = object.call_method0("tocoo")?;
-    let mut matrix = square(list.getattr("shape")?.extract()?)?;
-    let indices = |name: &str| -> PyResult<Vec<usize>> {
-        let whole = list.getattr(name)?.call_method0("tolist")?;
-        whole.extract().map_err(|error| refuse(format!("indices of a sparse matrix: {error}")))
-    };
-    let Numbers(values) = list.getattr("data")?.extract()?;
-    for ((row, column), value) in indices("row")?.into_iter().zip(indices("col")?).zip(values) {
+    let entries = object.call_method0("tocoo")?;
+    let mut matrix = square(entries.getattr("shape")?.extract()?)?;
+    let rows = sparse_indices(&entries, "row")?;
+    let columns = sparse_indices(&entries, "col")?;
+    let Numbers(values) = entries.getattr("data")?.extract()?;
+    for ((row, column), value) in rows.into_iter().zip(columns).zip(values) {
         matrix.add(row, column, value);
     }
     Ok(Matrix(matrix))
 }
 
+/// Indices of rows or columns of the entries of a sparse matrix.
+fn sparse_indices(entries: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<usize>> {
+    let indices = entries.getattr(name)?.call_method0("tolist")?;
+    indices.extract().map_err(|error| input_error(format!("indices of a sparse matrix: {error}")))
+}
+
 fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
-    let array = reals::<Ix2>(object, "(n, n)")?;
+    let array = real_array::<Ix2>(object, "(n, n)")?;
     let array = array.as_array();
     let mut matrix = square(array.dim())?;
     for ((row, column), &value) in array.indexed_iter() {
@@ -300,16 +306,16 @@ fn dense(object: &Bound<'_, PyAny>) -> PyResult<Matrix> {
     Ok(Matrix(matrix))
 }
 
-/// Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
-/// 4 GiB unless `set_memory_limit` was called.
+/// Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take; 4 GiB unless `set_memory_limit` was
+/// called.
 #[pyfunction]
 pub(crate) fn memory_limit() -> u64 {
     basemat::memory_limit()
 }
 
-/// Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
-/// Sizes are held against it before anything is allocated, and raise an error that says what they would take.
+/// Sets the memory limit of this process: ``bytes``, the memory of the machine less that of its other programs.
+/// Sizes are compared with it before anything is allocated; an error states the memory that they would take.
 #[pyfunction]
-pub(crate) fn set_memory_limit(#[pyo3(from_py_with = whole)] bytes: u64) {
+pub(crate) fn set_memory_limit(#[pyo3(from_py_with = whole_numbers)] bytes: u64) {
     basemat::set_memory_limit(bytes);
 }

@@ -5,9 +5,9 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyIterator;
 
-use crate::array::wholes;
-use crate::row::{Order, PyDofCombination, RowLike};
-use crate::several::no_such;
+use crate::array::whole_array;
+use crate::row::{PyDofCombination, RowLike, WeightCount};
+use crate::several::type_error;
 
 /// A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
 /// one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
@@ -15,16 +15,16 @@ use crate::several::no_such;
 /// below the surface also its height ``z`` above the surface (m, negative; zero unless given).
 #[pyclass(name = "BaseNode", module = "basemat", frozen)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyBaseNode(BaseNode, Order);
+pub(crate) struct PyBaseNode(BaseNode, WeightCount);
 
 impl From<BaseNode> for PyBaseNode {
     fn from(node: BaseNode) -> Self {
-        Self(node, Order::default())
+        Self(node, WeightCount::default())
     }
 }
 
-/// Nodes for Python.
-fn listed(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
+/// Nodes as objects of Python.
+fn python_nodes(nodes: Vec<BaseNode>) -> Vec<PyBaseNode> {
     nodes.into_iter().map(PyBaseNode::from).collect()
 }
 
@@ -40,7 +40,7 @@ impl PyBaseNode {
         across: Option<RowLike>,
         z: f64,
     ) -> PyResult<Self> {
-        let mut order = horizontal.1.and(vertical.1)?;
+        let mut weight_count = horizontal.1.common_with(vertical.1)?;
         let mut node = BaseNode {
             x,
             y,
@@ -49,17 +49,17 @@ impl PyBaseNode {
             vertical: vertical.0,
             ..BaseNode::default()
         };
-        if let Some(RowLike(across, own)) = across {
-            order = order.and(own)?;
-            node.across = across;
+        if let Some(across) = across {
+            weight_count = weight_count.common_with(across.1)?;
+            node.across = across.0;
         }
-        Ok(Self(node, order))
+        Ok(Self(node, weight_count))
     }
 
     /// A node at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
     /// numbers ``dofs`` (horizontal, vertical, rotation).
     #[staticmethod]
-    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = wholes)] dofs: [usize; 3]) -> Self {
+    fn rigid(x: f64, center: f64, #[pyo3(from_py_with = whole_array)] dofs: [usize; 3]) -> Self {
         BaseNode::rigid(x, center, dofs).into()
     }
 
@@ -69,9 +69,9 @@ impl PyBaseNode {
     fn rigid_base(
         left: f64,
         right: f64,
-        #[pyo3(from_py_with = wholes)] dofs: [usize; 3],
+        #[pyo3(from_py_with = whole_array)] dofs: [usize; 3],
     ) -> Vec<Self> {
-        listed(BaseNode::rigid_base(left, right, dofs))
+        python_nodes(BaseNode::rigid_base(left, right, dofs))
     }
 
     /// The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
@@ -81,9 +81,9 @@ impl PyBaseNode {
     fn rigid_face(
         corners: Vec<[f64; 2]>,
         center: [f64; 2],
-        #[pyo3(from_py_with = wholes)] dofs: [usize; 6],
+        #[pyo3(from_py_with = whole_array)] dofs: [usize; 6],
     ) -> Vec<Self> {
-        listed(BaseNode::rigid_face(&corners, center, dofs))
+        python_nodes(BaseNode::rigid_face(&corners, center, dofs))
     }
 
     /// Coordinate to the right, m.
@@ -145,7 +145,7 @@ pub(crate) struct PyBaseFaces(Vec<Vec<PyBaseNode>>);
 #[pymethods]
 impl PyBaseFaces {
     #[new]
-    fn new(faces: Parts) -> Self {
+    fn new(faces: NodeLists) -> Self {
         Self(faces.0)
     }
 
@@ -165,18 +165,18 @@ impl PyBaseFaces {
     }
 }
 
-/// Lines or faces, each by its nodes; a single one may be given without a list.
-struct Parts(Vec<Vec<PyBaseNode>>);
+/// Python's lists of the nodes of lines or faces; a single line or face needs no list around it.
+struct NodeLists(Vec<Vec<PyBaseNode>>);
 
-extracts!(Parts, object => {
-    let parts = object.extract().map(|part| vec![part]).or_else(|_: PyErr| object.extract());
-    let parts: Vec<Vec<Bound<'_, PyBaseNode>>> =
-        parts.map_err(|_: PyErr| no_such(&object, "a list of BaseNode, or a list of such lists"))?;
-    let own = |part: &Vec<Bound<'_, PyBaseNode>>| part.iter().map(|node| node.get().clone()).collect();
-    Ok(Self(parts.iter().map(own).collect()))
+extracts!(NodeLists, object => {
+    let lists = object.extract().map(|nodes| vec![nodes]).or_else(|_: PyErr| object.extract());
+    let lists: Vec<Vec<Bound<'_, PyBaseNode>>> =
+        lists.map_err(|_: PyErr| type_error(&object, "a list of BaseNode, or a list of such lists"))?;
+    let lists = lists.iter().map(|nodes| nodes.iter().map(|node| node.get().clone()).collect());
+    Ok(Self(lists.collect()))
 });
 
-/// The base of a structure as Python gives it: one or several lines of nodes in the plane, or faces in plan.
+/// Python's description of the base of a structure: lines of nodes in the plane, or faces in plan.
 pub(crate) enum BaseLike {
     Lines(Vec<Vec<PyBaseNode>>),
     Faces(Vec<Vec<PyBaseNode>>),
@@ -186,35 +186,46 @@ extracts!(BaseLike, object => {
     if let Ok(faces) = object.cast::<PyBaseFaces>() {
         return Ok(Self::Faces(faces.get().0.clone()));
     }
-    let Parts(lines) = object.extract().map_err(|_: PyErr| {
-        no_such(&object, "a list of BaseNode, a list of such lists, or in plan BaseFaces")
+    let NodeLists(lines) = object.extract().map_err(|_: PyErr| {
+        type_error(&object, "a list of BaseNode, a list of such lists, or in plan BaseFaces")
     })?;
     Ok(Self::Lines(lines))
 });
 
 impl BaseLike {
-    /// The base of a structure of so many degrees of freedom.
+    /// The base of a structure with this number of degrees of freedom.
     pub(crate) fn of_structure(self, dofs: usize) -> PyResult<Base> {
-        let node = |PyBaseNode(node, order): PyBaseNode| {
-            order.check(&format!("the contact node at {} m", node.x), dofs).map(|()| node)
-        };
-        let all = |parts: Vec<Vec<_>>| -> PyResult<Vec<Vec<_>>> {
-            parts.into_iter().map(|part| part.into_iter().map(node).collect()).collect()
-        };
-        Ok(match self {
-            Self::Lines(lines) => Base::Lines(all(lines)?),
-            Self::Faces(faces) => Base::Faces(all(faces)?),
-        })
+        match self {
+            Self::Lines(lines) => checked_nodes(lines, dofs).map(Base::Lines),
+            Self::Faces(faces) => checked_nodes(faces, dofs).map(Base::Faces),
+        }
     }
 }
 
-/// A base for Python: a list of lines, or faces in plan.
-pub(crate) fn shown(py: Python<'_>, base: Base) -> PyResult<Py<PyAny>> {
-    let all = |parts: Vec<Vec<BaseNode>>| parts.into_iter().map(listed).collect::<Vec<_>>();
+/// Nodes whose rows belong to a structure with this number of degrees of freedom.
+fn checked_nodes(lists: Vec<Vec<PyBaseNode>>, dofs: usize) -> PyResult<Vec<Vec<BaseNode>>> {
+    let mut checked_lists = Vec::with_capacity(lists.len());
+    for list in lists {
+        let mut checked = Vec::with_capacity(list.len());
+        for PyBaseNode(node, weight_count) in list {
+            weight_count.check(&format!("the contact node at {} m", node.x), dofs)?;
+            checked.push(node);
+        }
+        checked_lists.push(checked);
+    }
+    Ok(checked_lists)
+}
+
+/// A base as an object of Python: a list of lines, or faces in plan.
+pub(crate) fn python_base(py: Python<'_>, base: Base) -> PyResult<Py<PyAny>> {
     match base {
-        Base::Faces(faces) => PyBaseFaces(all(faces)).into_py_any(py),
-        Base::Lines(lines) => all(lines).into_py_any(py),
-        // A kind of base that is added to the library must be added here.
-        _ => Err(crate::error::refuse("this kind of base has no form in Python")),
+        Base::Faces(faces) => {
+            PyBaseFaces(faces.into_iter().map(python_nodes).collect()).into_py_any(py)
+        }
+        Base::Lines(lines) => {
+            lines.into_iter().map(python_nodes).collect::<Vec<_>>().into_py_any(py)
+        }
+        // `Base` is non-exhaustive.
+        _ => Err(crate::error::input_error("this kind of base has no form in Python")),
     }
 }

@@ -6,8 +6,8 @@ use std::sync::Mutex;
 use basemat::sweep::{CaseFile, CaseTable, Parameter, Sweep};
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, refuse, returned};
+use crate::array::{Numbers, whole_numbers};
+use crate::error::{OrRaise, extract_returned, input_error};
 
 /// Names of parameters and their values.
 type Grid<'py> = Vec<(String, Bound<'py, PyAny>)>;
@@ -20,7 +20,7 @@ fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'stati
         if let Ok(texts) = values.extract::<Vec<String>>() {
             return Ok(Parameter::texts(name, texts));
         }
-        let Numbers(numbers) = returned(&format!("the parameter '{name}'"), &values)?;
+        let Numbers(numbers) = extract_returned(&format!("the parameter '{name}'"), &values)?;
         Ok(Parameter::numbers(name, numbers))
     });
     let sweep = Sweep::grid(parameters.collect::<PyResult<Vec<_>>>()?).or_raise()?;
@@ -35,7 +35,7 @@ fn sweep(grid: Grid<'_>, shard: Option<(usize, usize)>) -> PyResult<Sweep<'stati
 #[pyo3(signature = (grid, shard=None))]
 pub(crate) fn case_numbers(
     grid: Grid<'_>,
-    #[pyo3(from_py_with = whole)] shard: Option<(usize, usize)>,
+    #[pyo3(from_py_with = whole_numbers)] shard: Option<(usize, usize)>,
 ) -> PyResult<Vec<usize>> {
     Ok(sweep(grid, shard)?.cases().collect())
 }
@@ -43,10 +43,8 @@ pub(crate) fn case_numbers(
 /// Cases of a sweep's file: the columns of results, and the rows.
 fn outcomes(table: &CaseTable) -> Outcomes {
     let rows = table.rows().map(|row| {
-        let (results, error) = match row.results {
-            Ok(results) => (Some(results.to_vec()), None),
-            Err(reason) => (None, Some(reason.to_owned())),
-        };
+        let results = row.results.ok().map(<[f64]>::to_vec);
+        let error = row.results.err().map(str::to_owned);
         let warnings = Some(row.warnings).filter(|text| !text.is_empty()).map(str::to_owned);
         (row.index, results, warnings, error)
     });
@@ -63,8 +61,8 @@ const IN_USE: &str = "the file of cases is in use by another thread";
 impl PyCaseFile {
     /// Calls a function with the file, which `finish` closes.
     fn with<T>(&self, call: impl FnOnce(&mut CaseFile) -> PyResult<T>) -> PyResult<T> {
-        let mut file = self.0.try_lock().map_err(|_| refuse(IN_USE))?;
-        call(file.as_mut().ok_or_else(|| refuse("the file of cases is finished"))?)
+        let mut file = self.0.try_lock().map_err(|_| input_error(IN_USE))?;
+        call(file.as_mut().ok_or_else(|| input_error("the file of cases is finished"))?)
     }
 }
 
@@ -75,7 +73,7 @@ impl PyCaseFile {
     fn new(
         path: PathBuf,
         grid: Grid<'_>,
-        #[pyo3(from_py_with = whole)] shard: Option<(usize, usize)>,
+        #[pyo3(from_py_with = whole_numbers)] shard: Option<(usize, usize)>,
     ) -> PyResult<Self> {
         let file = sweep(grid, shard)?.open(path).or_raise()?;
         Ok(Self(Mutex::new(Some(file))))
@@ -97,7 +95,7 @@ impl PyCaseFile {
     ) -> PyResult<()> {
         let outcome = match error {
             Some(reason) => Err(reason),
-            None => Ok(returned::<Numbers>(&format!("case {case}"), &results)?.0),
+            None => Ok(extract_returned::<Numbers>(&format!("case {case}"), &results)?.0),
         };
         self.with(|file| {
             file.append(case, &names, outcome, &warnings.unwrap_or_default()).or_raise()
@@ -106,8 +104,8 @@ impl PyCaseFile {
 
     /// Writes the whole file at once and returns its rows as `rows` does.
     fn finish(&self) -> PyResult<Outcomes> {
-        let file = self.0.try_lock().map_err(|_| refuse(IN_USE))?.take();
-        let file = file.ok_or_else(|| refuse("the file of cases is finished"))?;
+        let file = self.0.try_lock().map_err(|_| input_error(IN_USE))?.take();
+        let file = file.ok_or_else(|| input_error("the file of cases is finished"))?;
         Ok(outcomes(&file.finish().or_raise()?))
     }
 }

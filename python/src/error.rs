@@ -18,104 +18,106 @@ mod classes {
 
 thread_local! {
     /// Warnings for the table of a sweep, while one of its cases runs on this thread.
-    static COLLECTED: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
+    static COLLECTED_WARNINGS: RefCell<Option<Vec<String>>> = const { RefCell::new(None) };
 
     /// The first exception that a user's structure, law or function has raised on this thread
     /// while the core was running.
-    static RAISED: RefCell<Option<PyErr>> = const { RefCell::new(None) };
+    static STORED_EXCEPTION: RefCell<Option<PyErr>> = const { RefCell::new(None) };
 }
 
-/// Keeps an exception of user code until the core returns; the first one stays.
-pub(crate) fn keep(error: PyErr) {
-    RAISED.with_borrow_mut(|kept| {
-        kept.get_or_insert(error);
+/// Stores an exception of user code until the core returns; a stored one stays.
+pub(crate) fn store_exception(error: PyErr) {
+    STORED_EXCEPTION.with_borrow_mut(|stored| {
+        stored.get_or_insert(error);
     });
 }
 
-/// Whether user code has raised an exception on this thread.
-pub(crate) fn has_raised() -> bool {
-    RAISED.with_borrow(Option::is_some)
+/// Whether an exception of user code is stored on this thread.
+pub(crate) fn has_stored_exception() -> bool {
+    STORED_EXCEPTION.with_borrow(Option::is_some)
 }
 
-/// Result of user code, or `otherwise` (which ends the step) if it raises.
-pub(crate) fn asked<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
-    Python::attach(ask).unwrap_or_else(|error| {
-        keep(error);
-        otherwise
+/// Result of user code; if it raises, the exception is stored and the result is `fallback`, which ends the step.
+pub(crate) fn call_user_code<T>(fallback: T, call: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
+    Python::attach(call).unwrap_or_else(|error| {
+        store_exception(error);
+        fallback
     })
 }
 
-/// Takes the exception of user code, if there is one.
-pub(crate) fn take_raised() -> Option<PyErr> {
-    RAISED.take()
+/// Takes the stored exception of user code, if there is one.
+pub(crate) fn take_exception() -> Option<PyErr> {
+    STORED_EXCEPTION.take()
 }
 
-/// The result of a call of user code that may fail: its exception is not kept.
-pub(crate) fn quietly<T>(call: impl FnOnce() -> basemat::Result<T>) -> basemat::Result<T> {
-    let outer = take_raised();
+/// The result of a call of user code whose exceptions are not stored.
+pub(crate) fn discard_exceptions<T>(
+    call: impl FnOnce() -> basemat::Result<T>,
+) -> basemat::Result<T> {
+    let outer = take_exception();
     let found = call();
-    RAISED.set(outer);
+    STORED_EXCEPTION.set(outer);
     found
 }
 
 /// The result of a call that may run user code, or the exception that this code raised. One that was
 /// there before belongs to a run around this call and stays for it.
-pub(crate) fn heard<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
-    let outer = has_raised();
+pub(crate) fn raise_user_exceptions<T>(call: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    let outer = has_stored_exception();
     let found = call();
-    match if outer { None } else { take_raised() } {
+    match if outer { None } else { take_exception() } {
         Some(raised) => Err(raised),
         None => found,
     }
 }
 
-/// The error of the core that stands for an exception of user code.
-pub(crate) fn kept(part: &'static str, error: PyErr) -> basemat::Error {
+/// Stores an exception of user code, and returns an error of the core in its place.
+pub(crate) fn user_code_error(part: &'static str, error: PyErr) -> basemat::Error {
     let text = error.to_string();
-    keep(error);
+    store_exception(error);
     basemat::Error::part(part, text)
 }
 
 /// An `InputError` with this text.
-pub(crate) fn refuse(text: impl Into<String>) -> PyErr {
+pub(crate) fn input_error(text: impl Into<String>) -> PyErr {
     classes::InputError::new_err(text.into())
 }
 
 /// Value returned by a function of the user's, extracted as a `T`; `name` is the function's name.
-pub(crate) fn returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+pub(crate) fn extract_returned<'py, T>(name: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {
     value.extract::<T>().map_err(Into::into).map_err(|reason: PyErr| {
-        refuse(format!("{name} returned what will not do: {}", reason.value(value.py())))
+        input_error(format!("{name} returned what will not do: {}", reason.value(value.py())))
     })
 }
 
 /// A warning of the package, at the line of Python that is being run; in a case of a sweep, for its table.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let mut text = Some(text);
-    COLLECTED.with_borrow_mut(|texts| {
+    COLLECTED_WARNINGS.with_borrow_mut(|texts| {
         if let Some(texts) = texts {
             texts.extend(text.take());
         }
     });
-    text.map_or(Ok(()), |text| show(py, text))
+    text.map_or(Ok(()), |text| issue_warning(py, text))
 }
 
 /// Collects the warnings of this thread from now on, or shows them again; returns those that it has collected.
 #[pyfunction(name = "_collect_warnings")]
 pub(crate) fn collect_warnings(collect: bool) -> Vec<String> {
-    COLLECTED.replace(collect.then(Vec::new)).unwrap_or_default()
+    COLLECTED_WARNINGS.replace(collect.then(Vec::new)).unwrap_or_default()
 }
 
-/// A warning of the package, also in a sweep.
-pub(crate) fn show(py: Python<'_>, text: String) -> PyResult<()> {
+/// Issues a `BasematWarning`, also in a case of a sweep.
+pub(crate) fn issue_warning(py: Python<'_>, text: String) -> PyResult<()> {
     let text = CString::new(text)?;
     PyErr::warn(py, &py.get_type::<classes::BasematWarning>(), &text, 1)
 }
 
 /// An `Error` that says why a simulation cannot be used.
-pub(crate) fn locked<T>(reason: TryLockError<T>) -> PyErr {
+pub(crate) fn lock_error<T>(reason: TryLockError<T>) -> PyErr {
     classes::Error::new_err(match reason {
         TryLockError::WouldBlock => {
             "the simulation is running (in another thread, or around this call)"
@@ -126,8 +128,8 @@ pub(crate) fn locked<T>(reason: TryLockError<T>) -> PyErr {
     })
 }
 
-/// A message of the core that names the core's own functions, in Python's words.
-pub(crate) fn in_python(mut text: String) -> String {
+/// A message of the core, with Python's names in place of the core's functions.
+pub(crate) fn in_python_words(mut text: String) -> String {
     for (core, python) in [
         (
             "`coupled::largest_convergent_step` finds a time step that gets through",
@@ -158,14 +160,14 @@ pub(crate) fn in_python(mut text: String) -> String {
     text
 }
 
-/// The exception of user code that led to `error`, or that of the core with its full text.
-pub(crate) fn raise(error: basemat::Error) -> PyErr {
+/// The exception of user code that led to `error`, or an exception with the full text of the core.
+pub(crate) fn to_exception(error: basemat::Error) -> PyErr {
     use basemat::Error as Core;
     use basemat::sweep::SweepError::{Missing, Unwritten};
-    if let Some(own) = take_raised() {
-        return own;
+    if let Some(exception) = take_exception() {
+        return exception;
     }
-    let text = in_python(error.to_string());
+    let text = in_python_words(error.to_string());
     match error {
         Core::Step { step, time, .. } => {
             let exception = classes::StepError::new_err(text);
@@ -191,27 +193,27 @@ pub(crate) trait OrRaise<T> {
 
 impl<T> OrRaise<T> for basemat::Result<T> {
     fn or_raise(self) -> PyResult<T> {
-        self.map_err(raise)
+        self.map_err(to_exception)
     }
 }
 
-/// A part of the core in the making, whose methods are called with the arguments that were given.
-pub(crate) trait WithGiven<B>: Sized {
+/// A builder of the core, whose methods are called for optional arguments that are there.
+pub(crate) trait WithOption<B>: Sized {
     fn with<T>(
         self,
-        given: Option<T>,
+        argument: Option<T>,
         method: impl FnOnce(B, T) -> basemat::Result<B>,
     ) -> basemat::Result<B>;
 }
 
-impl<B> WithGiven<B> for basemat::Result<B> {
+impl<B> WithOption<B> for basemat::Result<B> {
     fn with<T>(
         self,
-        given: Option<T>,
+        argument: Option<T>,
         method: impl FnOnce(B, T) -> basemat::Result<B>,
     ) -> basemat::Result<B> {
-        match given {
-            Some(given) => method(self?, given),
+        match argument {
+            Some(argument) => method(self?, argument),
             None => self,
         }
     }

@@ -1,12 +1,12 @@
 //! The compiled half of the Python package `basemat`: descriptions of soils, structures, laws and
 //! motions, the simulation made of them, and its results.
 
-/// Objects of a `$class` with that of the class it extends, which follows from its own by the name `$own`.
+/// Conversion of a `$class` to Python, whose superclass object `$base` is made from the value called `$value`.
 macro_rules! extends {
-    ($class:ty, $own:ident => $base:expr) => {
+    ($class:ty, $value:ident => $base:expr) => {
         impl $class {
             fn initializer(self) -> pyo3::PyResult<pyo3::PyClassInitializer<Self>> {
-                let $own = &self;
+                let $value = &self;
                 let base = $base;
                 Ok(pyo3::PyClassInitializer::from(base).add_subclass(self))
             }

@@ -3,7 +3,7 @@
 use basemat::coupled::Probe;
 use pyo3::prelude::*;
 
-use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
+use crate::row::{PyDofCombination, PySectionRows, RowLike, WeightCount};
 
 /// A quantity recorded at every step: a weighted sum of displacements, velocities or accelerations.
 ///
@@ -14,15 +14,15 @@ use crate::row::{Order, PyDofCombination, PySectionRows, RowLike};
 /// field; `absolute_displacement` includes it. Velocities and accelerations are total. No two
 /// probes of a simulation have the same name, and none the name of another time series of a run.
 #[pyclass(name = "Probe", module = "basemat", frozen, dict)]
-pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) Order);
+pub(crate) struct PyProbe(pub(crate) Probe, pub(crate) WeightCount);
 
-/// Sets the label of a probe's unit, if one is given.
-fn labelled(probe: Probe, order: Order, unit: Option<String>) -> PyProbe {
+/// A probe with the label of its unit, if there is one.
+fn labelled(probe: Probe, weight_count: WeightCount, unit: Option<String>) -> PyProbe {
     let probe = match unit {
         Some(unit) => probe.in_unit(unit),
         None => probe,
     };
-    PyProbe(probe, order)
+    PyProbe(probe, weight_count)
 }
 
 #[pymethods]

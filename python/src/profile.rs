@@ -11,15 +11,15 @@ use pyo3::prelude::*;
 use crate::array::Numbers;
 use crate::error::OrRaise;
 use crate::html::preformatted;
-use crate::several::{Several, no_such};
+use crate::several::{ListOf, type_error};
 use crate::soil::PySoil;
 
 /// Damping of a soil: how its shear modulus depends on frequency.
 #[pyclass(name = "DampingLaw", module = "basemat", frozen, dict)]
 pub(crate) struct PyDampingLaw(Arc<dyn Relaxation>);
 
-/// Any of the core's laws.
-fn damping(law: basemat::Result<impl Relaxation + 'static>) -> PyResult<PyDampingLaw> {
+/// A damping law of the core as an object of Python.
+fn new_damping_law(law: basemat::Result<impl Relaxation + 'static>) -> PyResult<PyDampingLaw> {
     Ok(PyDampingLaw(Arc::new(law.or_raise()?)))
 }
 
@@ -28,7 +28,7 @@ impl PyDampingLaw {
     /// No damping.
     #[staticmethod]
     fn elastic() -> PyResult<Self> {
-        damping(Ok(Elastic))
+        new_damping_law(Ok(Elastic))
     }
 
     /// Generalised Maxwell body with the damping ``ratio`` (0.05: 5 %) over a ``band`` (lowest and highest
@@ -37,20 +37,20 @@ impl PyDampingLaw {
     #[pyo3(signature = (ratio, band=[0.1, 30.0], reference=1.0), text_signature = "(ratio, band=(0.1, 30.0), reference=1.0)")]
     #[staticmethod]
     fn constant_q(ratio: f64, band: [f64; 2], reference: f64) -> PyResult<Self> {
-        damping(GeneralizedMaxwell::constant_q(ratio, band, reference))
+        new_damping_law(GeneralizedMaxwell::constant_q(ratio, band, reference))
     }
 
     /// Generalised Maxwell body: ratio ``long_term`` of its modulus to the soil's, ``ratios`` of the rest
     /// (array of shape (m,)) and their relaxation ``rates`` (array of shape (m,), 1/s).
     #[staticmethod]
     fn maxwell(long_term: f64, ratios: Numbers, rates: Numbers) -> PyResult<Self> {
-        damping(GeneralizedMaxwell::new(long_term, ratios.0, rates.0))
+        new_damping_law(GeneralizedMaxwell::new(long_term, ratios.0, rates.0))
     }
 
     /// Kelvin–Voigt body with the damping ``ratio`` at ``frequency`` (Hz).
     #[staticmethod]
     fn kelvin_voigt(ratio: f64, frequency: f64) -> PyResult<Self> {
-        damping(KelvinVoigt::with_ratio(ratio, frequency))
+        new_damping_law(KelvinVoigt::with_ratio(ratio, frequency))
     }
 
     /// Exactly constant damping ``ratio`` (Kjartansson 1979) with the soil's modulus at ``reference`` (Hz;
@@ -58,14 +58,14 @@ impl PyDampingLaw {
     #[pyo3(signature = (ratio, reference=1.0))]
     #[staticmethod]
     fn kjartansson(ratio: f64, reference: f64) -> PyResult<Self> {
-        damping(Kjartansson::new(ratio, reference))
+        new_damping_law(Kjartansson::new(ratio, reference))
     }
 
     /// The frequency domain's usual damping ``ratio``, the same at all frequencies: not causal, for
     /// impedances only.
     #[staticmethod]
     fn hysteretic(ratio: f64) -> PyResult<Self> {
-        damping(Hysteretic::new(ratio))
+        new_damping_law(Hysteretic::new(ratio))
     }
 }
 
@@ -79,7 +79,7 @@ impl PySoilLayer {
     #[pyo3(signature = (soil, thickness, damping=None))]
     #[new]
     fn new(soil: &PySoil, thickness: f64, damping: Option<&PyDampingLaw>) -> Self {
-        Self(SoilLayer { soil: soil.0, thickness, damping: law(damping) })
+        Self(SoilLayer { soil: soil.0, thickness, damping: law_or_elastic(damping) })
     }
 
     /// `Soil` of the layer.
@@ -95,9 +95,9 @@ impl PySoilLayer {
     }
 }
 
-/// The given damping, or none.
-pub(crate) fn law(given: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
-    given.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
+/// The damping law of an optional argument, elastic if there is none.
+pub(crate) fn law_or_elastic(damping: Option<&PyDampingLaw>) -> Arc<dyn Relaxation> {
+    damping.map_or_else(|| Arc::new(Elastic) as Arc<dyn Relaxation>, |law| Arc::clone(&law.0))
 }
 
 /// Horizontal ``layers`` (list of `SoilLayer`) from the surface down, on a half-plane of the soil
@@ -111,13 +111,15 @@ impl PySoilProfile {
     #[pyo3(signature = (layers, bedrock=None, *, bedrock_damping=None))]
     #[new]
     fn new(
-        layers: Several<'_, PySoilLayer>,
+        layers: ListOf<'_, PySoilLayer>,
         bedrock: Option<&PySoil>,
         bedrock_damping: Option<&PyDampingLaw>,
     ) -> PyResult<Self> {
         let layers = layers.iter().map(|layer| layer.get().0.clone()).collect();
         let bedrock = match bedrock {
-            Some(soil) => Bedrock::HalfPlane { soil: soil.0, damping: law(bedrock_damping) },
+            Some(soil) => {
+                Bedrock::HalfPlane { soil: soil.0, damping: law_or_elastic(bedrock_damping) }
+            }
             None => Bedrock::Rigid,
         };
         Ok(Self(SoilProfile::new(layers, bedrock).or_raise()?))
@@ -169,7 +171,7 @@ impl PySoilProfile {
     }
 }
 
-/// A profile, given as such or as a soil.
+/// An argument that is a `SoilProfile` or a `Soil`.
 #[derive(Clone)]
 pub(crate) struct Profile(pub(crate) SoilProfile);
 
@@ -179,6 +181,6 @@ extracts!(Profile, object => {
     }
     match object.cast::<PySoilProfile>() {
         Ok(profile) => Ok(Self(profile.get().0.clone())),
-        Err(_) => Err(no_such(&object, "a Soil or a SoilProfile")),
+        Err(_) => Err(type_error(&object, "a Soil or a SoilProfile")),
     }
 });

@@ -5,8 +5,10 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::array::{Array, Numbers, real};
-use crate::error::{OrRaise, heard, in_python, kept, refuse, returned};
+use crate::array::{Array, Numbers, real_number};
+use crate::error::{
+    OrRaise, extract_returned, in_python_words, input_error, raise_user_exceptions, user_code_error,
+};
 
 /// Error against run time at six settings: what `refine` returns. Printed, it is a table.
 #[pyclass(name = "Refinement", module = "basemat", frozen)]
@@ -33,47 +35,65 @@ pub(crate) fn refine(
     time_step: f64,
     scene: Py<PyAny>,
 ) -> PyResult<Py<PyAny>> {
-    // Names of the first result, if it is a dict.
-    let mut names: Option<Vec<String>> = None;
-    let mut first = true;
-    let results = |elements: usize, time_step: f64| {
-        let found = scene.call1(py, (elements, time_step)).and_then(|value| {
-            let value = value.bind(py);
-            if value.is_instance_of::<PyDict>() || names.is_some() {
-                let (own, values): (Vec<String>, Vec<f64>) = peaks(value)?.into_iter().unzip();
-                if first {
-                    names = Some(own);
-                } else if names.as_ref() != Some(&own) {
-                    return Err(refuse(format!(
-                        "the scene returned {own:?}, but must return the same names at every setting"
-                    )));
-                }
-                first = false;
-                return Ok(values);
-            }
-            first = false;
-            match real("the result of a scene", value) {
-                Ok(number) => Ok(vec![number]),
-                Err(_) => returned::<Numbers>("the scene", value).map(|numbers| numbers.0),
-            }
+    let mut form = ResultForm::Unknown;
+    let found = raise_user_exceptions(|| {
+        let refinement = basemat::coupled::refine(elements, time_step, |elements, time_step| {
+            let result = scene.call1(py, (elements, time_step));
+            let values = result.and_then(|result| form.values(result.bind(py)));
+            values.map_err(|error| user_code_error("scene", error))
         });
-        found.map_err(|error| kept("scene", error))
-    };
-    let found = heard(|| basemat::coupled::refine(elements, time_step, results).or_raise())?;
-    match names {
-        None => PyRefinement(found).into_py_any(py),
-        Some(names) => PyRefinements(Refinements::named(names, &found).or_raise()?).into_py_any(py),
+        refinement.or_raise()
+    })?;
+    match form {
+        ResultForm::Named(names) => {
+            PyRefinements(Refinements::named(names, &found).or_raise()?).into_py_any(py)
+        }
+        ResultForm::Unknown | ResultForm::Unnamed => PyRefinement(found).into_py_any(py),
+    }
+}
+
+/// Form of the results of a scene: that of its first result.
+enum ResultForm {
+    Unknown,
+    /// A number or an array.
+    Unnamed,
+    /// A dict with these names.
+    Named(Vec<String>),
+}
+
+impl ResultForm {
+    /// The numbers of a result, which must have the form of the first one.
+    fn values(&mut self, result: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
+        if !result.is_instance_of::<PyDict>() && !matches!(self, Self::Named(_)) {
+            *self = Self::Unnamed;
+            return match real_number("the result of a scene", result) {
+                Ok(number) => Ok(vec![number]),
+                Err(_) => extract_returned::<Numbers>("the scene", result).map(|numbers| numbers.0),
+            };
+        }
+        let peaks = peaks(result)?;
+        let names: Vec<String> = peaks.iter().map(|(name, _)| name.clone()).collect();
+        match self {
+            Self::Unknown => *self = Self::Named(names),
+            Self::Named(first_names) if *first_names == names => {}
+            _ => {
+                return Err(input_error(format!(
+                    "the scene returned {names:?}, but must return the same names at every setting"
+                )));
+            }
+        }
+        Ok(peaks.into_iter().map(|(_, value)| value).collect())
     }
 }
 
 /// Names and numbers of the dict that a scene returned.
 fn peaks(value: &Bound<'_, PyAny>) -> PyResult<Vec<(String, f64)>> {
     let dict = value.cast::<PyDict>().map_err(|_| {
-        refuse("the scene must return a dict of numbers by their names, at every setting")
+        input_error("the scene must return a dict of numbers by their names, at every setting")
     })?;
     let each = dict.iter().map(|(name, value)| {
-        let name = returned::<String>("the scene", &name)?;
-        let value = real(&format!("'{name}' of a scene"), &value)?;
+        let name = extract_returned::<String>("the scene", &name)?;
+        let value = real_number(&format!("'{name}' of a scene"), &value)?;
         Ok((name, value))
     });
     each.collect()
@@ -93,12 +113,14 @@ pub(crate) fn sensitivity(
     time_step: f64,
     scene: Py<PyAny>,
 ) -> PyResult<PySensitivity> {
-    let results = |elements: usize, time_step: f64| {
-        let found = scene.call1(py, (elements, time_step));
-        found.and_then(|value| peaks(value.bind(py))).map_err(|error| kept("scene", error))
-    };
-    heard(|| basemat::coupled::sensitivity(elements, time_step, results).or_raise())
-        .map(PySensitivity)
+    raise_user_exceptions(|| {
+        let sensitivity = basemat::coupled::sensitivity(elements, time_step, |elements, step| {
+            let result = scene.call1(py, (elements, step));
+            let peaks = result.and_then(|result| peaks(result.bind(py)));
+            peaks.map_err(|error| user_code_error("scene", error))
+        });
+        sensitivity.or_raise().map(PySensitivity)
+    })
 }
 
 #[pymethods]
@@ -152,8 +174,8 @@ impl PyRefinement {
         self.0.step_order
     }
 
-    /// Distance of the last setting's results from those that the other errors foretell, relative to
-    /// the size of the results.
+    /// Distance of the last setting's results from those predicted from the other errors, relative to the size of the
+    /// results.
     #[getter]
     fn mismatch(&self) -> f64 {
         self.0.mismatch
@@ -167,7 +189,7 @@ impl PyRefinement {
     }
 
     fn __str__(&self) -> String {
-        in_python(self.0.to_string())
+        in_python_words(self.0.to_string())
     }
 }
 
@@ -191,7 +213,7 @@ impl PyRefinements {
     }
 
     fn __str__(&self) -> String {
-        in_python(self.0.to_string())
+        in_python_words(self.0.to_string())
     }
 }
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::base_node::{PyBaseFaces, PyBaseNode};
-use crate::error::refuse;
+use crate::error::input_error;
 use crate::ground::{PyImpedances, PyKinematicMotions};
 use crate::motion::PySpectrum;
 use crate::refine::{PyPeakTwins, PyRefinement, PyRefinements, PySensitivity};
@@ -24,20 +24,20 @@ use crate::user::{PyCondition, PyLimits, PyTolerance};
 /// The function that makes a result again, the name of its class, and its bytes.
 type Reduced<'py> = (Bound<'py, PyAny>, (&'static str, Bound<'py, PyBytes>));
 
-fn reduced<'py, T>(own: &Bound<'py, T>) -> PyResult<Reduced<'py>>
+fn reduced<'py, T>(object: &Bound<'py, T>) -> PyResult<Reduced<'py>>
 where
     T: PyClass<Frozen = True> + Serialize + Sync,
 {
-    let py = own.py();
-    let written = postcard::to_allocvec(own.get());
-    let written = written.map_err(|error| refuse(format!("{}: {error}", T::NAME)))?;
+    let py = object.py();
+    let written = postcard::to_allocvec(object.get());
+    let written = written.map_err(|error| input_error(format!("{}: {error}", T::NAME)))?;
     let restored = py.import("basemat._core")?.getattr("_restored")?;
     Ok((restored, (T::NAME, PyBytes::new(py, &written))))
 }
 
 fn read<T: PyClass + DeserializeOwned>(data: &[u8]) -> PyResult<T> {
     let read = postcard::from_bytes(data);
-    read.map_err(|error| refuse(format!("these bytes are no {}: {error}", T::NAME)))
+    read.map_err(|error| input_error(format!("these bytes are no {}: {error}", T::NAME)))
 }
 
 /// Classes that pickle.
@@ -55,7 +55,7 @@ macro_rules! results {
         pub(crate) fn restored(py: Python<'_>, kind: &str, data: &[u8]) -> PyResult<Py<PyAny>> {
             match kind {
                 $(<$class as PyClass>::NAME => read::<$class>(data)?.into_py_any(py),)+
-                _ => Err(refuse(format!("kind is '{kind}', which is not kept as bytes"))),
+                _ => Err(input_error(format!("kind is '{kind}', which is not kept as bytes"))),
             }
         }
     };

@@ -5,18 +5,18 @@ use numpy::{PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyInt};
 
-use crate::array::{Numbers, whole};
-use crate::error::refuse;
+use crate::array::{Numbers, whole_numbers};
+use crate::error::input_error;
 use crate::names::choice;
 
 /// A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 ///
 /// ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
-/// ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
-/// is asked for. Rows add, subtract and scale.
+/// ``(dof, weight)``, an array of all n weights, or another row. Arguments that are rows may have any of these forms.
+/// Rows add, subtract and scale.
 #[pyclass(name = "DofCombination", module = "basemat", frozen, eq)]
 #[derive(Clone, serde::Serialize, serde::Deserialize)]
-pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) Order);
+pub(crate) struct PyDofCombination(pub(crate) DofCombination, pub(crate) WeightCount);
 
 impl PartialEq for PyDofCombination {
     fn eq(&self, other: &Self) -> bool {
@@ -26,37 +26,37 @@ impl PartialEq for PyDofCombination {
 
 impl From<DofCombination> for PyDofCombination {
     fn from(row: DofCombination) -> Self {
-        Self(row, Order::default())
+        Self(row, WeightCount::default())
     }
 }
 
 /// Rows of the core, of three directions.
-pub(crate) fn rows(rows: [DofCombination; 3]) -> [PyDofCombination; 3] {
+pub(crate) fn python_rows(rows: [DofCombination; 3]) -> [PyDofCombination; 3] {
     rows.map(PyDofCombination::from)
 }
 
-/// A row in any of the forms that Python may give it.
-pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) Order);
+/// An argument that is a row, in any of its forms.
+pub(crate) struct RowLike(pub(crate) DofCombination, pub(crate) WeightCount);
 
-/// The number of degrees of freedom of the structure that a row is for, known if it was given all weights.
+/// Number of degrees of freedom of the structure that a row belongs to; `None` unless the row was made of all weights.
 #[derive(Clone, Copy, Default, serde::Serialize, serde::Deserialize)]
-pub(crate) struct Order(pub(crate) Option<usize>);
+pub(crate) struct WeightCount(pub(crate) Option<usize>);
 
-impl Order {
-    /// Order common to two rows for one structure.
-    pub(crate) fn and(self, other: Self) -> PyResult<Self> {
+impl WeightCount {
+    /// Number of weights common to two rows of one structure; an error if they differ.
+    pub(crate) fn common_with(self, other: Self) -> PyResult<Self> {
         match (self.0, other.0) {
-            (Some(one), Some(two)) if one != two => {
-                Err(refuse(format!("rows of {one} and of {two} weights are for no one structure")))
-            }
+            (Some(one), Some(two)) if one != two => Err(input_error(format!(
+                "rows of {one} and of {two} weights are for no one structure"
+            ))),
             _ => Ok(Self(self.0.or(other.0))),
         }
     }
 
-    /// Refuses a row for another structure; `name` says whose it is.
+    /// Error for a row of a structure with another number of degrees of freedom; `name` names the row in the text.
     pub(crate) fn check(self, name: &str, dofs: usize) -> PyResult<()> {
         match self.0 {
-            Some(weights) if weights != dofs => Err(refuse(format!(
+            Some(weights) if weights != dofs => Err(input_error(format!(
                 "{name} has an array of {weights} weights, but the structure has {dofs} degrees of freedom"
             ))),
             _ => Ok(()),
@@ -69,37 +69,37 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
         if let Ok(row) = object.cast::<PyDofCombination>() {
-            let PyDofCombination(row, order) = row.get();
-            return Ok(Self(row.clone(), *order));
+            let PyDofCombination(row, weight_count) = row.get();
+            return Ok(Self(row.clone(), *weight_count));
         }
         if object.is_instance_of::<PyInt>() {
-            return Ok(Self(whole::<usize>(&object)?.into(), Order::default()));
+            return Ok(Self(whole_numbers::<usize>(&object)?.into(), WeightCount::default()));
         }
         if let Ok(terms) = object.cast::<PyDict>() {
             let terms: Vec<(usize, f64)> = terms
                 .iter()
                 .map(|(k, w)| Ok((k.extract()?, w.extract()?)))
                 .collect::<PyResult<_>>()?;
-            return Ok(Self(terms.into(), Order::default()));
+            return Ok(Self(terms.into(), WeightCount::default()));
         }
         if object.cast::<PyUntypedArray>().is_ok_and(|array| array.ndim() == 1) {
             let Numbers(weights) = object.extract()?;
-            let order = Order(Some(weights.len()));
+            let weight_count = WeightCount(Some(weights.len()));
             let terms = weights.into_iter().enumerate().filter(|(_, weight)| *weight != 0.0);
-            return Ok(Self(terms.collect(), order));
+            return Ok(Self(terms.collect(), weight_count));
         }
         if let Ok(dof) = object.extract::<usize>() {
             // Integers of numpy.
-            return Ok(Self(dof.into(), Order::default()));
+            return Ok(Self(dof.into(), WeightCount::default()));
         }
         if let Ok(name) = object.extract::<String>() {
-            return Err(refuse(format!(
+            return Err(input_error(format!(
                 "a row is '{name}', but must be a number: structure.dof('{name}') is that of a name"
             )));
         }
         match object.extract::<Vec<(usize, f64)>>() {
-            Ok(terms) => Ok(Self(terms.into(), Order::default())),
-            Err(_) => Err(refuse(
+            Ok(terms) => Ok(Self(terms.into(), WeightCount::default())),
+            Err(_) => Err(input_error(
                 "a row must be a DofCombination, a degree of freedom's number, a dict {dof: weight}, a list of \
                  pairs (dof, weight) or an array of weights",
             )),
@@ -110,16 +110,16 @@ impl<'py> FromPyObject<'_, 'py> for RowLike {
 /// A section's resultant: rows of ``displacement``, ``velocity`` and ``acceleration`` whose sum is a
 /// force or a moment. ``unit``: "N/m" (the default) or "N·m/m", in plan "N" or "N·m". For `Probe.section`.
 #[pyclass(name = "SectionRows", module = "basemat", frozen)]
-pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) Order);
+pub(crate) struct PySectionRows(pub(crate) SectionRows, pub(crate) WeightCount);
 
 impl From<SectionRows> for PySectionRows {
     fn from(rows: SectionRows) -> Self {
-        Self(rows, Order::default())
+        Self(rows, WeightCount::default())
     }
 }
 
 /// Rows of the six resultants of a cut in space.
-pub(crate) fn six(section: SpaceSection) -> [PySectionRows; 6] {
+pub(crate) fn space_sections(section: SpaceSection) -> [PySectionRows; 6] {
     let SpaceSection {
         shear: [along, across],
         compression,
@@ -140,10 +140,16 @@ impl PySectionRows {
         acceleration: RowLike,
         unit: &str,
     ) -> PyResult<Self> {
-        let unit = choice("unit", unit, &["N/m", "N·m/m", "N", "N·m"].map(|own| (own, own)))?;
-        let order = displacement.1.and(velocity.1)?.and(acceleration.1)?;
-        let (displacement, velocity, acceleration) = (displacement.0, velocity.0, acceleration.0);
-        Ok(Self(SectionRows { unit, displacement, velocity, acceleration }, order))
+        let units = ["N/m", "N·m/m", "N", "N·m"].map(|unit| (unit, unit));
+        let unit = choice("unit", unit, &units)?;
+        let weight_count = displacement.1.common_with(velocity.1)?.common_with(acceleration.1)?;
+        let rows = SectionRows {
+            unit,
+            displacement: displacement.0,
+            velocity: velocity.0,
+            acceleration: acceleration.0,
+        };
+        Ok(Self(rows, weight_count))
     }
 
     /// SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m".

@@ -2,18 +2,17 @@
 
 use std::sync::Arc;
 
-use basemat::Observer;
 use basemat::site::{ComplexModulus, EquivalentLinear, EquivalentLinearOptions};
 use basemat::soil::StrainCurves;
 use pyo3::prelude::*;
 
-use crate::array::{Array, Numbers, Rows, whole};
-use crate::error::{OrRaise, refuse};
+use crate::array::{Array, Numbers, Rows, whole_numbers};
+use crate::error::{OrRaise, input_error};
 use crate::motion::{PyColumn, PyRecord, control};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
-use crate::several::Several;
-use crate::ticker::watched;
+use crate::several::ListOf;
+use crate::ticker::with_progress;
 
 /// Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %).
 #[pyclass(name = "StrainCurves", module = "basemat", frozen, dict)]
@@ -37,8 +36,9 @@ impl PyStrainCurves {
     #[pyo3(signature = (bound="mean"))]
     #[staticmethod]
     fn seed_idriss(bound: &str) -> PyResult<Self> {
-        let [mean, upper] = [StrainCurves::SeedIdrissMean, StrainCurves::SeedIdrissUpper];
-        checked(choice("bound", bound, &[("mean", mean), ("upper", upper)])?)
+        let bounds =
+            [("mean", StrainCurves::SeedIdrissMean), ("upper", StrainCurves::SeedIdrissUpper)];
+        checked(choice("bound", bound, &bounds)?)
     }
 
     /// Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991).
@@ -79,7 +79,7 @@ impl PyStrainCurves {
     fn table(strains: Numbers, modulus_ratios: Numbers, dampings: Numbers) -> PyResult<Self> {
         let sizes = [strains.0.len(), modulus_ratios.0.len(), dampings.0.len()];
         if sizes != [sizes[0]; 3] {
-            return Err(refuse(format!(
+            return Err(input_error(format!(
                 "arrays of lengths {sizes:?}, but they must have one length"
             )));
         }
@@ -93,13 +93,13 @@ impl PyStrainCurves {
     fn at(&self, strains: Numbers) -> PyResult<(Array, Array)> {
         let values = strains.0.iter().map(|strain| self.0.at(*strain));
         let values: Vec<[f64; 2]> = values.collect::<Result<_, _>>().or_raise()?;
-        let column = |k: usize| values.iter().map(|value| value[k]).collect();
-        Ok((column(0), column(1)))
+        let ratios = values.iter().map(|[ratio, _]| *ratio).collect();
+        Ok((ratios, values.iter().map(|[_, damping]| *damping).collect()))
     }
 }
 
 /// Conventions of the complex modulus by their names.
-const CONVENTIONS: [(&str, ComplexModulus); 2] =
+const MODULUS_CONVENTIONS: [(&str, ComplexModulus); 2] =
     [("real_part", ComplexModulus::RealPart), ("magnitude", ComplexModulus::Magnitude)];
 
 #[pymethods]
@@ -116,29 +116,30 @@ impl PyColumn {
         &self,
         py: Python<'_>,
         record: &PyRecord,
-        curves: Several<'_, PyStrainCurves>,
+        curves: ListOf<'_, PyStrainCurves>,
         control: &str,
         strain_ratio: Option<f64>,
         tolerance: Option<f64>,
-        #[pyo3(from_py_with = whole)] most_iterations: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] most_iterations: Option<usize>,
         band: Option<[f64; 2]>,
         complex_modulus: &str,
     ) -> PyResult<PyEquivalentLinear> {
-        let usual = EquivalentLinearOptions::default();
+        let defaults = EquivalentLinearOptions::default();
         let options = EquivalentLinearOptions {
             control: self::control(control)?,
-            strain_ratio: strain_ratio.unwrap_or(usual.strain_ratio),
-            tolerance: tolerance.unwrap_or(usual.tolerance),
-            most_iterations: most_iterations.unwrap_or(usual.most_iterations),
-            band: band.unwrap_or(usual.band),
-            complex_modulus: choice("complex_modulus", complex_modulus, &CONVENTIONS)?,
+            strain_ratio: strain_ratio.unwrap_or(defaults.strain_ratio),
+            tolerance: tolerance.unwrap_or(defaults.tolerance),
+            most_iterations: most_iterations.unwrap_or(defaults.most_iterations),
+            band: band.unwrap_or(defaults.band),
+            complex_modulus: choice("complex_modulus", complex_modulus, &MODULUS_CONVENTIONS)?,
         };
         let curves: Vec<_> = curves.iter().map(|curves| curves.get().0.clone()).collect();
-        let (column, record) = (&self.0, &record.0);
-        let call = |observer: &mut Observer<'_>| {
-            column.equivalent_linear(record, &curves, &options, observer)
-        };
-        Ok(PyEquivalentLinear(py.detach(|| watched(None, call))?))
+        let response = py.detach(|| {
+            with_progress(None, |observer| {
+                self.0.equivalent_linear(&record.0, &curves, &options, observer)
+            })
+        });
+        Ok(PyEquivalentLinear(response?))
     }
 }
 

@@ -93,8 +93,8 @@ impl PySoilStrength {
     #[new]
     fn new(friction_angle: f64, cohesion: f64, wall_friction_angle: f64) -> PyResult<Self> {
         let strength = SoilStrength::new(friction_angle)
-            .and_then(|own| own.with_cohesion(cohesion))
-            .and_then(|own| own.with_wall_friction(wall_friction_angle));
+            .and_then(|strength| strength.with_cohesion(cohesion))
+            .and_then(|strength| strength.with_wall_friction(wall_friction_angle));
         strength.or_raise().map(Self)
     }
 

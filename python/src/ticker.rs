@@ -8,10 +8,10 @@ use basemat::{Observer, Progress};
 use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, show, take_raised};
+use crate::error::{OrRaise, issue_warning, take_exception};
 
-/// Time between two looks at Python.
-const INTERVAL: Duration = Duration::from_millis(50);
+/// Time between two calls of Python for signals, cancellation and progress.
+const REPORT_INTERVAL: Duration = Duration::from_millis(50);
 
 thread_local! {
     /// An event (`is_set`) that ends the runs of this thread.
@@ -26,52 +26,57 @@ pub(crate) fn cancel_when(event: Option<Py<PyAny>>) {
     drop(before);
 }
 
-/// Warns where Ctrl-C does not come to Python's ears.
-fn check_interrupt(py: Python<'_>) -> PyResult<()> {
+/// Warns where Python ignores Ctrl-C.
+fn warn_of_ignored_interrupt(py: Python<'_>) -> PyResult<()> {
     let signal = py.import("signal")?;
     let handler = signal.call_method1("getsignal", (signal.getattr("SIGINT")?,))?;
     if handler.eq(signal.getattr("SIG_IGN")?)? {
         let text = "Ctrl-C does not end this run: the process ignores SIGINT, as one does that a script \
                     starts in the background; signal.signal(signal.SIGINT, \
                     signal.default_int_handler) before it changes that";
-        show(py, text.into())?;
+        issue_warning(py, text.into())?;
     }
     Ok(())
 }
 
-/// Looks at Python every 50 ms.
+/// Calls Python every 50 ms during a long calculation: for signals, cancellation and progress.
 pub(crate) struct Ticker {
-    last: Instant,
-    /// Whether the ticker has checked whether Ctrl-C is handled.
-    asked: bool,
-    /// Called with what is done and with all that there is to do.
+    last_call: Instant,
+    /// Whether the handling of Ctrl-C has been checked.
+    interrupt_checked: bool,
+    /// Function of the number of parts done and of the number of all parts.
     progress: Option<Py<PyAny>>,
     /// Parts done at the last call of `progress`.
-    told: Option<usize>,
+    last_reported: Option<usize>,
 }
 
 impl Ticker {
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { last: Instant::now(), asked: false, progress, told: None }
+        Self { last_call: Instant::now(), interrupt_checked: false, progress, last_reported: None }
     }
 
-    /// Reports a part of the work, `done` of `total` in all; to be called without the GIL.
+    /// Reports `done` of `total` parts if the interval has passed; called without the GIL.
     pub(crate) fn tick(&mut self, done: usize, total: usize) -> PyResult<()> {
-        if self.last.elapsed() < INTERVAL {
+        if self.last_call.elapsed() < REPORT_INTERVAL {
             return Ok(());
         }
         let result = Python::attach(|py| {
-            if !std::mem::replace(&mut self.asked, true) {
-                check_interrupt(py)?;
+            if !std::mem::replace(&mut self.interrupt_checked, true) {
+                warn_of_ignored_interrupt(py)?;
             }
-            self.look(py, done, total)
+            self.call_python(py, done, total)
         });
-        self.last = Instant::now();
+        self.last_call = Instant::now();
         result
     }
 
-    /// Signals, cancellation and progress.
-    pub(crate) fn look(&mut self, py: Python<'_>, done: usize, total: usize) -> PyResult<()> {
+    /// Handles signals and cancellation, and calls the progress function.
+    pub(crate) fn call_python(
+        &mut self,
+        py: Python<'_>,
+        done: usize,
+        total: usize,
+    ) -> PyResult<()> {
         py.check_signals()?;
         let event = CANCELLED.with_borrow(|event| event.as_ref().map(|event| event.clone_ref(py)));
         if let Some(event) = event
@@ -80,19 +85,19 @@ impl Ticker {
             return Err(PyKeyboardInterrupt::new_err("cancelled"));
         }
         if let Some(progress) = &self.progress {
-            self.told = Some(done);
+            self.last_reported = Some(done);
             progress.call1(py, (done, total))?;
         }
         Ok(())
     }
 }
 
-/// Function to which progress is reported: a line of the package's own for True, none for False.
+/// The function that reports progress: for True one that writes a line on stderr, for False none.
 pub(crate) fn progress_function(
-    given: Option<&Bound<'_, PyAny>>,
+    progress: Option<&Bound<'_, PyAny>>,
     items: &str,
 ) -> PyResult<Option<Py<PyAny>>> {
-    match given {
+    match progress {
         Some(function) if function.is_callable() => Ok(Some(function.clone().unbind())),
         Some(flag) if flag.is_truthy()? => {
             let line = flag.py().import("basemat._progress")?.call_method1("Line", (items,))?;
@@ -102,24 +107,25 @@ pub(crate) fn progress_function(
     }
 }
 
-/// Observer of a long call of the core; to be used without the GIL.
-pub(crate) struct Watching {
+/// Observer of a long call of the core; used without the GIL.
+pub(crate) struct ProgressObserver {
     ticker: Ticker,
-    stopped: Option<PyErr>,
-    last: Option<Progress>,
+    /// The exception that stopped the call.
+    exception: Option<PyErr>,
+    last_progress: Option<Progress>,
 }
 
-impl Watching {
+impl ProgressObserver {
     pub(crate) fn new(progress: Option<Py<PyAny>>) -> Self {
-        Self { ticker: Ticker::new(progress), stopped: None, last: None }
+        Self { ticker: Ticker::new(progress), exception: None, last_progress: None }
     }
 
-    pub(crate) fn see(&mut self, progress: Progress) -> ControlFlow<()> {
-        self.last = Some(progress);
+    pub(crate) fn update(&mut self, progress: Progress) -> ControlFlow<()> {
+        self.last_progress = Some(progress);
         match self.ticker.tick(progress.done, progress.total) {
             Ok(()) => ControlFlow::Continue(()),
             Err(error) => {
-                self.stopped = Some(error);
+                self.exception = Some(error);
                 ControlFlow::Break(())
             }
         }
@@ -127,26 +133,26 @@ impl Watching {
 
     /// Result of the call, or the exception that ended it.
     pub(crate) fn end<T>(&mut self, result: basemat::Result<T>) -> PyResult<T> {
-        if let Some(raised) = take_raised().or(self.stopped.take()) {
-            return Err(raised);
+        if let Some(exception) = take_exception().or(self.exception.take()) {
+            return Err(exception);
         }
-        let made = result.or_raise()?;
-        // Ends a line that has begun.
-        if let Some(Progress { total, .. }) = self.last
-            && self.ticker.told.is_some_and(|told| told < total)
+        let value = result.or_raise()?;
+        // Completes a progress line that has begun.
+        if let Some(Progress { total, .. }) = self.last_progress
+            && self.ticker.last_reported.is_some_and(|done| done < total)
         {
-            Python::attach(|py| self.ticker.look(py, total, total))?;
+            Python::attach(|py| self.ticker.call_python(py, total, total))?;
         }
-        Ok(made)
+        Ok(value)
     }
 }
 
-/// Makes a long call of the core; to be called without the GIL.
-pub(crate) fn watched<T>(
+/// Result of a long call of the core that Ctrl-C, cancellation or an exception may stop; called without the GIL.
+pub(crate) fn with_progress<T>(
     progress: Option<Py<PyAny>>,
     call: impl FnOnce(&mut Observer<'_>) -> basemat::Result<T>,
 ) -> PyResult<T> {
-    let mut watching = Watching::new(progress);
-    let result = call(&mut |progress| watching.see(progress));
-    watching.end(result)
+    let mut observer = ProgressObserver::new(progress);
+    let result = call(&mut |progress| observer.update(progress));
+    observer.end(result)
 }

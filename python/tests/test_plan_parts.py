@@ -142,7 +142,7 @@ def test_limits_of_the_packages_laws() -> None:
 @pytest.mark.parametrize(
     ("call", "text"),
     [
-        (lambda: bm.Simulation(0.01, FLAT, PLANE, Limited(bm.Bonded())), "no method `conditions`"),
+        (lambda: bm.Simulation(0.01, FLAT, PLANE, object()), "object is no interface law: it has no method `limits`"),
         (lambda: bm.Simulation(0.01, FLAT, bm.ElasticGround.under(SOIL, BODY, 4), bm.Bonded()), "faces"),
         (lambda: bm.Simulation(0.01, BODY, PLANE, bm.Bonded()), "contact nodes"),
         (lambda: bm.Plan(3.0, 4), "faces: give a list of polygons"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import importlib.metadata
 import re
 import subprocess
@@ -31,6 +32,69 @@ def test_stubs_are_those_of_the_compiled_module() -> None:
 
 def test_the_package_is_typed() -> None:
     check("mypy", "--strict", "-p", "basemat")
+
+
+RUST = """
+/// A class, with a text that has "brackets) }" and { in it.
+#[pyclass(name = "Sample", module = "basemat", frozen, eq)]
+pub(crate) struct PySample(Vec<f64>);
+
+type Names<'py> = Vec<(String, Bound<'py, PyAny>)>;
+
+#[pymethods]
+impl PySample {
+    #[pyo3(signature = (values, *, name="a (", other=None))]
+    #[new]
+    fn new(py: Python<'_>, values: Numbers, name: &str, other: Option<&PySample>) -> PyResult<Self> {
+        let brackets = "{ \\" (";
+        Self::of(values, |value: f64| -> f64 { value })
+    }
+
+    #[getter]
+    fn pairs(&self) -> [(usize, Option<Self>); 2] {
+        inner()
+    }
+
+    #[classattr]
+    #[pyo3(name = "COUNT")]
+    const SAMPLE_COUNT: usize = 3;
+
+    fn names(&self, #[pyo3(from_py_with = whole)] index: Option<usize>, names: Names<'_>) -> OrderedDict<String, Array> {}
+}
+
+#[pyfunction(name = "_sum")]
+pub(crate) fn sum(samples: ListOf<'_, PySample>) {}
+"""
+
+
+def test_types_of_rust_as_python_has_them(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(ROOT / "tools")
+    rust_types = importlib.import_module("rust_types")
+    (tmp_path / "sample.rs").write_text(RUST, "utf-8")
+    module = rust_types.read(tmp_path)
+    assert module.comparable == {"Sample"}
+    members = {**module.members["Sample"], **module.functions}
+    assert {name: member.kind for name, member in members.items()} == {
+        "__new__": "new",
+        "pairs": "getter",
+        "COUNT": "classattr",
+        "names": "method",
+        "_sum": "function",
+    }
+    types = {
+        name: [module.python_type(kind, "Sample", "Any", True) for kind in member.parameters.values()]
+        + [module.python_type(member.returned, "Sample", None, False)]
+        for name, member in members.items()
+    }
+    assert types == {
+        "__new__": ["ArrayLike", "Any", "Sample | None", "Sample"],
+        "pairs": ["list[tuple[int, Sample | None]]"],
+        "COUNT": ["int"],
+        "names": ["int | None", "Sequence[tuple[str, Any]]", "dict[str, NDArray[np.float64]]"],
+        "_sum": ["Sample | Sequence[Sample]", "None"],
+    }
+    with pytest.raises(KeyError, match="Unheard"):
+        module.python_type("Option<Unheard>", "Sample", None, True)
 
 
 def test_there_is_one_version() -> None:

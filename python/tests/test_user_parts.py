@@ -141,6 +141,48 @@ def test_a_law_remembers(rocking) -> None:
     assert strong.slip_path < run.slip_path < weak.slip_path
 
 
+class WeakeningLimits:
+    """The same law by its limits."""
+
+    state_variables = 1
+
+    def limits(self, start: bm.PreviousContact) -> bm.Limits:
+        return bm.Limits(0.15 + 0.25 * np.exp(-start.state_variables[0] / 0.01))
+
+    def commit(self, start: bm.PreviousContact, end: bm.ContactState, mode: str) -> list[float]:
+        slip = abs(end.slip - start.slip) if mode.startswith("slip") else 0.0
+        return [start.state_variables[0] + slip]
+
+
+def test_a_law_of_the_plane_needs_only_limits(rocking) -> None:
+    motion = bm.el_centro_1940().scaled(1.5)
+    simulation = rocking(interface=WeakeningLimits(), motion=motion)
+    run = simulation.run(600, contact_every=1)
+    assert run.energy_error < 1e-9
+    # Every traction is within the largest friction, and open elements have none.
+    pressure, shear, gap = (run.contact[name] for name in ("pressure", "shear", "gap"))
+    assert (pressure >= 0.0).all() and (np.abs(shear) <= 0.4 * pressure * (1.0 + 1e-9)).all()
+    assert gap.max() > 1e-4 and (pressure[gap > 1e-9] == 0.0).all()
+    # The law with conditions of its own has the same motion.
+    reference = rocking(interface=Weakening(), motion=motion).run(600)
+    for name in ("base_shear", "mean_slip", "base_rotation"):
+        np.testing.assert_allclose(run[name], reference[name], rtol=0.0, atol=1e-9 * np.abs(reference[name]).max())
+    assert np.abs(run["mean_slip"]).max() > 0.01
+
+
+def test_an_exception_of_limits_in_the_plane_comes_out_of_the_run(rocking) -> None:
+    class Failing(WeakeningLimits):
+        def limits(self, start: bm.PreviousContact) -> bm.Limits:
+            if start.gap > 1e-3:
+                raise TimeoutError("limits")
+            return super().limits(start)
+
+    simulation = rocking(interface=Failing(), motion=bm.el_centro_1940().scaled(1.5))
+    with pytest.raises(TimeoutError, match="limits"):
+        simulation.run(600)
+    assert simulation.state.step > 10
+
+
 @pytest.mark.parametrize("method", ["conditions", "next_mode", "commit"])
 def test_an_exception_of_a_law_comes_out_of_the_run(rocking, method: str) -> None:
     law = Weakening()
@@ -341,9 +383,9 @@ def test_a_weak_support_of_a_settled_structure_is_one() -> None:
 
 
 def test_what_is_no_law_leads_to_one(rocking) -> None:
-    with pytest.raises(bm.InputError, match=r"float is no interface law .*: Coulomb\(0.4\) has this friction"):
+    with pytest.raises(bm.InputError, match=r"float is no interface law: Coulomb\(0.4\) has this friction"):
         rocking(interface=0.4)
-    with pytest.raises(bm.InputError, match=r"function is no interface law .*: VariableFriction\(function\)"):
+    with pytest.raises(bm.InputError, match=r"function is no interface law: VariableFriction\(function\)"):
         rocking(interface=lambda start: 0.4)
-    with pytest.raises(bm.InputError, match="str is no interface law .* no method `conditions`"):
+    with pytest.raises(bm.InputError, match="str is no interface law: it has no method `limits`"):
         rocking(interface="friction")

@@ -36,19 +36,19 @@ def warnings_of_runs() -> str:
     """The table of warnings in Rust's tutorial, with Python's names."""
     tutorial = (ROOT / "docs" / "tutorial.md").read_text("utf-8")
     section = tutorial.partition("\n## Warnings\n")[2].partition("\nErrors say")[0]
-    for name, own in {"Midpoint": "TimeScheme.midpoint()", "DissipativeMidpoint": "TimeScheme.dissipative_midpoint()"}.items():
-        section = section.replace(f"`{name}`", f"`{own}`")
+    for name, python_name in {"Midpoint": "TimeScheme.midpoint()", "DissipativeMidpoint": "TimeScheme.dissipative_midpoint()"}.items():
+        section = section.replace(f"`{name}`", f"`{python_name}`")
     return f"# Warnings\n{section}"
 
 
 def on_page_markdown(markdown: str, page: Any, **_: Any) -> str:
     """Makes links out of the folder links to the repository."""
-    own = posixpath.join("docs/python", page.file.src_uri)
+    page_path = posixpath.join("docs/python", page.file.src_uri)
 
     markdown = markdown.replace("](../tutorial.md#warnings)", "](warnings.md)")
 
     def outside(found: re.Match[str]) -> str:
-        target = posixpath.normpath(posixpath.join(posixpath.dirname(own), found[1]))
+        target = posixpath.normpath(posixpath.join(posixpath.dirname(page_path), found[1]))
         return f"]({found[1]})" if target.startswith("docs/python/") else f"]({SOURCE}{target})"
 
     return re.sub(r"\]\((\.\./[^)]*)\)", outside, markdown)

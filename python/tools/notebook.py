@@ -22,21 +22,21 @@ def cells(source: str) -> list[dict[str, Any]]:
     found: list[dict[str, Any]] = []
     for number, part in enumerate(re.split(r"^# %%", source, flags=re.M)[1:]):
         head, _, body = part.partition("\n")
-        own: dict[str, Any] = {"id": f"cell-{number}", "metadata": {}}
+        cell: dict[str, Any] = {"id": f"cell-{number}", "metadata": {}}
         if head.strip() == "[markdown]":
-            own["cell_type"], body = "markdown", re.sub(r"^# ?", "", body, flags=re.M)
+            cell["cell_type"], body = "markdown", re.sub(r"^# ?", "", body, flags=re.M)
         else:
-            own.update(cell_type="code", execution_count=None, outputs=[])
-        own["source"] = body.strip("\n").splitlines(keepends=True)
-        found.append(own)
+            cell.update(cell_type="code", execution_count=None, outputs=[])
+        cell["source"] = body.strip("\n").splitlines(keepends=True)
+        found.append(cell)
     return found
 
 
 def written() -> dict[str, Any]:
     """The notebook without outputs."""
     kernel = {"display_name": "Python 3", "language": "python", "name": "python3"}
-    own = cells(SOURCE.read_text("utf-8"))
-    return {"cells": own, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
+    notebook_cells = cells(SOURCE.read_text("utf-8"))
+    return {"cells": notebook_cells, "metadata": {"kernelspec": kernel}, "nbformat": 4, "nbformat_minor": 5}
 
 
 def run(notebook: dict[str, Any]) -> str:
@@ -70,8 +70,8 @@ def main() -> None:
     needed = f"python {Path(__file__).parent.name}/{Path(__file__).name} writes it"
     if found != notebook:
         sys.exit(f"{NOTEBOOK.name} is not {SOURCE.name}: {needed}")
-    pictures = sum("image/png" in own.get("data", ()) for own in outputs)
-    if pictures < 5 or any(own["output_type"] == "error" for own in outputs):
+    pictures = sum("image/png" in output.get("data", ()) for output in outputs)
+    if pictures < 5 or any(output["output_type"] == "error" for output in outputs):
         sys.exit(f"{NOTEBOOK.name} has {pictures} pictures among its outputs: {needed}")
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from ._protocols import UserStructure
 
 Drawn = Callable[[int], "list[Any]"]
-"""A function that draws a snapshot, of which it gets the number."""
+"""A function that draws the snapshot with a number."""
 
 
 def animate(
@@ -101,12 +101,12 @@ def _clock(axes: Axes, times: Any, place: tuple[float, float] = (0.01, 0.97)) ->
 
 
 def _structure(run: Run, axes: Axes, shape: DeformedShape, scale: float | None, times: Any) -> Drawn:
-    """The structure in its motion; axes have room for all of the snapshots."""
+    """The moving structure, in axes with room for all snapshots."""
     motion = run.motion
     outline = Outline(shape)
     nearest = {float(time): int(np.argmin(np.abs(motion["time"] - time))) for time in times}
     used = sorted(set(nearest.values()))
-    moves = np.stack([shape.displacements(motion["displacement"][own]) for own in used])
+    moves = np.stack([shape.displacements(motion["displacement"][frame]) for frame in used])
     if scale is None:
         scale = usual_scale(outline.points, float(np.linalg.norm(moves, axis=2).max(initial=0.0)))
     places = dict(zip(used, seen(outline.points + scale * moves, outline.in_space)))
@@ -191,7 +191,7 @@ def _strip(run: Run, axes: Axes) -> Drawn:
     mode_key(axes, np.unique(modes))
 
     def draw(frame: int) -> list[Artist]:
-        strip.set_color([COLORS[own] for own in modes[frame]])
+        strip.set_color([COLORS[mode] for mode in modes[frame]])
         return [strip]
 
     return draw

@@ -35,6 +35,9 @@ class SpringDashpots:
         if not (np.all(np.isfinite(self.dashpots)) and np.all(self.dashpots >= 0.0)):
             raise ValueError(f"dashpots {self.dashpots.min()}, but all must be finite and not below zero")
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({len(self.stiffness)} springs and dashpots)"
+
     def static_compliance(self) -> NDArray[np.float64]:
         """Displacements at rest by unit tractions: a diagonal array of shape (2Q, 2Q), m/Pa."""
         return np.diag(1.0 / self.stiffness)

@@ -42,7 +42,7 @@ def run_case(
     duration: float | None,
     results: Callable[[Run], Mapping[str, Any]] | None,
 ) -> Outcome:
-    """Results of a case, its warnings and the text of its error; importable, for other processes."""
+    """Results of a case, its warnings and the text of its error. Other processes import this function."""
     warnings: list[str] = []
     _core._collect_warnings(True)
     try:

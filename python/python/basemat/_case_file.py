@@ -18,7 +18,7 @@ Rows = tuple[list[str], list[tuple[int, Optional[list[float]], Optional[str], Op
 """Columns of results, and the rows: number of the case, results, warnings, error."""
 
 _PAUSE = 0.1
-"""Seconds between two tries to get the lock of another process."""
+"""Seconds between two attempts to take the lock of another process."""
 
 _LOCKS: set[int] = set()
 """Descriptors of the locks that this process has."""
@@ -39,7 +39,7 @@ def append(file: _core._CaseFile, case: int, outcome: Outcome) -> None:
 
 @contextmanager
 def alone(path: str | os.PathLike[str]) -> Iterator[None]:
-    """Waits until no other process writes into the file of cases at ``path``, and keeps others out.
+    """Waits until no other process writes to the file of cases at ``path``, and locks it.
 
     The lock is a file beside it that the system releases with the process, however that ends. Where a folder has no
     locks, nothing is kept out.

@@ -1,6 +1,6 @@
 """The compiled half of basemat.
 
-Written by ``tools/stubs.py``; types stand in ``tools/annotations.txt``.
+Written by ``tools/stubs.py`` from the Rust sources and the compiled module.
 """
 
 import os
@@ -109,145 +109,107 @@ _MatrixLike: TypeAlias = Any
 """A square array, or any matrix of ``scipy.sparse``."""
 
 @final
-class Refinement:
-    """Error against run time at six settings: what `refine` returns. Printed, it is a table."""
-
-    @property
-    def elements(self) -> list[int]:
-        """Numbers of elements of the settings: list of 6."""
-    @property
-    def time_steps(self) -> NDArray[np.float64]:
-        """Time steps of the settings: array of shape (6,), s."""
-    @property
-    def errors(self) -> NDArray[np.float64]:
-        """Estimated errors of the settings, relative to the size of the results: array of shape (6,)."""
-    @property
-    def wall_times(self) -> NDArray[np.float64]:
-        """Wall times of the settings: array of shape (6,), s."""
-    @property
-    def results(self) -> list[NDArray[np.float64]]:
-        """Results of the settings, in the units of the scene: list of 6 arrays of shape (results,)."""
-    @property
-    def extrapolated(self) -> NDArray[np.float64]:
-        """Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
-        units of the scene.
-        """
-    @property
-    def mesh_order(self) -> float:
-        """Observed order of convergence in the element length; NaN if nothing depends on it."""
-    @property
-    def step_order(self) -> float:
-        """Observed order of convergence in the time step; NaN if nothing depends on it."""
-    @property
-    def mismatch(self) -> float:
-        """Distance of the last setting's results from those that the other errors foretell, relative to
-        the size of the results.
-        """
-    @property
-    def is_regular(self) -> bool:
-        """Whether the estimate can be trusted: regular orders, and the coarsest error above the
-        mismatch.
-        """
-
-@final
-class Refinements:
-    """Error against run time of several peaks: what `refine` returns for a scene that returns a dict. Printed, it is
-    one table.
+class BaseNode:
+    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
+    one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
+    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
+    below the surface also its height ``z`` above the surface (m, negative; zero unless given).
     """
 
+    def __new__(
+        cls,
+        x: float,
+        horizontal: _RowLike,
+        vertical: _RowLike,
+        *,
+        y: float = 0.0,
+        across: _RowLike | None = None,
+        z: float = 0.0,
+    ) -> Self: ...
+    @staticmethod
+    def rigid(x: float, center: float, dofs: Sequence[int]) -> BaseNode:
+        """A node at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
+        numbers ``dofs`` (horizontal, vertical, rotation).
+        """
+    @staticmethod
+    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[BaseNode]:
+        """The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
+        at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
+        """
+    @staticmethod
+    def rigid_face(
+        corners: Sequence[Sequence[float]],
+        center: Sequence[float],
+        dofs: Sequence[int],
+    ) -> list[BaseNode]:
+        """The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
+        (x and y, m), whose displacements along x, along y and up and rotations about these have the numbers ``dofs``
+        (six).
+        """
     @property
-    def names(self) -> list[str]:
-        """Names of the peaks, in the order of the scene."""
-    def __getitem__(self, key: str, /) -> Refinement: ...
+    def x(self) -> float:
+        """Coordinate to the right, m."""
+    @property
+    def y(self) -> float:
+        """Coordinate away from the reader, m; zero in the plane."""
+    @property
+    def z(self) -> float:
+        """Height above the surface, m; negative below it."""
+    @property
+    def horizontal(self) -> DofCombination:
+        """The `DofCombination` of its displacement to the right."""
+    @property
+    def across(self) -> DofCombination:
+        """The `DofCombination` of its displacement along y; empty in the plane."""
+    @property
+    def vertical(self) -> DofCombination:
+        """The `DofCombination` of its displacement up."""
 
 @final
-class PeakTwins:
-    """Value of a peak in a run and in its twins."""
+class BaseFaces:
+    """The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
 
-    @property
-    def name(self) -> str:
-        """Name of the peak."""
-    @property
-    def value(self) -> float:
-        """Value of the run, in the unit of the peak."""
-    @property
-    def shorter_step(self) -> float:
-        """Value with a time step shorter by 1 %, in the unit of the peak."""
-    @property
-    def three_quarters(self) -> float:
-        """Value on three quarters of the elements, rounded up, in the unit of the peak."""
-    @property
-    def half(self) -> float:
-        """Value on half the elements, rounded up, in the unit of the peak."""
-    @property
-    def spread(self) -> float:
-        """Largest difference between a twin and the run, in the unit of the peak."""
-    @property
-    def digits(self) -> int:
-        """Significant digits that hold, six at most: half a unit of the last one is the spread or more."""
-    def __eq__(self, value: object, /) -> bool: ...
-
-@final
-class Sensitivity:
-    """Peaks of a run and of its twins: what `sensitivity` returns. Printed, it is a table."""
-
-    @property
-    def peaks(self) -> list[PeakTwins]:
-        """The peaks, in the order of the scene: list of `PeakTwins`."""
-    def __getitem__(self, key: str, /) -> PeakTwins: ...
-
-@final
-class SystemMode:
-    """Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19)."""
-
-    @property
-    def axis(self) -> str | None:
-        """Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane."""
-    @property
-    def fixed_period(self) -> float:
-        """Period T on a fixed base, s."""
-    @property
-    def fixed_damping(self) -> float:
-        """Damping ratio β on a fixed base."""
-    @property
-    def period(self) -> float:
-        """Period T̃ of the soil–structure system, s."""
-    @property
-    def damping(self) -> float:
-        """Damping ratio β₀ of the soil–structure system."""
-    @property
-    def period_ratio(self) -> float:
-        """Period lengthening T̃/T, a ratio."""
-    @property
-    def foundation_damping(self) -> float:
-        """Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil."""
-    def __eq__(self, value: object, /) -> bool: ...
-
-@final
-class Interaction:
-    """A scene on its ground and on a fixed base: what `Simulation.interaction` returns. Printed, it is a table for a
-    report.
+    A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
+    face, its outline, which may be given without a list. Faces that touch are one foundation.
     """
 
-    @property
-    def on_ground(self) -> Run:
-        """The `Run` on the ground, without time series."""
-    @property
-    def on_fixed_base(self) -> Run:
-        """The `Run` on the fixed base, without time series."""
-    @property
-    def modes(self) -> list[SystemMode]:
-        """The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
-        that is rigid.
-        """
-    @property
-    def probe_ratios(self) -> dict[str, float]:
-        """Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names."""
-    def ratio(self, name: str) -> float:
-        """Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
-        NaN where both are zero.
-        """
-    def _repr_html_(self) -> str: ...
+    def __new__(cls, faces: Sequence[BaseNode] | Sequence[Sequence[BaseNode]]) -> Self: ...
+    def __len__(self) -> int: ...
+    def __iter__(self) -> Iterator[list[BaseNode]]: ...
+
+@final
+class _CaseFile:
+    """The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run."""
+
+    def __new__(
+        cls,
+        path: str | os.PathLike[str],
+        grid: Sequence[tuple[str, Any]],
+        shard: tuple[int, int] | None = None,
+    ) -> Self: ...
+    def rows(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
+        """Columns of results, and the rows so far: number of the case, results, warnings, error."""
+    def append(
+        self,
+        case: int,
+        names: Sequence[str],
+        results: Any,
+        warnings: str | None,
+        error: str | None,
+    ) -> None:
+        """Appends the row of a case: ``results`` under ``names``, or the text of its ``error``."""
+    def finish(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
+        """Writes the whole file at once and returns its rows as `rows` does."""
+
+@final
+class SharedKernels:
+    """Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
+    are built with the same object. A copy in another process begins empty; ``len()`` counts them.
+    """
+
+    def __new__(cls) -> Self: ...
+    def __getnewargs__(self) -> tuple[()]: ...
+    def __len__(self) -> int: ...
 
 @disjoint_base
 class Ground:
@@ -259,13 +221,13 @@ class Ground:
         same on a wall.
         """
     @property
+    def heights(self) -> NDArray[np.float64]:
+        """Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it."""
+    @property
     def depths(self) -> NDArray[np.float64]:
         """Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
         metre of thickness, in the plane.
         """
-    @property
-    def heights(self) -> NDArray[np.float64]:
-        """Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it."""
 
 @final
 class ElasticGround(Ground):
@@ -274,12 +236,12 @@ class ElasticGround(Ground):
 
     ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
     half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
-    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
-    given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
-    unless given). ``kernels``: `SharedKernels` of several simulations; own ones unless given.
+    ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (unless given, 1e-12 with "auto" and
+    1e-10 with "exponentials"); ``history_memory``: bytes that the history may take (1 GiB unless given).
+    ``kernels``: `SharedKernels` of several simulations; not shared unless given.
     Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
     ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
-    ``kernel_file``: path of a file that keeps them (none unless given).
+    ``kernel_file``: path of a file that stores them (none unless given).
     """
 
     def __new__(
@@ -327,51 +289,48 @@ class ElasticGround(Ground):
         """
 
 @final
-class SharedKernels:
-    """Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
-    are built with the same object. A copy in another process begins empty; ``len()`` counts them.
+class Plan:
+    """Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
+    cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it), with ``cells`` along the shorter side of them all.
+    Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
     """
 
-    def __new__(cls) -> Self: ...
-    def __getnewargs__(self) -> tuple[()]: ...
+    def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
+    @staticmethod
+    def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
+        """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
+    @staticmethod
+    def masked(corner: Sequence[float], pitch: Sequence[float], mask: Any) -> Plan:
+        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
+        rows from the ``corner`` (x and y, m) away, each a list from left to right.
+        """
+    @property
+    def pitch(self) -> list[float]:
+        """Sides of a cell along x and y, m."""
+    @property
+    def middle(self) -> list[float]:
+        """Middle of the bounding rectangle, x and y, m: what impedances refer to."""
+    @property
+    def area_error(self) -> float:
+        """Area of the cells inside the outline minus the area of the faces, relative to the latter."""
+    def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
+        """The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
+        ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
+        """
+    def without_overhang(self) -> Plan:
+        """The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces."""
     def __len__(self) -> int: ...
-
-@final
-class Impedances:
-    """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
-    arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
-    """
-
-    @property
-    def frequency(self) -> NDArray[np.float64]:
-        """Frequencies: array of shape (m,), Hz."""
-    @property
-    def horizontal(self) -> NDArray[np.complex128]:
-        """Horizontal force by horizontal translation: complex array of shape (m,), N/m²."""
-    @property
-    def vertical(self) -> NDArray[np.complex128]:
-        """Vertical force by vertical translation: complex array of shape (m,), N/m²."""
-    @property
-    def rocking(self) -> NDArray[np.complex128]:
-        """Moment by rotation: complex array of shape (m,), N."""
-    @property
-    def coupling(self) -> NDArray[np.complex128]:
-        """Horizontal force by rotation: complex array of shape (m,), N/m."""
-    def to_frame(self) -> DataFrame:
-        """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
-    def plot(
+    def impedances(
         self,
-        axes: Iterable[Axes] | None = None,
+        soil: Soil | SoilProfile,
+        frequencies: ArrayLike,
         *,
-        label: str | None = None,
-        color: str | None = None,
-        title: str | None = None,
-    ) -> list[Axes]:
-        """Draws real and imaginary parts over the frequency; returns the list of four axes.
-
-        ``axes``: four of matplotlib to draw into; unless given, axes of a new figure. For several grounds in the same axes:
-        ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
-        none.
+        contact: _StripContact = "bonded",
+    ) -> NDArray[np.complex128]:
+        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
+        e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
+        moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
+        "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
         """
 
 @final
@@ -413,22 +372,74 @@ class SpringGround(Ground):
         """
 
 @final
+class Strip:
+    """A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
+    "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
+    """
+
+    def __new__(cls, left: float, right: float, count: int, *, grading: _Grading = "cosine") -> Self: ...
+    @staticmethod
+    def from_nodes(nodes: ArrayLike) -> Strip:
+        """Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending)."""
+    @property
+    def nodes(self) -> list[float]:
+        """Ends of the elements: list of elements + 1 numbers, m."""
+
+@final
+class Impedances:
+    """Dynamic stiffness of a rigid, massless base for motions e^(iωt), per metre of thickness: complex
+    arrays of shape (m,), one value per frequency; the imaginary part is radiation and damping.
+    """
+
+    @property
+    def frequency(self) -> NDArray[np.float64]:
+        """Frequencies: array of shape (m,), Hz."""
+    @property
+    def horizontal(self) -> NDArray[np.complex128]:
+        """Horizontal force by horizontal translation: complex array of shape (m,), N/m²."""
+    @property
+    def vertical(self) -> NDArray[np.complex128]:
+        """Vertical force by vertical translation: complex array of shape (m,), N/m²."""
+    @property
+    def rocking(self) -> NDArray[np.complex128]:
+        """Moment by rotation: complex array of shape (m,), N."""
+    @property
+    def coupling(self) -> NDArray[np.complex128]:
+        """Horizontal force by rotation: complex array of shape (m,), N/m."""
+    def plot(
+        self,
+        axes: Iterable[Axes] | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> list[Axes]:
+        """Draws real and imaginary parts over the frequency; returns the list of four axes.
+
+        ``axes``: four of matplotlib to draw into; unless given, axes of a new figure. For several grounds in the same axes:
+        ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
+        none.
+        """
+    def to_frame(self) -> DataFrame:
+        """The impedances as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
+
+@final
 class Trench:
     """Rectangular trench in the surface of the ground, in the plane, from ``left`` to ``right`` (x, m), ``depth`` metres deep."""
 
     def __new__(cls, left: float, right: float, depth: float) -> Self: ...
-    def elements(self, base: int, wall: int) -> TrenchElements:
-        """The `TrenchElements`: ``base`` contact elements of the base, an even number, and ``wall`` elements of each wall.
-
-        Elements are shorter towards the ends of each face. With 8 and 6 impedances are off by about 0.5 %, with twice as
-        many by 0.1 %.
-        """
     @property
     def sides(self) -> list[float]:
         """Places of the left and the right wall, x, m."""
     @property
     def depth(self) -> float:
         """Depth of the base below the surface, m."""
+    def elements(self, base: int, wall: int) -> TrenchElements:
+        """The `TrenchElements`: ``base`` contact elements of the base, an even number, and ``wall`` elements of each wall.
+
+        Elements are shorter towards the ends of each face. With 8 and 6 impedances are off by about 0.5 %, with twice as
+        many by 0.1 %.
+        """
 
 @final
 class TrenchElements:
@@ -518,69 +529,10 @@ class KinematicMotions:
     def to_frame(self) -> DataFrame:
         """The motions as a pandas frame of complex numbers, indexed by the frequency (Hz)."""
 
-@final
-class Strip:
-    """A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
-    "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
-    """
-
-    def __new__(cls, left: float, right: float, count: int, *, grading: _Grading = "cosine") -> Self: ...
-    @staticmethod
-    def from_nodes(nodes: ArrayLike) -> Strip:
-        """Strip of elements between given ``nodes`` (array of shape (elements + 1,), m, ascending)."""
-    @property
-    def nodes(self) -> list[float]:
-        """Ends of the elements: list of elements + 1 numbers, m."""
-
-@final
-class Plan:
-    """Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
-    cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
-    Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
-    """
-
-    def __new__(cls, faces: Sequence[Any], cells: int) -> Self: ...
-    @staticmethod
-    def disc(center: tuple[float, float], radius: float, cells: int) -> Plan:
-        """Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it."""
-    def __len__(self) -> int: ...
-    def impedances(
-        self,
-        soil: Soil | SoilProfile,
-        frequencies: ArrayLike,
-        *,
-        contact: _StripContact = "bonded",
-    ) -> NDArray[np.complex128]:
-        """Dynamic stiffness of the mat as one rigid body on a ``soil`` (`Soil` or `SoilProfile`) for motions
-        e^(iωt) at ``frequencies`` (array of shape (m,), Hz): complex array of shape (m, 6, 6), forces along x, y and z (N) and
-        moments about them (N m) by displacements (m) and rotations (rad) of the mat's middle. ``contact``:
-        "bonded" (the default) or "relaxed" (vertical motions without shear, horizontal ones without pressure).
-        """
-    @staticmethod
-    def masked(corner: tuple[float, float], pitch: tuple[float, float], mask: Any) -> Plan:
-        """Cells of the sides ``pitch`` (along x and y, m) where ``mask`` is True or 1, and not where it is False or 0: a list of
-        rows from the ``corner`` (x and y, m) away, each a list from left to right.
-        """
-    def with_unions(self, along: Sequence[int], across: Sequence[int]) -> Plan:
-        """The plan with contact elements that are rectangles of cells: columns taken together by the list ``along``, rows by
-        ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
-        """
-    def without_overhang(self) -> Plan:
-        """The plan with cells that end where the faces do: for springs, for given pressures and for flexible faces."""
-    @property
-    def pitch(self) -> list[float]:
-        """Sides of a cell along x and y, m."""
-    @property
-    def middle(self) -> list[float]:
-        """Middle of the bounding rectangle, x and y, m: what impedances refer to."""
-    @property
-    def area_error(self) -> float:
-        """Area of the cells inside the outline minus the area of the faces, relative to the latter."""
-
 @disjoint_base
 class InterfaceLaw:
-    """A law between base and ground: what an element of the contact does in a step, its mode (see
-    `MODES`), and which conditions that imposes.
+    """A law between base and ground: the limits of an element's tractions, and in the plane its contact modes (see
+    `MODES`) and the conditions that each of them imposes.
     """
 
     @property
@@ -602,7 +554,7 @@ class InterfaceLaw:
         ``tolerance`` left aside.
         """
     def limits(self, start: PreviousContact) -> Limits:
-        """The `Limits` of an element's tractions on a ground in plan, in the step after ``start``
+        """The `Limits` of an element's tractions in the step after ``start``
         (`PreviousContact`).
         """
 
@@ -617,7 +569,7 @@ class Coulomb(InterfaceLaw):
     """Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 
     ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
-    With 3 or more, steps in plan may have several solutions: hold the run against one of a mirror image.
+    With 3 or more, steps in plan may have several solutions: compare the run with one of the mirror image.
     ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
     contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
     rule); on the gap unless given.
@@ -668,8 +620,8 @@ class ThinLayer(InterfaceLaw):
 
     ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
     coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
-    stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
-    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
+    stiffness that remains when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
+    it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this
     step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
     ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
     default), "velocity" or "last_velocity" (of this step or the one before).
@@ -728,35 +680,10 @@ class FreeField:
 
     def displacement(self, x: float, time: float) -> list[float]:
         """Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s)."""
-    def velocity(self, x: float, time: float) -> list[float]:
-        """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
     def displacement_at(self, x: float, y: float, time: float) -> list[float]:
         """Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s)."""
-
-@final
-class TrenchMotion(FreeField):
-    """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
-
-    ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
-    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero unless given. Motion at
-    depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
-    surface (`Record.padded`).
-    """
-
-    def __new__(
-        cls,
-        ground: TrenchGround,
-        horizontal: Record | None = None,
-        vertical: Record | None = None,
-    ) -> Self: ...
-    @staticmethod
-    def travelling(ground: TrenchGround, wave: FreeField) -> TrenchMotion:
-        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of what a `PlaneWave` or an `InclinedWave` makes of
-        a record, or of a `travelling_wave`.
-
-        The wave must be one of the ground's profile, along x: the motion of the surface and its velocity along it determine
-        the field below. Motion before and after the wave's record fades within half of its length.
-        """
+    def velocity(self, x: float, time: float) -> list[float]:
+        """Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s)."""
 
 @final
 class Record(FreeField):
@@ -775,6 +702,36 @@ class Record(FreeField):
         *,
         unit: _AccelerationUnit = "m/s²",
     ) -> Self: ...
+    @property
+    def time_step(self) -> float:
+        """Time step, s."""
+    @property
+    def duration(self) -> float:
+        """Time of the last sample, s."""
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """Times of the samples: array of shape (samples,), s."""
+    @property
+    def accelerations(self) -> NDArray[np.float64]:
+        """Acceleration at the samples: array of shape (samples,), m/s²."""
+    @property
+    def velocities(self) -> NDArray[np.float64]:
+        """Velocity at the samples: array of shape (samples,), m/s."""
+    @property
+    def displacements(self) -> NDArray[np.float64]:
+        """Displacement at the samples: array of shape (samples,), m."""
+    @property
+    def peak_acceleration(self) -> float:
+        """Largest |acceleration|, m/s²."""
+    @property
+    def peak_velocity(self) -> float:
+        """Largest |velocity|, m/s."""
+    @property
+    def peak_displacement(self) -> float:
+        """Largest |displacement|, m."""
+    @property
+    def arias_intensity(self) -> float:
+        """Arias intensity, m/s."""
     @staticmethod
     def read(
         path: str | os.PathLike[str],
@@ -817,36 +774,6 @@ class Record(FreeField):
         ``format``, ``unit``, ``time_step`` and ``header_lines`` as for `read`, none unless given; of columns all but
         the one of times are read.
         """
-    @property
-    def time_step(self) -> float:
-        """Time step, s."""
-    @property
-    def duration(self) -> float:
-        """Time of the last sample, s."""
-    @property
-    def times(self) -> NDArray[np.float64]:
-        """Times of the samples: array of shape (samples,), s."""
-    @property
-    def accelerations(self) -> NDArray[np.float64]:
-        """Acceleration at the samples: array of shape (samples,), m/s²."""
-    @property
-    def velocities(self) -> NDArray[np.float64]:
-        """Velocity at the samples: array of shape (samples,), m/s."""
-    @property
-    def displacements(self) -> NDArray[np.float64]:
-        """Displacement at the samples: array of shape (samples,), m."""
-    @property
-    def peak_acceleration(self) -> float:
-        """Largest |acceleration|, m/s²."""
-    @property
-    def peak_velocity(self) -> float:
-        """Largest |velocity|, m/s."""
-    @property
-    def peak_displacement(self) -> float:
-        """Largest |displacement|, m."""
-    @property
-    def arias_intensity(self) -> float:
-        """Arias intensity, m/s."""
     def significant_times(self, start: float = 0.05, end: float = 0.95) -> list[float]:
         """The two times (s) at which the fractions ``start`` and ``end`` of the Arias intensity are reached,
         by default 0.05 and 0.95: between them is the significant duration.
@@ -912,8 +839,7 @@ class Spectrum:
         """Spectrum with its peaks broadened to frequencies lower and higher by ``fraction``, 0.15
         by default (U.S. NRC R.G. 1.122).
         """
-    def to_frame(self) -> DataFrame:
-        """The spectrum as a pandas frame, indexed by the period (s)."""
+    def __len__(self) -> int: ...
     def plot(
         self,
         axes: Axes | None = None,
@@ -928,7 +854,33 @@ class Spectrum:
         ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
         none.
         """
-    def __len__(self) -> int: ...
+    def to_frame(self) -> DataFrame:
+        """The spectrum as a pandas frame, indexed by the period (s)."""
+
+@final
+class TrenchMotion(FreeField):
+    """Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
+
+    ``ground``: the `TrenchGround`, without backfill; the simulation's ground must be this one. ``horizontal``: `Record` of the
+    surface's motion to the right, by shear waves; ``vertical``: up, by pressure waves; a component is zero unless given. Motion at
+    depth precedes the motion of the surface: begin the record with rest for as long as waves take from the base to the
+    surface (`Record.padded`).
+    """
+
+    def __new__(
+        cls,
+        ground: TrenchGround,
+        horizontal: Record | None = None,
+        vertical: Record | None = None,
+    ) -> Self: ...
+    @staticmethod
+    def travelling(ground: TrenchGround, wave: FreeField) -> TrenchMotion:
+        """The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of what a `PlaneWave` or an `InclinedWave` makes of
+        a record, or of a `travelling_wave`.
+
+        The wave must be one of the ground's profile, along x: the motion of the surface and its velocity along it determine
+        the field below. Motion before and after the wave's record fades within half of its length.
+        """
 
 @final
 class PlaneWave:
@@ -942,6 +894,11 @@ class PlaneWave:
         right if positive.
         """
     @staticmethod
+    def sh(soil: Soil, angle: float) -> PlaneWave:
+        """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
+        across its direction only.
+        """
+    @staticmethod
     def p(soil: Soil, angle: float) -> PlaneWave:
         """P wave from below in a half-plane of this ``soil`` at ``angle`` (rad) from the vertical, to the
         right if positive.
@@ -949,11 +906,6 @@ class PlaneWave:
     @staticmethod
     def rayleigh(soil: Soil) -> PlaneWave:
         """Rayleigh wave to the right on a half-plane of this ``soil``."""
-    def reversed(self) -> PlaneWave:
-        """Wave with this motion, running the other way."""
-    @property
-    def apparent_velocity(self) -> float:
-        """Apparent velocity along the surface, m/s."""
     def field_from_horizontal(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The `FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
         `travelling_wave`.
@@ -962,15 +914,15 @@ class PlaneWave:
         """The `FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
         `travelling_wave`.
         """
-    @staticmethod
-    def sh(soil: Soil, angle: float) -> PlaneWave:
-        """SH wave from below at ``angle`` (rad) from the vertical in this ``soil``, for a ground in plan: it moves the surface
-        across its direction only.
-        """
     def field_from_across(self, record: Record, origin: float, *, azimuth: float = 0.0) -> FreeField:
         """The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
         (rad; 0 by default) is as in `travelling_wave`.
         """
+    @property
+    def apparent_velocity(self) -> float:
+        """Apparent velocity along the surface, m/s."""
+    def reversed(self) -> PlaneWave:
+        """Wave with this motion, running the other way."""
 
 @final
 class SoilColumn:
@@ -999,10 +951,23 @@ class SoilColumn:
         surface (deconvolution); it warns as `to_surface`, and of a motion that is mostly noise which the way down
         amplifies more than a hundredfold: `Record.low_pass` removes it before, as a rule at 15 to 25 Hz.
         """
+    @staticmethod
+    def surface_in_plan(
+        profile: SoilProfile,
+        x: Record | None = None,
+        y: Record | None = None,
+        up: Record | None = None,
+        *,
+        control: _ControlPoint = "outcrop",
+    ) -> list[Record | None]:
+        """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
+        default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
+        is None stays so.
+        """
     def equivalent_linear(
         self,
         record: Record,
-        curves: Sequence[StrainCurves],
+        curves: StrainCurves | Sequence[StrainCurves],
         *,
         control: _ControlPoint = "outcrop",
         strain_ratio: float | None = None,
@@ -1019,104 +984,6 @@ class SoilColumn:
         ``band``: frequencies (Hz) between which damping is constant; 0.1 to 30 Hz unless given. ``complex_modulus`` of the
         layers: "real_part", G(1 + 2iξ) (the default), or "magnitude", G(1 − 2ξ² + 2iξ√(1 − ξ²)) as in SHAKE91.
         """
-    @staticmethod
-    def surface_in_plan(
-        profile: SoilProfile,
-        x: Record | None = None,
-        y: Record | None = None,
-        up: Record | None = None,
-        *,
-        control: _ControlPoint = "outcrop",
-    ) -> list[Record | None]:
-        """Records of the surface, a list of those along x, along y and up, from records of the ``control`` point, "outcrop" (the
-        default) or "within", of a ``profile`` (`SoilProfile`): ``x`` and ``y`` by shear waves, ``up`` by pressure waves; what
-        is None stays so.
-        """
-
-@final
-class StrainCurves:
-    """Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %)."""
-
-    @staticmethod
-    def linear(damping: float) -> StrainCurves:
-        """A soil or rock that stays linear, with this ``damping`` ratio."""
-    @staticmethod
-    def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves:
-        """Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
-        damping.
-        """
-    @staticmethod
-    def vucetic_dobry(plasticity_index: float) -> StrainCurves:
-        """Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991)."""
-    @staticmethod
-    def epri(depth: float) -> StrainCurves:
-        """Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993)."""
-    @staticmethod
-    def darendeli(
-        plasticity_index: float,
-        overconsolidation: float,
-        mean_stress: float,
-        *,
-        frequency: float = 1.0,
-        cycles: float = 10.0,
-    ) -> StrainCurves:
-        """Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
-        ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
-        """
-    @staticmethod
-    def table(strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike) -> StrainCurves:
-        """A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
-        ratios, ``dampings``.
-        """
-    def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
-
-@final
-class EquivalentLinear:
-    """Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
-    accelerations also one of the base within. Printed, a table.
-    """
-
-    def profile(self) -> SoilProfile:
-        """The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band."""
-    @property
-    def surface(self) -> Record:
-        """Record of the free surface."""
-    @property
-    def depth(self) -> NDArray[np.float64]:
-        """Depth of the tops of the layers: array of shape (layers,), m."""
-    @property
-    def shear_modulus(self) -> NDArray[np.float64]:
-        """Strain-compatible shear moduli: array of shape (layers,), Pa."""
-    @property
-    def modulus_ratio(self) -> NDArray[np.float64]:
-        """Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,)."""
-    @property
-    def damping(self) -> NDArray[np.float64]:
-        """Strain-compatible damping ratio of each layer: array of shape (layers,)."""
-    @property
-    def largest_strain(self) -> NDArray[np.float64]:
-        """Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,)."""
-    @property
-    def effective_strain(self) -> NDArray[np.float64]:
-        """Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,)."""
-    @property
-    def accelerations(self) -> NDArray[np.float64]:
-        """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
-    @property
-    def peak_acceleration(self) -> NDArray[np.float64]:
-        """Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s²."""
-    @property
-    def iterations(self) -> int:
-        """Linear calculations made."""
-    @property
-    def last_change(self) -> float:
-        """Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated."""
-    @property
-    def warnings(self) -> list[str]:
-        """Warnings, in words."""
-    def to_frame(self) -> DataFrame:
-        """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
 
 @final
 class InclinedWave:
@@ -1256,7 +1123,7 @@ class SoilProfile:
 
     def __new__(
         cls,
-        layers: Sequence[SoilLayer],
+        layers: SoilLayer | Sequence[SoilLayer],
         bedrock: Soil | None = None,
         *,
         bedrock_damping: DampingLaw | None = None,
@@ -1267,6 +1134,16 @@ class SoilProfile:
     @property
     def bedrock(self) -> Soil | None:
         """The `Soil` of the half-plane under the layers; None on rigid bedrock."""
+    @property
+    def depth(self) -> float:
+        """Depth of all layers, m."""
+    @property
+    def first_frequency(self) -> float | None:
+        """First natural frequency of the layers, Hz; None without layers."""
+    @property
+    def travel_time(self) -> float:
+        """Time that a shear wave takes through all layers, s."""
+    def _repr_html_(self) -> str: ...
     def plot(
         self,
         axes: Axes | None = None,
@@ -1280,104 +1157,94 @@ class SoilProfile:
         ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several profiles in the same axes:
         ``label``, a name of the curve, and its ``color``. ``title`` stands above the picture; None for none.
         """
-    @property
-    def depth(self) -> float:
-        """Depth of all layers, m."""
-    @property
-    def first_frequency(self) -> float | None:
-        """First natural frequency of the layers, Hz; None without layers."""
-    @property
-    def travel_time(self) -> float:
-        """Time that a shear wave takes through all layers, s."""
-
-@disjoint_base
-class Summary:
-    """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
-
-    Forces act from the structure on the soil, per metre of thickness.
-    """
-
-    def extremes(self, quantity: _Quantity) -> Extremes:
-        """The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
-        "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
-        """
-    @property
-    def ends(self) -> list[float]:
-        """x of the foundation's two ends, m."""
-    @property
-    def depth(self) -> list[float]:
-        """In plan: y of its front and its back, m; zeros in the plane."""
-    @property
-    def static_normal_force(self) -> float:
-        """Total pressure at the start, N/m."""
-    @property
-    def base_shear(self) -> Extremes:
-        """Horizontal force on the soil, positive to the right, N/m: its `Extremes`."""
-    @property
-    def base_moment(self) -> Extremes:
-        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its `Extremes`."""
-    @property
-    def normal_force(self) -> Extremes:
-        """Total pressure on the soil, N/m: its `Extremes`."""
-    @property
-    def base_rotation(self) -> Extremes:
-        """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its `Extremes`."""
-    @property
-    def uplifted_fraction(self) -> Peak:
-        """Largest ratio of the open length to the length: its `Peak`."""
-    @property
-    def uplift_duration(self) -> float:
-        """Time with uplift, s."""
-    @property
-    def mean_slip(self) -> Extremes:
-        """Slip averaged over the foundation, m: its `Extremes`."""
-    @property
-    def residual_slip(self) -> float:
-        """Slip averaged over the foundation at the end, m."""
-    @property
-    def largest_slip(self) -> Peak:
-        """Largest slip of any element, m: its `Peak`."""
-    @property
-    def slip_events(self) -> list[tuple[float, float, float]]:
-        """Slip events: list of tuples (start in s, end in s, slip in m)."""
-    @property
-    def slip_path(self) -> float:
-        """Sliding distance: |slip| of it summed over time, m."""
-    @property
-    def least_sliding_safety(self) -> Peak | None:
-        """Least factor of safety against sliding, a `Peak`; None without a friction coefficient."""
-    @property
-    def least_overturning_safety(self) -> Peak:
-        """Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
-        left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
-        middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
-        """
-    @property
-    def residual_slip_across(self) -> float:
-        """In plan: slip along y averaged over the foundation at the end, m."""
 
 @final
-class ServiceCheck:
-    """A limit of service, held against a run."""
+class Refinement:
+    """Error against run time at six settings: what `refine` returns. Printed, it is a table."""
 
     @property
-    def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation"]:
-        """The limited response: "slip", "gap", "uplifted_fraction" or "rotation"."""
+    def results(self) -> list[NDArray[np.float64]]:
+        """Results of the settings, in the units of the scene: list of 6 arrays of shape (results,)."""
     @property
-    def limit(self) -> float:
-        """Limit of the response, in SI units."""
+    def time_steps(self) -> NDArray[np.float64]:
+        """Time steps of the settings: array of shape (6,), s."""
     @property
-    def largest(self) -> Peak:
-        """The run's value furthest from zero, a `Peak` in SI units."""
+    def errors(self) -> NDArray[np.float64]:
+        """Estimated errors of the settings, relative to the size of the results: array of shape (6,)."""
     @property
-    def first_excess(self) -> float | None:
-        """End of the first step beyond the limit, s; None if there was none."""
+    def wall_times(self) -> NDArray[np.float64]:
+        """Wall times of the settings: array of shape (6,), s."""
     @property
-    def is_met(self) -> bool:
-        """Whether the limit was kept."""
+    def elements(self) -> list[int]:
+        """Numbers of elements of the settings: list of 6."""
     @property
-    def margin(self) -> float:
-        """Unused fraction of the limit; below zero where it is exceeded."""
+    def extrapolated(self) -> NDArray[np.float64]:
+        """Results extrapolated to infinitely many elements and steps: array of shape (results,), in the
+        units of the scene.
+        """
+    @property
+    def mesh_order(self) -> float:
+        """Observed order of convergence in the element length; NaN if nothing depends on it."""
+    @property
+    def step_order(self) -> float:
+        """Observed order of convergence in the time step; NaN if nothing depends on it."""
+    @property
+    def mismatch(self) -> float:
+        """Distance of the last setting's results from those predicted from the other errors, relative to the size of the
+        results.
+        """
+    @property
+    def is_regular(self) -> bool:
+        """Whether the estimate can be trusted: regular orders, and the coarsest error above the
+        mismatch.
+        """
+
+@final
+class Refinements:
+    """Error against run time of several peaks: what `refine` returns for a scene that returns a dict. Printed, it is
+    one table.
+    """
+
+    @property
+    def names(self) -> list[str]:
+        """Names of the peaks, in the order of the scene."""
+    def __getitem__(self, key: str, /) -> Refinement: ...
+
+@final
+class PeakTwins:
+    """Value of a peak in a run and in its twins."""
+
+    @property
+    def name(self) -> str:
+        """Name of the peak."""
+    @property
+    def value(self) -> float:
+        """Value of the run, in the unit of the peak."""
+    @property
+    def shorter_step(self) -> float:
+        """Value with a time step shorter by 1 %, in the unit of the peak."""
+    @property
+    def three_quarters(self) -> float:
+        """Value on three quarters of the elements, rounded up, in the unit of the peak."""
+    @property
+    def half(self) -> float:
+        """Value on half the elements, rounded up, in the unit of the peak."""
+    @property
+    def spread(self) -> float:
+        """Largest difference between a twin and the run, in the unit of the peak."""
+    @property
+    def digits(self) -> int:
+        """Significant digits that hold, six at most: half a unit of the last one is the spread or more."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Sensitivity:
+    """Peaks of a run and of its twins: what `sensitivity` returns. Printed, it is a table."""
+
+    @property
+    def peaks(self) -> list[PeakTwins]:
+        """The peaks, in the order of the scene: list of `PeakTwins`."""
+    def __getitem__(self, key: str, /) -> PeakTwins: ...
 
 @final
 class EnergyBalance:
@@ -1429,6 +1296,60 @@ class EnergyBalance:
         """Difference between the two sides of the balance, relative to the largest energy so far."""
     def to_dict(self) -> dict[str, float]:
         """All terms by their names: dict of numbers, J, in the plane J/m."""
+    def _repr_html_(self) -> str: ...
+
+@final
+class SystemMode:
+    """Vibration mode of a structure on a fixed base and on its ground (ASCE 7, chapter 19)."""
+
+    @property
+    def axis(self) -> str | None:
+        """Axis along which the mode moves the most mass, "x" or "y" in plan; None in the plane."""
+    @property
+    def fixed_period(self) -> float:
+        """Period T on a fixed base, s."""
+    @property
+    def fixed_damping(self) -> float:
+        """Damping ratio β on a fixed base."""
+    @property
+    def period(self) -> float:
+        """Period T̃ of the soil–structure system, s."""
+    @property
+    def damping(self) -> float:
+        """Damping ratio β₀ of the soil–structure system."""
+    @property
+    def period_ratio(self) -> float:
+        """Period lengthening T̃/T, a ratio."""
+    @property
+    def foundation_damping(self) -> float:
+        """Foundation damping ratio β_f = β₀ − β/(T̃/T)²: radiation and the damping of the soil."""
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class Interaction:
+    """A scene on its ground and on a fixed base: what `Simulation.interaction` returns. Printed, it is a table for a
+    report.
+    """
+
+    @property
+    def on_ground(self) -> Run:
+        """The `Run` on the ground, without time series."""
+    @property
+    def on_fixed_base(self) -> Run:
+        """The `Run` on the fixed base, without time series."""
+    @property
+    def modes(self) -> list[SystemMode]:
+        """The mode with the most mass along x, in plan also that along y: list of `SystemMode`; empty for a structure
+        that is rigid.
+        """
+    @property
+    def probe_ratios(self) -> dict[str, float]:
+        """Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names."""
+    def ratio(self, name: str) -> float:
+        """Ratio of the largest magnitudes of the scalar ``name``, such as "base_shear", on the ground and on the fixed base;
+        NaN where both are zero.
+        """
+    def _repr_html_(self) -> str: ...
 
 @final
 class Peak:
@@ -1462,6 +1383,72 @@ class Extremes:
     def magnitude(self) -> float:
         """Magnitude of `largest`, in the quantity's unit."""
     def __eq__(self, value: object, /) -> bool: ...
+
+@disjoint_base
+class Summary:
+    """The whole base or one foundation over a run: largest values with their times, uplift and sliding.
+
+    Forces act from the structure on the soil, per metre of thickness.
+    """
+
+    @property
+    def ends(self) -> list[float]:
+        """x of the foundation's two ends, m."""
+    @property
+    def depth(self) -> list[float]:
+        """In plan: y of its front and its back, m; zeros in the plane."""
+    @property
+    def static_normal_force(self) -> float:
+        """Total pressure at the start, N/m."""
+    @property
+    def base_shear(self) -> Extremes:
+        """Horizontal force on the soil, positive to the right, N/m: its `Extremes`."""
+    @property
+    def base_moment(self) -> Extremes:
+        """Moment on the soil, counter-clockwise, N·m/m, of a foundation about its middle; in plan about y by the right-hand rule: its `Extremes`."""
+    @property
+    def normal_force(self) -> Extremes:
+        """Total pressure on the soil, N/m: its `Extremes`."""
+    @property
+    def base_rotation(self) -> Extremes:
+        """Rotation, counter-clockwise, rad, in plan about y by the right-hand rule: its `Extremes`."""
+    @property
+    def uplifted_fraction(self) -> Peak:
+        """Largest ratio of the open length to the length: its `Peak`."""
+    @property
+    def uplift_duration(self) -> float:
+        """Time with uplift, s."""
+    @property
+    def mean_slip(self) -> Extremes:
+        """Slip averaged over the foundation, m: its `Extremes`."""
+    @property
+    def residual_slip(self) -> float:
+        """Slip averaged over the foundation at the end, m."""
+    @property
+    def residual_slip_across(self) -> float:
+        """In plan: slip along y averaged over the foundation at the end, m."""
+    @property
+    def largest_slip(self) -> Peak:
+        """Largest slip of any element, m: its `Peak`."""
+    @property
+    def slip_events(self) -> list[tuple[float, float, float]]:
+        """Slip events: list of tuples (start in s, end in s, slip in m)."""
+    @property
+    def slip_path(self) -> float:
+        """Sliding distance: |slip| of it summed over time, m."""
+    @property
+    def least_sliding_safety(self) -> Peak | None:
+        """Lowest factor of safety against sliding, a `Peak`; None without a friction coefficient."""
+    @property
+    def least_overturning_safety(self) -> Peak:
+        """Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the
+        left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
+        middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
+        """
+    def extremes(self, quantity: _Quantity) -> Extremes:
+        """The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
+        "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
+        """
 
 @final
 class Run(Summary):
@@ -1499,14 +1486,86 @@ class Run(Summary):
         """The ground motion in words, as on the page of the run."""
     @property
     def time(self) -> NDArray[np.float64]:
-        """Times of the kept steps: array of shape (steps + 1,), s; the first is the start."""
-    def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
+        """Times of the recorded steps: array of shape (steps + 1,), s; the first is the start."""
+    @property
+    def dof_names(self) -> list[str] | None:
+        """Names of the structure's degrees of freedom: list of n texts; None without names."""
+    @property
+    def largest_gap(self) -> Peak:
+        """Largest gap of any element, m: its `Peak`."""
+    @property
+    def largest_pressure(self) -> Peak | None:
+        """Largest pressure of any element, Pa, a `Peak`; None without elements."""
+    @property
+    def shear_coefficient(self) -> float | None:
+        """Ratio of the largest base shear to the weight; None without weight."""
+    @property
+    def foundations(self) -> list[Summary]:
+        """Each foundation by itself: list of `Summary`, from left to right."""
+    @property
+    def serviceability(self) -> list[ServiceCheck]:
+        """A check of each limit of service that the simulation was given: list of `ServiceCheck`."""
+    @property
+    def is_serviceable(self) -> bool | None:
+        """Whether the run stays within all limits of service; None without limits."""
+    @property
+    def mode_changes(self) -> int:
+        """Number of changes of contact mode."""
+    @property
+    def energy_balance(self) -> EnergyBalance:
+        """The `EnergyBalance` at the end."""
+    @property
+    def energy_error(self) -> float:
+        """Largest residual of the energy balance, relative to the largest energy; NaN without an energy balance."""
+    @property
+    def trials(self) -> int:
+        """Number of linear solves of the search for contact modes."""
+    @property
+    def fallbacks(self) -> int:
+        """Number of steps that the first search did not solve."""
+    @property
+    def warnings(self) -> list[str]:
+        """List of the texts of warnings: strained assumptions, and steps and elements too coarse for it."""
     @property
     def series(self) -> dict[str, NDArray[np.float64]]:
         """All time series: dict of arrays of shape (steps + 1,), "time" first."""
     @property
     def energy_balances(self) -> dict[str, NDArray[np.float64]]:
         """Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m."""
+    @property
+    def probes(self) -> dict[str, Extremes]:
+        """Smallest and largest value of each probe: dict of `Extremes` by its name, in its unit."""
+    @property
+    def units(self) -> dict[str, str]:
+        """SI units of the time series and of the energies: dict of texts by their names, "" for ratios."""
+    @property
+    def heights(self) -> NDArray[np.float64]:
+        """Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it."""
+    @property
+    def faces(self) -> dict[Literal["left_wall", "base", "right_wall"], dict[str, NDArray[np.float64]]]:
+        """`FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
+        walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
+        "open_fraction" (a ratio).
+        """
+    @property
+    def envelope(self) -> dict[str, NDArray[np.float64]]:
+        """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
+        "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
+        "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
+        "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
+        """
+    @property
+    def energy_fractions(self) -> dict[str, float] | None:
+        """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
+        is not positive.
+        """
+    @property
+    def _foundation_peaks(self) -> list[dict[str, float | None]]:
+        """Peaks of all scalar quantities of each foundation."""
+    @property
+    def wall(self) -> float:
+        """Wall time, s."""
+    def __getitem__(self, key: str, /) -> NDArray[np.float64]: ...
     @property
     def contact(self) -> dict[str, NDArray[Any]]:
         """Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
@@ -1521,38 +1580,21 @@ class Run(Summary):
     @property
     def static_displacement(self) -> NDArray[np.float64]:
         """Static displacement of the degrees of freedom, under weight and loads at the start: array of shape (n,), m and rad. It
-        is kept with the motion: give ``motion_every`` to `Simulation.run`.
+        is recorded with the motion: give ``motion_every`` to `Simulation.run`.
         """
-    @property
-    def dof_names(self) -> list[str] | None:
-        """Names of the structure's degrees of freedom: list of n texts; None without names."""
-    @property
-    def units(self) -> dict[str, str]:
-        """SI units of the time series and of the energies: dict of texts by their names, "" for ratios."""
-    def to_frame(self) -> DataFrame:
-        """All time series as a pandas frame, indexed by the time (s).
-
-        Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
-        motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
+    def _repr_html_(self) -> str: ...
+    def acceleration_record(self, probe: str) -> Record:
+        """The `Record` of the acceleration probe called ``probe``."""
+    def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
+        """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
+        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
+        vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
+        tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
         """
-    def contact_frame(self) -> DataFrame:
-        """Snapshots of the base as a tidy pandas frame: a row per frame and element.
-
-        Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
-        "y", "slip_across" (m) and "shear_across" (Pa), and with walls "z", the height of the element's middle (m).
+    def summary(self) -> dict[str, Any]:
+        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
+        service "is_serviceable".
         """
-    def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
-        """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
-
-        ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
-        m/s and rad/s) of the snapshots in `Run.motion`, by its name in `Run.dof_names` or its
-        number.
-        """
-    def envelope_frame(self) -> DataFrame:
-        """`Run.envelope` as a pandas frame: a row per element."""
-    @property
-    def _foundation_peaks(self) -> list[dict[str, float | None]]:
-        """Peaks of all scalar quantities of each foundation."""
     def save_npz(self, path: str | os.PathLike[str]) -> None:
         """Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
         names with their units, such as "base_shear_n_per_m", in any version and without this package.
@@ -1571,62 +1613,6 @@ class Run(Summary):
         With the simulation's ``structure``, or its `DeformedShape`, there is also a grid of it for each snapshot of the
         motion; none unless given. ``height`` (m): height of the box that stands for a rigid block or body, as for
         `DeformedShape`; None for structures with a shape of their own.
-        """
-    def foundation_frame(self) -> DataFrame:
-        """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
-
-        Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
-        of safety the least value; in plan also the directions across: "torque" and others.
-        """
-    def energy_frame(self) -> DataFrame:
-        """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
-    def floor_spectra(
-        self,
-        periods: ArrayLike,
-        damping: float = 0.05,
-        *,
-        probes: Sequence[str] | None = None,
-    ) -> DataFrame:
-        """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
-
-        Args:
-            periods: natural periods, array of shape (m,), s: the index of the frame.
-            damping: damping ratio; 0.05 by default.
-            probes: names of acceleration probes; all those with the unit "m/s²" unless given.
-        """
-    def plot(
-        self,
-        axes: Iterable[Axes] | None = None,
-        *,
-        label: str | None = None,
-        color: str | None = None,
-        title: str | None = None,
-    ) -> list[Axes]:
-        """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
-
-        Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
-        with snapshots; unless given, axes of a new figure. For several runs in the same axes:
-        ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
-        line style for each run. ``title`` stands above the picture; None for none.
-        """
-    def plot_modes(self, axes: Axes | None = None, *, title: str | None = None) -> Axes:
-        """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
-
-        It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
-        new figure unless given. ``title`` stands above the picture; None for none.
-        """
-    def plot_contact_plan(
-        self,
-        time: float | None = None,
-        axes: Axes | None = None,
-        *,
-        title: str | None = None,
-    ) -> Axes:
-        """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
-
-        It needs snapshots of the contact on a ground in plan: ``contact_every`` of `Simulation.run`. ``time`` (s): the
-        snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
-        into; unless given, axes of a new figure. ``title`` stands above the picture; the time of the snapshot unless given.
         """
     def animate(
         self,
@@ -1654,6 +1640,77 @@ class Run(Summary):
 
         Returns:
             A ``matplotlib.animation.FuncAnimation``, whose ``save("run.gif")`` writes a file.
+        """
+    def contact_frame(self) -> DataFrame:
+        """Snapshots of the base as a tidy pandas frame: a row per frame and element.
+
+        Columns: "time" (s), "element", "x" (m), "gap", "slip" (m), "pressure", "shear" (Pa), "mode"; in plan also
+        "y", "slip_across" (m) and "shear_across" (Pa), and with walls "z", the height of the element's middle (m).
+        """
+    def energy_frame(self) -> DataFrame:
+        """`Run.energy_balances` as a pandas frame, indexed by the time (s), J/m, in plan J."""
+    def envelope_frame(self) -> DataFrame:
+        """`Run.envelope` as a pandas frame: a row per element."""
+    def floor_spectra(
+        self,
+        periods: ArrayLike,
+        damping: float = 0.05,
+        *,
+        probes: Sequence[str] | None = None,
+    ) -> DataFrame:
+        """Floor spectra as a pandas frame: total accelerations (m/s²), a column per probe.
+
+        Args:
+            periods: natural periods, array of shape (m,), s: the index of the frame.
+            damping: damping ratio; 0.05 by default.
+            probes: names of acceleration probes; all those with the unit "m/s²" unless given.
+        """
+    def foundation_frame(self) -> DataFrame:
+        """`Run.foundations` as a pandas frame: a row each, largest values with their signs.
+
+        Columns are ends (m), the static normal force, residual slip (m), and the columns of `Run.series`: of a factor
+        of safety the least value; in plan also the directions across: "torque" and others.
+        """
+    def motion_frame(self, quantity: Literal["displacement", "velocity"] = "displacement") -> DataFrame:
+        """The structure's "displacement" or "velocity" as a pandas frame, indexed by the time (s).
+
+        ``quantity``: one of them, "displacement" by default. A column per degree of freedom (m and rad, or
+        m/s and rad/s) of the snapshots in `Run.motion`, by its name in `Run.dof_names` or its
+        number.
+        """
+    def plot(
+        self,
+        axes: Iterable[Axes] | None = None,
+        *,
+        label: str | None = None,
+        color: str | None = None,
+        title: str | None = None,
+    ) -> list[Axes]:
+        """Draws base shear (in plan both), contact modes and energies over time; returns the list of axes.
+
+        Contact modes need snapshots: ``contact_every`` of `Simulation.run`. ``axes``: two of matplotlib to draw into, three
+        with snapshots; unless given, axes of a new figure. For several runs in the same axes:
+        ``label``, a name before those of the curves, and ``color`` of the base shear; energies have one colour each, and a
+        line style for each run. ``title`` stands above the picture; None for none.
+        """
+    def plot_contact_plan(
+        self,
+        time: float | None = None,
+        axes: Axes | None = None,
+        *,
+        title: str | None = None,
+    ) -> Axes:
+        """Draws the base in plan at an instant: pressures, open elements, and where sliding ones move; returns the axes.
+
+        It needs snapshots of the contact on a ground in plan: ``contact_every`` of `Simulation.run`. ``time`` (s): the
+        snapshot nearest to it is drawn; that with the most open elements unless given. ``axes``: those of matplotlib to draw
+        into; unless given, axes of a new figure. ``title`` stands above the picture; the time of the snapshot unless given.
+        """
+    def plot_modes(self, axes: Axes | None = None, *, title: str | None = None) -> Axes:
+        """Draws the contact mode of every element over time, in plan the area of each; returns the axes.
+
+        It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
+        new figure unless given. ``title`` stands above the picture; None for none.
         """
     def report(
         self,
@@ -1686,80 +1743,11 @@ class Run(Summary):
         The file is for this version of the package; frames, arrays and `Run.summary` are for
         longer keeping.
         """
-    def acceleration_record(self, probe: str) -> Record:
-        """The `Record` of the acceleration probe called ``probe``."""
-    def floor_spectrum(self, probe: str, periods: ArrayLike, damping: float = 0.05) -> Spectrum:
-        """Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
-        ``periods`` (array of shape (m,), s) with the damping ratio ``damping`` (0.05 by default). Peaks of the free
-        vibration in the period after the end of the run count too: run until the floor is at rest. A `BasematWarning`
-        tells of periods with fewer than ten time steps: a run with a shorter step makes the spectrum exact there.
-        """
-    @property
-    def probes(self) -> dict[str, Extremes]:
-        """Smallest and largest value of each probe: dict of `Extremes` by its name, in its unit."""
-    @property
-    def largest_gap(self) -> Peak:
-        """Largest gap of any element, m: its `Peak`."""
-    @property
-    def largest_pressure(self) -> Peak | None:
-        """Largest pressure of any element, Pa, a `Peak`; None without elements."""
-    @property
-    def shear_coefficient(self) -> float | None:
-        """Ratio of the largest base shear to the weight; None without weight."""
-    @property
-    def foundations(self) -> list[Summary]:
-        """Each foundation by itself: list of `Summary`, from left to right."""
-    @property
-    def serviceability(self) -> list[ServiceCheck]:
-        """A check of each limit of service that the simulation was given: list of `ServiceCheck`."""
-    @property
-    def is_serviceable(self) -> bool | None:
-        """Whether all limits of service were kept; None without limits."""
-    @property
-    def envelope(self) -> dict[str, NDArray[np.float64]]:
-        """Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
-        "slip" (m), "static_pressure", "lowest_pressure", "highest_pressure", "shear" (Pa),
-        "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
-        "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
-        """
-    @property
-    def heights(self) -> NDArray[np.float64]:
-        """Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it."""
-    @property
-    def faces(self) -> dict[Literal["left_wall", "base", "right_wall"], dict[str, NDArray[np.float64]]]:
-        """`FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
-        walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
-        "open_fraction" (a ratio).
-        """
-    @property
-    def mode_changes(self) -> int:
-        """Number of changes of contact mode."""
-    @property
-    def energy_balance(self) -> EnergyBalance:
-        """The `EnergyBalance` at the end."""
-    @property
-    def energy_error(self) -> float:
-        """Largest residual of the energy balance, relative to the largest energy; NaN if none is kept."""
-    @property
-    def energy_fractions(self) -> dict[str, float] | None:
-        """Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
-        is not positive.
-        """
-    @property
-    def trials(self) -> int:
-        """Number of linear solves of the search for contact modes."""
-    @property
-    def fallbacks(self) -> int:
-        """Number of steps that the first search did not solve."""
-    @property
-    def warnings(self) -> list[str]:
-        """List of the texts of warnings: strained assumptions, and steps and elements too coarse for it."""
-    @property
-    def wall(self) -> float:
-        """Wall time, s."""
-    def summary(self) -> dict[str, Any]:
-        """Numbers of the run for a table: dict in SI units; peaks with their signs, probes as "peak NAME", and with limits of
-        service "is_serviceable".
+    def to_frame(self) -> DataFrame:
+        """All time series as a pandas frame, indexed by the time (s).
+
+        Units of the columns of this and of all other frames are in ``frame.attrs["units"]``. Frames of a run have its ground
+        motion in ``frame.attrs["ground_motion"]``: peak, duration and time step in words.
         """
 
 @final
@@ -1800,6 +1788,10 @@ class DeformedShape:
         ``displacement``: all n degrees of freedom of the structure, array of shape (n,), m and rad: a row of
         ``run.motion["displacement"]``, a static displacement or a vibration mode.
         """
+    def save_paraview_state(self, path: str | os.PathLike[str], displacement: ArrayLike) -> None:
+        """Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``
+        for ParaView, one grid (.vtu): a single state, such as the static one or a vibration mode.
+        """
     def plot(
         self,
         displacement: ArrayLike | None = None,
@@ -1825,18 +1817,37 @@ class DeformedShape:
             color: colour of the moved structure; blue, then matplotlib's next, unless given.
             title: text above the picture; none unless given.
         """
-    def save_paraview_state(self, path: str | os.PathLike[str], displacement: ArrayLike) -> None:
-        """Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``
-        for ParaView, one grid (.vtu): a single state, such as the static one or a vibration mode.
-        """
+
+@final
+class ServiceCheck:
+    """Comparison of a run with a limit of service."""
+
+    @property
+    def criterion(self) -> Literal["slip", "gap", "uplifted_fraction", "rotation"]:
+        """The limited response: "slip", "gap", "uplifted_fraction" or "rotation"."""
+    @property
+    def limit(self) -> float:
+        """Limit of the response, in SI units."""
+    @property
+    def largest(self) -> Peak:
+        """The run's value furthest from zero, a `Peak` in SI units."""
+    @property
+    def first_excess(self) -> float | None:
+        """End of the first step beyond the limit, s; None if there was none."""
+    @property
+    def is_met(self) -> bool:
+        """Whether the run stays within the limit."""
+    @property
+    def margin(self) -> float:
+        """Unused fraction of the limit; below zero where it is exceeded."""
 
 @final
 class DofCombination:
     """A weighted sum of a structure's degrees of freedom: where a probe reads and a load acts.
 
     ``terms``: a degree of freedom's number (from 0), a dict ``{dof: weight}``, a list of pairs
-    ``(dof, weight)``, an array of all n weights, or another row. All of these will do wherever a row
-    is asked for. Rows add, subtract and scale.
+    ``(dof, weight)``, an array of all n weights, or another row. Arguments that are rows may have any of these forms.
+    Rows add, subtract and scale.
     """
 
     def __new__(cls, terms: _RowLike) -> Self: ...
@@ -1882,9 +1893,6 @@ class SectionRows:
         *,
         unit: _SectionUnit = "N/m",
     ) -> Self: ...
-    def __getnewargs_ex__(
-        self,
-    ) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
     @property
     def unit(self) -> str:
         """SI unit of the resultant: "N/m" or "N·m/m", in plan "N" or "N·m"."""
@@ -1897,118 +1905,9 @@ class SectionRows:
     @property
     def acceleration(self) -> DofCombination:
         """The `DofCombination` of accelerations."""
-
-@final
-class Checkpoint:
-    """A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
-    on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
-    """
-
-    def __new__(cls, data: bytes) -> Self: ...
-    @property
-    def steps(self) -> int:
-        """Steps made before the checkpoint."""
-    def to_bytes(self) -> bytes:
-        """All of it as bytes, for a file."""
-    def __getnewargs__(self) -> tuple[bytes]: ...
-    def __eq__(self, value: object, /) -> bool: ...
-
-@final
-class InitialConditions:
-    """Weight and motion at the start of a simulation.
-
-    Args:
-        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
-            state: the base begins without pressure, and nothing resists uplift and sliding.
-        gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
-            after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
-            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
-            "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
-            static state, weight and loads act from t = 0 on, as for a block let go.
-        displacement: of the n degrees of freedom at t = 0 against the static state, array of
-            shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
-        velocity: the same for velocities, m/s and rad/s; zero unless given.
-    """
-
-    def __new__(
-        cls,
-        *,
-        gravity: float | None = None,
-        gravity_stage: _GravityStage = "frictionless",
-        displacement: ArrayLike | None = None,
-        velocity: ArrayLike | None = None,
-    ) -> Self: ...
-
-@final
-class SolverOptions:
-    """Method by which a simulation steps.
-
-    Args:
-        scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
-        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
-            time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
-            coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
-            relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
-        expected_steps: number of steps that will be made. Memory and the ground's weights are then
-            ready before the first; unless given, the steps of the first run. More steps than fit into
-            the memory of the ground's history raise an error.
-        rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
-            run goes on; infinite: runs end by their steps alone.
-        flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-            most so many iterations a step, for comparison with their paper; the robust search unless
-            given.
-    """
-
-    def __new__(
-        cls,
-        *,
-        scheme: TimeScheme | None = None,
-        coordinates: _Coordinates | float | None = None,
-        expected_steps: int | None = None,
-        rotation_limit: float | None = None,
-        flow_chart_iterations: int | None = None,
-    ) -> Self: ...
-
-@final
-class ResultOptions:
-    """Quantities that a run evaluates; they change nothing in its motion.
-
-    Args:
-        moment_center: x of the point about which the base moment is taken, m; the middle of the base
-            unless given.
-        energy_balance: whether energies are booked; True by default. Without them a step takes less
-            time, and `Run.energy_error` is NaN.
-        safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
-            interface law unless given.
-    """
-
-    def __new__(
-        cls,
-        *,
-        moment_center: float | None = None,
-        energy_balance: bool = True,
-        safety_friction: float | None = None,
-    ) -> Self: ...
-
-@final
-class ServiceLimits:
-    """Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
-
-    Args:
-        slip: limit of |mean slip|, m; none unless given.
-        gap: limit of the gap of any element, m; none unless given.
-        uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
-        rotation: limit of the base's |rotation|, rad; none unless given.
-    """
-
-    def __new__(
-        cls,
-        *,
-        slip: float | None = None,
-        gap: float | None = None,
-        uplifted_fraction: float | None = None,
-        rotation: float | None = None,
-    ) -> Self: ...
+    def __getnewargs_ex__(
+        self,
+    ) -> tuple[tuple[DofCombination, DofCombination, DofCombination], dict[str, Any]]: ...
 
 @final
 class Simulation:
@@ -2037,6 +1936,50 @@ class Simulation:
             ground with layers or a trench are computed for the expected steps; none unless given.
     """
 
+    @property
+    def state(self) -> State:
+        """The `State` at the end of the last accepted step (at first: the static state)."""
+    @property
+    def time_step(self) -> float:
+        """Time step, s."""
+    @property
+    def probe_names(self) -> list[str]:
+        """Names of the probes, in their order."""
+    @property
+    def elements(self) -> list[tuple[float, float]]:
+        """Ends of the contact elements: list of (left, right), m."""
+    @property
+    def static_displacement(self) -> NDArray[np.float64]:
+        """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
+    @property
+    def history_choice(self) -> str | None:
+        """The method by which the ground computes its history, in words; None for a ground without history."""
+    @property
+    def structure(self) -> Any:
+        """The structure as it was given; of one written in Python with a ``force`` of its own the copy that
+        this simulation works on, with its internal variables.
+        """
+    @property
+    def ground(self) -> Any:
+        """The ground as it was given; of one written in Python the copy that this simulation works on."""
+    @property
+    def interface(self) -> Any:
+        """The law of the interface as it was given, or the list of laws."""
+    @property
+    def motion(self) -> FreeField | None:
+        """The ground motion as it was given; None without one."""
+    @property
+    def _arguments(self) -> dict[str, Any]:
+        """All arguments by their names, as they were given; those that were not are None, an empty list or False."""
+    @property
+    def hysteresis(self) -> list[Any]:
+        """The springs of the structure that are written in Python (`UserHysteresis`): list of the
+        copies that this simulation works on, with their internal variables, in the order of storeys or
+        springs.
+        """
+    @property
+    def conditioning(self) -> tuple[float, float, float]:
+        """Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem."""
     def __new__(
         cls,
         time_step: float,
@@ -2045,8 +1988,8 @@ class Simulation:
         interface: _Interface | Sequence[_Interface],
         *,
         motion: FreeField | None = None,
-        loads: Sequence[Load] | None = None,
-        probes: Sequence[Probe] | None = None,
+        loads: Load | Sequence[Load] | None = None,
+        probes: Probe | Sequence[Probe] | None = None,
         initial: InitialConditions | None = None,
         solver: SolverOptions | None = None,
         results: ResultOptions | None = None,
@@ -2079,7 +2022,7 @@ class Simulation:
         it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
         stays at the last accepted step.
 
-        ``series``: whether time series are kept, True by default: the scalars of every ``every``th step (1 by default, as
+        ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
         floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
         ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
         ``observe``, which may end the run, only the values of the steps made.
@@ -2095,50 +2038,6 @@ class Simulation:
         """An iterator that makes a step and yields its state, ``steps`` times or for a
         ``duration`` (s); without either, those to the end of the motion.
         """
-    @property
-    def state(self) -> State:
-        """The `State` at the end of the last accepted step (at first: the static state)."""
-    @property
-    def time_step(self) -> float:
-        """Time step, s."""
-    @property
-    def structure(self) -> Any:
-        """The structure as it was given; of one written in Python with a ``force`` of its own the copy that
-        this simulation works on, with its internal variables.
-        """
-    @property
-    def ground(self) -> Any:
-        """The ground as it was given; of one written in Python the copy that this simulation works on."""
-    @property
-    def interface(self) -> Any:
-        """The law of the interface as it was given, or the list of laws."""
-    @property
-    def motion(self) -> FreeField | None:
-        """The ground motion as it was given; None without one."""
-    @property
-    def hysteresis(self) -> list[Any]:
-        """The springs of the structure that are written in Python (`UserHysteresis`): list of the
-        copies that this simulation works on, with their internal variables, in the order of storeys or
-        springs.
-        """
-    @property
-    def _arguments(self) -> dict[str, Any]:
-        """All arguments by their names, as they were given; those that were not are None, an empty list or False."""
-    @property
-    def probe_names(self) -> list[str]:
-        """Names of the probes, in their order."""
-    @property
-    def elements(self) -> list[tuple[float, float]]:
-        """Ends of the contact elements: list of (left, right), m."""
-    @property
-    def static_displacement(self) -> NDArray[np.float64]:
-        """Static displacement of the degrees of freedom: array of shape (n,), m and rad."""
-    @property
-    def history_choice(self) -> str | None:
-        """Which history the ground keeps, in words; None for a ground without one."""
-    @property
-    def conditioning(self) -> tuple[float, float, float]:
-        """Condition numbers of the three matrices of a step: effective stiffness, ground, contact problem."""
     def set_load(self, index: int, value: float | None) -> None:
         """Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
 
@@ -2152,19 +2051,13 @@ class Simulation:
         first mode (ASCE 7, chapter 19). This simulation stays where it is.
 
         T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
-        structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
-        let go. The soil is linear: give it the moduli of the design motion.
+        structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
+        deflection in this mode. The soil is linear: give it the moduli of the design motion.
         """
     def steps_for(self, duration: float) -> int:
         """Number of steps that last ``duration`` (s), rounded up."""
     def checkpoint(self) -> Checkpoint:
         """Saves what the steps so far have left behind as a `Checkpoint`, for `resume`."""
-    def reset(self) -> None:
-        """Goes back to the start: what follows has the bits that it had from there.
-
-        Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
-        ``save`` and ``restore``.
-        """
     def resume(self, checkpoint: Checkpoint, changes: Sequence[_Change] | None = None) -> None:
         """Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
         the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
@@ -2174,188 +2067,11 @@ class Simulation:
             changes: differences that are wanted, of "interface_law", "ground_motion", "load",
                 "gravity_stage" and "initial_motion"; none unless given.
         """
+    def reset(self) -> None:
+        """Goes back to the start: what follows has the bits that it had from there.
 
-@final
-class Steps:
-    """Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
-
-    ``len()`` is the number of steps to come. `Simulation.steps` makes it.
-    """
-
-    def __iter__(self) -> Self: ...
-    def __next__(self) -> State: ...
-    def __len__(self) -> int: ...
-
-@final
-class Load:
-    """A force that acts on a structure from outside.
-
-    ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
-    (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
-    belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
-    """
-
-    def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
-    @staticmethod
-    def constant(row: _RowLike, force: float) -> Load:
-        """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
-    @staticmethod
-    def weight(row: _RowLike, force: float) -> Load:
-        """Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
-        whose mass the structure does not have.
-        """
-    @staticmethod
-    def released(row: _RowLike, force: float) -> Load:
-        """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""
-    @staticmethod
-    def record(row: _RowLike, record: Record, force: float) -> Load:
-        """``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
-        between its samples and zero beyond its ends.
-        """
-    @staticmethod
-    def table(row: _RowLike, times: ArrayLike, forces: ArrayLike) -> Load:
-        """Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
-        shape (m,), s, ascending), linear between them, zero outside.
-        """
-
-@final
-class TimeScheme:
-    """A time scheme of the structure: the midpoint rule unless given."""
-
-    @staticmethod
-    def midpoint() -> TimeScheme:
-        """The midpoint rule: conserves energy."""
-    @staticmethod
-    def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme:
-        """The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
-        ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
-        """
-    @staticmethod
-    def theta(theta: float) -> TimeScheme:
-        """The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½."""
-    @staticmethod
-    def newmark(gamma: float = 0.5, beta: float = 0.25) -> TimeScheme:
-        """Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
-        ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
-        """
-    @staticmethod
-    def hht_alpha(alpha: float) -> TimeScheme:
-        """The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
-        make energy. ``alpha``: −⅓ (most damping) to 0 (none).
-        """
-
-@final
-class State:
-    """The simulation at the end of an accepted step.
-
-    Displacements are changes against the static state, relative to the free field's translation
-    unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
-    It belongs to its simulation and does not pickle: a `Checkpoint` does.
-    """
-
-    @property
-    def step(self) -> int:
-        """Number of steps made."""
-    @property
-    def time(self) -> float:
-        """Time, s."""
-    @property
-    def gap(self) -> NDArray[np.float64]:
-        """Gap of each element: array of shape (elements,), m."""
-    @property
-    def slip(self) -> NDArray[np.float64]:
-        """Slip of each element: array of shape (elements,), m."""
-    @property
-    def pressure(self) -> NDArray[np.float64]:
-        """Pressure on each element: array of shape (elements,), Pa."""
-    @property
-    def shear(self) -> NDArray[np.float64]:
-        """Shear traction on each element: array of shape (elements,), Pa."""
-    @property
-    def modes(self) -> NDArray[np.uint8]:
-        """Mode of each element: array of shape (elements,) of numbers into `basemat.MODES`."""
-    @property
-    def transitions(self) -> list[tuple[int, Mode, Mode]]:
-        """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
-    @property
-    def probes(self) -> NDArray[np.float64]:
-        """Values of the probes: array of shape (probes,), in their order."""
-    @property
-    def base_shear(self) -> float:
-        """Horizontal force on the soil, positive to the right, N/m."""
-    @property
-    def base_moment(self) -> float:
-        """Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m."""
-    @property
-    def normal_force(self) -> float:
-        """Total pressure on the soil, N/m."""
-    @property
-    def uplifted_fraction(self) -> float:
-        """Ratio of the length of open elements to the length of the base, in plan of areas."""
-    @property
-    def mean_slip(self) -> float:
-        """Slip averaged over the base, m."""
-    @property
-    def largest_slip(self) -> float:
-        """Largest |slip| of any element, m."""
-    @property
-    def base_rotation(self) -> float:
-        """Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule."""
-    @property
-    def force_vector(self) -> list[float]:
-        """Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader."""
-    @property
-    def moment_vector(self) -> list[float]:
-        """Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m."""
-    @property
-    def rotation_vector(self) -> list[float]:
-        """Rotation of the base as a vector by the right-hand rule, rad."""
-    @property
-    def foundations(self) -> list[FoundationState]:
-        """Each foundation by itself: list of `FoundationState`, from left to right."""
-    @property
-    def free_field(self) -> list[float]:
-        """Mean displacement (to the right, up) of the free field under the base, m."""
-    @property
-    def energy_balance(self) -> EnergyBalance:
-        """The `EnergyBalance` since the start."""
-    @property
-    def trials(self) -> int:
-        """Number of linear solves that the search for contact modes needed."""
-    @property
-    def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
-        """Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal"."""
-    @property
-    def displacement(self) -> NDArray[np.float64]:
-        """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
-    @property
-    def absolute_displacement(self) -> NDArray[np.float64]:
-        """Displacement of the degrees of freedom with the translation of the free field: array of shape
-        (n,), m and rad.
-        """
-    @property
-    def velocity(self) -> NDArray[np.float64]:
-        """Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s."""
-    @property
-    def acceleration(self) -> NDArray[np.float64]:
-        """Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s²."""
-    def face(self, face: _Face) -> FaceForces:
-        """The `FaceForces` on a ``face`` of a structure in the ground: "left_wall", "base" or "right_wall"; zeros for a wall of
-        a base without walls.
-        """
-    def state_variables(self, element: int) -> list[float]:
-        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
-        has none.
-        """
-    @property
-    def slip_across(self) -> NDArray[np.float64]:
-        """In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane."""
-    @property
-    def shear_across(self) -> NDArray[np.float64]:
-        """In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane."""
-    def value(self, quantity: _Quantity) -> float:
-        """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
-        also "torque" or "uplifted_area".
+        Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
+        ``save`` and ``restore``.
         """
 
 @final
@@ -2433,6 +2149,386 @@ class FoundationState:
         """Rotation as a vector by the right-hand rule, rad."""
 
 @final
+class Load:
+    """A force that acts on a structure from outside.
+
+    ``row``: where it acts, a `DofCombination` or what makes one. ``value``: a function of time
+    (s) that returns the force (N/m; on a rotation a moment, N·m/m); it may raise. Its value at t = 0
+    belongs to the static state, as if it had grown slowly after the weight: the law between base and ground acts.
+    """
+
+    def __new__(cls, row: _RowLike, value: Callable[[float], float]) -> Self: ...
+    @staticmethod
+    def constant(row: _RowLike, force: float) -> Load:
+        """Constant ``force`` (N/m) on the ``row`` at any time, the static state included."""
+    @staticmethod
+    def weight(row: _RowLike, force: float) -> Load:
+        """Constant ``force`` (N/m) on the ``row`` that comes on with the weight, as ``gravity_stage`` says: a dead load
+        whose mass the structure does not have.
+        """
+    @staticmethod
+    def released(row: _RowLike, force: float) -> Load:
+        """A ``force`` (N/m) on the ``row`` in the static state that is gone from the first step on (snap-back)."""
+    @staticmethod
+    def record(row: _RowLike, record: Record, force: float) -> Load:
+        """``force`` (N/m) on the ``row`` times the accelerations of a ``record`` as bare numbers, linear
+        between its samples and zero beyond its ends.
+        """
+    @staticmethod
+    def table(row: _RowLike, times: ArrayLike, forces: ArrayLike) -> Load:
+        """Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of
+        shape (m,), s, ascending), linear between them, zero outside.
+        """
+
+@final
+class InitialConditions:
+    """Weight and motion at the start of a simulation.
+
+    Args:
+        gravity: m/s², gives the structure its weight; 9.80665 unless given. With 0 there is no static
+            state: the base begins without pressure, and nothing resists uplift and sliding.
+        gravity_stage: friction while the weight comes on, of masses and `Load.weight`; all other loads at t = 0 come on
+            after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
+            nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
+            "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
+            static state, weight and loads act from t = 0 on, as for a block that is released.
+        displacement: of the n degrees of freedom at t = 0 against the static state, array of
+            shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
+        velocity: the same for velocities, m/s and rad/s; zero unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        gravity: float | None = None,
+        gravity_stage: _GravityStage = "frictionless",
+        displacement: ArrayLike | None = None,
+        velocity: ArrayLike | None = None,
+    ) -> Self: ...
+
+@final
+class SolverOptions:
+    """Method by which a simulation steps.
+
+    Args:
+        scheme: a `TimeScheme`; the midpoint rule, which conserves energy, unless given.
+        coordinates: of a linear structure. "auto" (the default): whichever of the next two takes less
+            time; "physical": its degrees of freedom; "modes": its vibration modes; a number: reduced
+            coordinates, 200 to 400 Ritz vectors for thousands of degrees of freedom, with this
+            relative error of responses (above 0, below 1; "reduced(1e-6)" is the same as 1e-6).
+        expected_steps: number of steps that will be made. Memory and the ground's weights are then
+            ready before the first; unless given, the steps of the first run. More steps than fit into
+            the memory of the ground's history raise an error.
+        rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
+            run goes on; infinite: runs end by their steps alone.
+        flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
+            most this number of iterations a step, for comparison with their paper; the robust search unless
+            given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        scheme: TimeScheme | None = None,
+        coordinates: _Coordinates | float | None = None,
+        expected_steps: int | None = None,
+        rotation_limit: float | None = None,
+        flow_chart_iterations: int | None = None,
+    ) -> Self: ...
+
+@final
+class ResultOptions:
+    """Quantities that a run evaluates; they change nothing in its motion.
+
+    Args:
+        moment_center: x of the point about which the base moment is taken, m; the middle of the base
+            unless given.
+        energy_balance: whether energies are computed; True by default. Without them a step takes less
+            time, and `Run.energy_error` is NaN.
+        safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
+            interface law unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        moment_center: float | None = None,
+        energy_balance: bool = True,
+        safety_friction: float | None = None,
+    ) -> Self: ...
+
+@final
+class ServiceLimits:
+    """Limits of service, which `Run.serviceability` compares with the run; they change nothing in it.
+
+    Args:
+        slip: limit of |mean slip|, m; none unless given.
+        gap: limit of the gap of any element, m; none unless given.
+        uplifted_fraction: limit of the open length over that of the base, above 0 to 1; none unless given.
+        rotation: limit of the base's |rotation|, rad; none unless given.
+    """
+
+    def __new__(
+        cls,
+        *,
+        slip: float | None = None,
+        gap: float | None = None,
+        uplifted_fraction: float | None = None,
+        rotation: float | None = None,
+    ) -> Self: ...
+
+@final
+class TimeScheme:
+    """A time scheme of the structure: the midpoint rule unless given."""
+
+    @staticmethod
+    def midpoint() -> TimeScheme:
+        """The midpoint rule: conserves energy."""
+    @staticmethod
+    def dissipative_midpoint(gamma: float = 0.8) -> TimeScheme:
+        """The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
+        ``gamma``: ½ (the midpoint rule) to 1; 0.8 by default.
+        """
+    @staticmethod
+    def theta(theta: float) -> TimeScheme:
+        """The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½."""
+    @staticmethod
+    def newmark(gamma: float = 0.5, beta: float = 0.25) -> TimeScheme:
+        """Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
+        ``gamma`` and ``beta`` are his γ and β, by default ½ and ¼ (average acceleration).
+        """
+    @staticmethod
+    def hht_alpha(alpha: float) -> TimeScheme:
+        """The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
+        make energy. ``alpha``: −⅓ (most damping) to 0 (none).
+        """
+
+@final
+class State:
+    """The simulation at the end of an accepted step.
+
+    Displacements are changes against the static state, relative to the free field's translation
+    unless they say otherwise. Forces act from the structure on the soil, per metre of thickness.
+    It belongs to its simulation and does not pickle: a `Checkpoint` does.
+    """
+
+    @property
+    def step(self) -> int:
+        """Number of steps made."""
+    @property
+    def time(self) -> float:
+        """Time, s."""
+    @property
+    def gap(self) -> NDArray[np.float64]:
+        """Gap of each element: array of shape (elements,), m."""
+    @property
+    def slip(self) -> NDArray[np.float64]:
+        """Slip of each element: array of shape (elements,), m."""
+    @property
+    def pressure(self) -> NDArray[np.float64]:
+        """Pressure on each element: array of shape (elements,), Pa."""
+    @property
+    def shear(self) -> NDArray[np.float64]:
+        """Shear traction on each element: array of shape (elements,), Pa."""
+    @property
+    def slip_across(self) -> NDArray[np.float64]:
+        """In plan: slip of each element along y: array of shape (elements,), m; 0 in the plane."""
+    @property
+    def shear_across(self) -> NDArray[np.float64]:
+        """In plan: shear traction on each element along y: array of shape (elements,), Pa; 0 in the plane."""
+    @property
+    def probes(self) -> NDArray[np.float64]:
+        """Values of the probes: array of shape (probes,), in their order."""
+    @property
+    def base_shear(self) -> float:
+        """Horizontal force on the soil, positive to the right, N/m."""
+    @property
+    def base_moment(self) -> float:
+        """Moment on the soil, counter-clockwise, N·m/m; in plan about y by the right-hand rule, N·m."""
+    @property
+    def normal_force(self) -> float:
+        """Total pressure on the soil, N/m."""
+    @property
+    def uplifted_fraction(self) -> float:
+        """Ratio of the length of open elements to the length of the base, in plan of areas."""
+    @property
+    def mean_slip(self) -> float:
+        """Slip averaged over the base, m."""
+    @property
+    def largest_slip(self) -> float:
+        """Largest |slip| of any element, m."""
+    @property
+    def base_rotation(self) -> float:
+        """Rotation of the base, counter-clockwise, rad; in plan about y by the right-hand rule."""
+    @property
+    def force_vector(self) -> list[float]:
+        """Force on the soil as a vector, N/m; in plan along x, y and up, N. In the plane axes point to the right, up and towards the reader."""
+    @property
+    def moment_vector(self) -> list[float]:
+        """Moment on the soil as a vector by the right-hand rule, N·m/m, in plan N·m."""
+    @property
+    def rotation_vector(self) -> list[float]:
+        """Rotation of the base as a vector by the right-hand rule, rad."""
+    @property
+    def free_field(self) -> list[float]:
+        """Mean displacement (to the right, up) of the free field under the base, m."""
+    @property
+    def energy_balance(self) -> EnergyBalance:
+        """The `EnergyBalance` since the start."""
+    @property
+    def trials(self) -> int:
+        """Number of linear solves that the search for contact modes needed."""
+    @property
+    def displacement(self) -> NDArray[np.float64]:
+        """Displacement of the degrees of freedom relative to the free field: array of shape (n,), m and rad."""
+    @property
+    def absolute_displacement(self) -> NDArray[np.float64]:
+        """Displacement of the degrees of freedom with the translation of the free field: array of shape
+        (n,), m and rad.
+        """
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """Total velocity of the degrees of freedom: array of shape (n,), m/s and rad/s."""
+    @property
+    def acceleration(self) -> NDArray[np.float64]:
+        """Total acceleration of the degrees of freedom: array of shape (n,), m/s² and rad/s²."""
+    @property
+    def modes(self) -> NDArray[np.uint8]:
+        """Mode of each element: array of shape (elements,) of numbers into `basemat.MODES`."""
+    @property
+    def transitions(self) -> list[tuple[int, Mode, Mode]]:
+        """Changes of mode in this step: list of tuples (element, mode before, mode now)."""
+    @property
+    def foundations(self) -> list[FoundationState]:
+        """Each foundation by itself: list of `FoundationState`, from left to right."""
+    @property
+    def method(self) -> Literal["active_set", "gauss_seidel", "path", "newton", "proximal"]:
+        """Method that found the modes: "active_set", "gauss_seidel", "path", and in plan "newton" or "proximal"."""
+    def value(self, quantity: _Quantity) -> float:
+        """Value of a ``quantity`` at the end of the step, in its unit: the name of a scalar time series, such as "base_shear", in plan
+        also "torque" or "uplifted_area".
+        """
+    def face(self, face: _Face) -> FaceForces:
+        """The `FaceForces` on a ``face`` of a structure in the ground: "left_wall", "base" or "right_wall"; zeros for a wall of
+        a base without walls.
+        """
+    def state_variables(self, element: int) -> list[float]:
+        """State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
+        has none.
+        """
+
+@final
+class Steps:
+    """Steps of a simulation, one in each turn of a loop, each with the `State` at its end.
+
+    ``len()`` is the number of steps to come. `Simulation.steps` makes it.
+    """
+
+    def __iter__(self) -> Steps: ...
+    def __next__(self) -> State: ...
+    def __len__(self) -> int: ...
+
+@final
+class Checkpoint:
+    """A run between two steps: `Simulation.checkpoint` makes it, `Simulation.resume` goes
+    on from it, to the same bits. It pickles. ``data``: the bytes that `to_bytes` returned.
+    """
+
+    def __new__(cls, data: bytes) -> Self: ...
+    @property
+    def steps(self) -> int:
+        """Steps made before the checkpoint."""
+    def to_bytes(self) -> bytes:
+        """All of it as bytes, for a file."""
+    def __getnewargs__(self) -> tuple[bytes]: ...
+    def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class StrainCurves:
+    """Modulus reduction G/G_max and damping ratio of a soil over shear strain (0.01 is 1 %)."""
+
+    @staticmethod
+    def linear(damping: float) -> StrainCurves:
+        """A soil or rock that stays linear, with this ``damping`` ratio."""
+    @staticmethod
+    def seed_idriss(bound: _CurveBound = "mean") -> StrainCurves:
+        """Sand by Seed and Idriss (1970): ``bound`` "mean" (the default), or "upper" for the upper modulus and the lower
+        damping.
+        """
+    @staticmethod
+    def vucetic_dobry(plasticity_index: float) -> StrainCurves:
+        """Soil by its ``plasticity_index``, per cent, after Vucetic and Dobry (1991)."""
+    @staticmethod
+    def epri(depth: float) -> StrainCurves:
+        """Sand by the ``depth`` (m) of the middle of its layer, after EPRI (1993)."""
+    @staticmethod
+    def darendeli(
+        plasticity_index: float,
+        overconsolidation: float,
+        mean_stress: float,
+        *,
+        frequency: float = 1.0,
+        cycles: float = 10.0,
+    ) -> StrainCurves:
+        """Soil after Darendeli (2001) by its ``plasticity_index`` (per cent), ratio of ``overconsolidation``, effective
+        ``mean_stress`` (Pa), the ``frequency`` (Hz; 1 by default) and the number of ``cycles`` (10 by default).
+        """
+    @staticmethod
+    def table(strains: ArrayLike, modulus_ratios: ArrayLike, dampings: ArrayLike) -> StrainCurves:
+        """A table: arrays of shape (n,) of increasing ``strains``, of their ``modulus_ratios`` G/G_max and of damping
+        ratios, ``dampings``.
+        """
+    def at(self, strains: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """G/G_max and damping ratios at ``strains`` (array of shape (n,)): two arrays of shape (n,)."""
+
+@final
+class EquivalentLinear:
+    """Response of a site with strain-compatible properties: arrays have one value per layer from the surface down, of
+    accelerations also one of the base within. Printed, a table.
+    """
+
+    @property
+    def depth(self) -> NDArray[np.float64]:
+        """Depth of the tops of the layers: array of shape (layers,), m."""
+    @property
+    def shear_modulus(self) -> NDArray[np.float64]:
+        """Strain-compatible shear moduli: array of shape (layers,), Pa."""
+    @property
+    def modulus_ratio(self) -> NDArray[np.float64]:
+        """Ratio of the strain-compatible shear moduli to those at small strain: array of shape (layers,)."""
+    @property
+    def damping(self) -> NDArray[np.float64]:
+        """Strain-compatible damping ratio of each layer: array of shape (layers,)."""
+    @property
+    def largest_strain(self) -> NDArray[np.float64]:
+        """Largest shear strains in the middle of the layers, relative to 1: array of shape (layers,)."""
+    @property
+    def effective_strain(self) -> NDArray[np.float64]:
+        """Effective shear strains, at which the curves were read, relative to 1: array of shape (layers,)."""
+    @property
+    def peak_acceleration(self) -> NDArray[np.float64]:
+        """Largest absolute accelerations of the layer boundaries: array of shape (layers + 1,), m/s²."""
+    @property
+    def iterations(self) -> int:
+        """Linear calculations made."""
+    @property
+    def last_change(self) -> float:
+        """Largest relative change of a modulus or damping ratio that all further iterations would make, as estimated."""
+    @property
+    def warnings(self) -> list[str]:
+        """Warnings, in words."""
+    @property
+    def accelerations(self) -> NDArray[np.float64]:
+        """Accelerations at the tops of layers and base: array of shape (layers + 1, samples), m/s²."""
+    @property
+    def surface(self) -> Record:
+        """Record of the free surface."""
+    def profile(self) -> SoilProfile:
+        """The site for a ground: strain-compatible moduli at its first frequency, damping constant over the band."""
+    def to_frame(self) -> DataFrame:
+        """The layers of the site as a pandas frame, indexed by the depth of their tops (m)."""
+
+@final
 class Soil:
     """Elastic soil: ``shear_modulus`` G = ρ c² (Pa), Poisson's ratio ``poisson`` (above −1, below 0.5),
     ``density`` (kg/m³). A run warns of a speed of shear waves outside 10 to 5 000 m/s or a density
@@ -2463,8 +2559,8 @@ class Soil:
     @property
     def pressure_wave_speed(self) -> float:
         """Speed of pressure waves, m/s."""
-    def __eq__(self, value: object, /) -> bool: ...
     def __hash__(self) -> int: ...
+    def __eq__(self, value: object, /) -> bool: ...
 
 @final
 class SoilStrength:
@@ -2490,6 +2586,64 @@ class SoilStrength:
     def pressures(self, vertical: float) -> list[float]:
         """Active and passive pressure on a wall under a ``vertical`` pressure of the soil, all Pa."""
     def __eq__(self, value: object, /) -> bool: ...
+
+@final
+class BeamRows:
+    """Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
+    `FemModel.beam_rows`.
+
+    They are those on a section whose outward normal is x, the axis of the beam, at both ends. A probe records changes
+    from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the
+    geometric stiffness, in the axes of the undeformed beam.
+    """
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors x (along the beam), y and z of the section as rows: array of shape (3, 3), numbers without unit."""
+    @property
+    def ends(self) -> list[BeamEndRows]:
+        """Two `BeamEndRows`, of the first and the second end."""
+
+@final
+class BeamEndRows:
+    """Forces and moments at one end of a beam, as `SectionRows`: N and N·m, in the plane per metre of thickness."""
+
+    @property
+    def node(self) -> int:
+        """Number of the node."""
+    @property
+    def axial(self) -> SectionRows:
+        """`SectionRows` of the axial force, N; tension is positive."""
+    @property
+    def shears(self) -> list[SectionRows]:
+        """Two `SectionRows` of the shear forces along y and z, N; the second is zero in the plane."""
+    @property
+    def torque(self) -> SectionRows:
+        """`SectionRows` of the torque about x, N·m; zero in the plane."""
+    @property
+    def moments(self) -> list[SectionRows]:
+        """Two `SectionRows` of the moments about y and z by the right-hand rule, N·m; the first is zero in the plane. Positive
+        with tension at positive z, and at negative y.
+        """
+
+@final
+class BeamSection:
+    """Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
+    m⁴) and ``torsion_constant`` (m⁴).
+
+    y and z are the principal axes: y along the orientation of the beam, z across it. ``shear_areas`` along y and along
+    z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle is 5/6 of
+    its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+    """
+
+    def __new__(
+        cls,
+        area: float,
+        second_moments: Sequence[float],
+        torsion_constant: float,
+        *,
+        shear_areas: Sequence[float] | None = None,
+    ) -> Self: ...
 
 @disjoint_base
 class Structure:
@@ -2548,15 +2702,15 @@ class RigidBlock(Structure):
         centre of mass, which is ``center_height`` (m) above the base; ``center`` and ``p_delta`` are
         those of the class, if given.
         """
-    HORIZONTAL: ClassVar[int]
-    VERTICAL: ClassVar[int]
-    ROTATION: ClassVar[int]
     @property
     def total_mass(self) -> float:
         """Mass, kg/m."""
     @property
     def base_inertia(self) -> float:
         """Rotary inertia about the middle of the base, kg m²/m."""
+    HORIZONTAL: ClassVar[int]
+    VERTICAL: ClassVar[int]
+    ROTATION: ClassVar[int]
     def horizontal_at(self, height: float) -> DofCombination:
         """The `DofCombination` of the displacement to the right at a ``height`` (m) above the base."""
     def vertical_at(self, x: float) -> DofCombination:
@@ -2595,12 +2749,9 @@ class RigidBody(Structure):
         """Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
         ``center`` and ``p_delta`` are as in `cuboid`, if given.
         """
-    @property
-    def total_mass(self) -> float:
-        """Mass, kg."""
     @staticmethod
     def from_mass(
-        outline: Sequence[tuple[float, float]],
+        outline: Sequence[Sequence[float]],
         mass: float,
         inertia: Sequence[Sequence[float]],
         gravity_center: Sequence[float],
@@ -2615,6 +2766,9 @@ class RigidBody(Structure):
         diagonal. ``gravity_center``: x, y and z of the centre of mass, m. ``center`` and ``p_delta`` act as in `cuboid`, if
         given.
         """
+    @property
+    def total_mass(self) -> float:
+        """Mass, kg."""
     def displacement_at(self, x: float, y: float, z: float) -> list[DofCombination]:
         """The three `DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
         from the middle of the base (m).
@@ -2657,7 +2811,7 @@ class ShearBuilding(Structure):
         width: float,
         base_mass: float,
         base_inertia: float,
-        storeys: Sequence[Storey],
+        storeys: Storey | Sequence[Storey],
         *,
         damping: float | None = None,
         center: float = 0.0,
@@ -2749,7 +2903,7 @@ class StoreyBuilding(Structure):
     def __new__(
         cls,
         mat: RigidBody,
-        storeys: Sequence[PlanStorey],
+        storeys: PlanStorey | Sequence[PlanStorey],
         *,
         p_delta: float | None = None,
         laws: Mapping[tuple[int, _PlanDirection], Hysteresis | UserHysteresis] | None = None,
@@ -2825,7 +2979,7 @@ class ReducedModel(Structure):
 
 @final
 class StructureGroup(Structure):
-    """Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
+    """ListOf structures on one ground, coupled through the soil: ``members`` is a list of pairs
     ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
     each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
     """
@@ -2863,75 +3017,6 @@ class WithWalls(Structure):
         """Depth of the base, m."""
 
 @final
-class BaseNode:
-    """A node of the base: its coordinate ``x`` (m), and the rows (`DofCombination`, or what makes
-    one) of its displacement to the right, ``horizontal``, and up, ``vertical``. In plan also its coordinate ``y``
-    (away from the reader, m; zero unless given) and the row of its displacement along y, ``across``. On walls and bases
-    below the surface also its height ``z`` above the surface (m, negative; zero unless given).
-    """
-
-    def __new__(
-        cls,
-        x: float,
-        horizontal: _RowLike,
-        vertical: _RowLike,
-        *,
-        y: float = 0.0,
-        across: _RowLike | None = None,
-        z: float = 0.0,
-    ) -> Self: ...
-    @staticmethod
-    def rigid(x: float, center: float, dofs: Sequence[int]) -> BaseNode:
-        """A node at ``x`` (m) of a rigid flat base whose degrees of freedom at ``center`` (x, m) have the
-        numbers ``dofs`` (horizontal, vertical, rotation).
-        """
-    @staticmethod
-    def rigid_base(left: float, right: float, dofs: Sequence[int]) -> list[BaseNode]:
-        """The two ends, a list, of a rigid flat base from ``left`` to ``right`` (m) whose degrees of freedom
-        at its middle have the numbers ``dofs`` (horizontal, vertical, rotation).
-        """
-    @staticmethod
-    def rigid_face(
-        corners: Sequence[tuple[float, float]],
-        center: tuple[float, float],
-        dofs: Sequence[int],
-    ) -> list[BaseNode]:
-        """The face, a list of its corners, of a rigid flat base in plan: ``corners`` (list of x and y, m) from ``center``
-        (x and y, m), whose displacements along x, along y and up and rotations about these have the numbers ``dofs``
-        (six).
-        """
-    @property
-    def x(self) -> float:
-        """Coordinate to the right, m."""
-    @property
-    def y(self) -> float:
-        """Coordinate away from the reader, m; zero in the plane."""
-    @property
-    def z(self) -> float:
-        """Height above the surface, m; negative below it."""
-    @property
-    def horizontal(self) -> DofCombination:
-        """The `DofCombination` of its displacement to the right."""
-    @property
-    def across(self) -> DofCombination:
-        """The `DofCombination` of its displacement along y; empty in the plane."""
-    @property
-    def vertical(self) -> DofCombination:
-        """The `DofCombination` of its displacement up."""
-
-@final
-class BaseFaces:
-    """The base of a structure in plan: ``faces``, a list of lists of `BaseNode`, over which it iterates.
-
-    A face is a convex polygon, given by its corners in either order, flat and at one height. A rigid base needs one
-    face, its outline, which may be given without a list. Faces that touch are one foundation.
-    """
-
-    def __new__(cls, faces: Sequence[BaseNode] | Sequence[Sequence[BaseNode]]) -> Self: ...
-    def __len__(self) -> int: ...
-    def __iter__(self) -> Iterator[list[BaseNode]]: ...
-
-@final
 class FemModel(Structure):
     """A finite-element structure.
 
@@ -2948,6 +3033,8 @@ class FemModel(Structure):
     matrices of elements may be unsymmetric, an error by default.
     """
 
+    def beam_rows(self, element: int) -> BeamRows:
+        """The `BeamRows` of the beam with the number ``element``: forces and moments at its ends, in its own axes."""
     def __new__(
         cls,
         mesh: Mesh,
@@ -3016,100 +3103,6 @@ class FemModel(Structure):
         ``axes``: two vectors ``(along, outward)`` (x, y and z), or a function of x, y and z (m) that returns them: e1 is the
         part of the first in the plane of a shell, and the normal n is on the side of the second.
         """
-    def beam_rows(self, element: int) -> BeamRows:
-        """The `BeamRows` of the beam with the number ``element``: forces and moments at its ends, in its own axes."""
-
-@final
-class BeamRows:
-    """Forces and moments of a beam at its two ends, as rows of displacements for `Probe.section`: from
-    `FemModel.beam_rows`.
-
-    They are those on a section whose outward normal is x, the axis of the beam, at both ends. A probe records changes
-    from the static state. The rows contain the elastic forces, without damping and inertia; with P–Δ also those of the
-    geometric stiffness, in the axes of the undeformed beam.
-    """
-
-    @property
-    def axes(self) -> NDArray[np.float64]:
-        """Unit vectors x (along the beam), y and z of the section as rows: array of shape (3, 3), numbers without unit."""
-    @property
-    def ends(self) -> list[BeamEndRows]:
-        """Two `BeamEndRows`, of the first and the second end."""
-
-@final
-class BeamEndRows:
-    """Forces and moments at one end of a beam, as `SectionRows`: N and N·m, in the plane per metre of thickness."""
-
-    @property
-    def node(self) -> int:
-        """Number of the node."""
-    @property
-    def axial(self) -> SectionRows:
-        """`SectionRows` of the axial force, N; tension is positive."""
-    @property
-    def shears(self) -> list[SectionRows]:
-        """Two `SectionRows` of the shear forces along y and z, N; the second is zero in the plane."""
-    @property
-    def torque(self) -> SectionRows:
-        """`SectionRows` of the torque about x, N·m; zero in the plane."""
-    @property
-    def moments(self) -> list[SectionRows]:
-        """Two `SectionRows` of the moments about y and z by the right-hand rule, N·m; the first is zero in the plane. Positive
-        with tension at positive z, and at negative y.
-        """
-
-@final
-class ShellResultants:
-    """Forces and moments of a shell at a point, per metre of width, in its `axes`: from
-    `FemModel.shell_resultants` and `ShellRows.value`.
-    """
-
-    @property
-    def axes(self) -> NDArray[np.float64]:
-        """Unit vectors e1, e2 and n, the normal of the element, as rows: array of shape (3, 3), numbers without unit."""
-    @property
-    def membrane(self) -> NDArray[np.float64]:
-        """Membrane forces n_11, n_22 and n_12: array of shape (3,), N/m; tension is positive."""
-    @property
-    def moments(self) -> NDArray[np.float64]:
-        """Moments m_11, m_22 and m_12: array of shape (3,), N·m/m; positive with tension on the side of −n."""
-    @property
-    def principal_moments(self) -> NDArray[np.float64]:
-        """Larger and smaller principal moment: array of shape (2,), N·m/m."""
-    @property
-    def shears(self) -> NDArray[np.float64]:
-        """Shear forces q_1 and q_2: array of shape (2,), N/m; on a section whose outward normal is e1 or e2, along n."""
-    def in_axes(self, along: Sequence[float], outward: Sequence[float]) -> ShellResultants:
-        """The same forces and moments in other axes: e1 is the part of the vector ``along`` in the plane of the element, n the
-        normal on the side of the vector ``outward`` (x, y and z, of any length).
-        """
-
-@final
-class ShellRows:
-    """Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
-    `FemModel.shell_rows`.
-
-    A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
-    simulation. The rows contain the elastic forces, without damping.
-    """
-
-    @property
-    def node(self) -> int:
-        """Number of the node."""
-    @property
-    def axes(self) -> NDArray[np.float64]:
-        """Unit vectors e1, e2 and n as rows, means of the elements' axes: array of shape (3, 3), numbers without unit."""
-    @property
-    def membrane(self) -> list[SectionRows]:
-        """Three `SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive."""
-    @property
-    def moments(self) -> list[SectionRows]:
-        """Three `SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n."""
-    @property
-    def shears(self) -> list[SectionRows]:
-        """Two `SectionRows` of the shear forces q_1 and q_2, N/m."""
-    def value(self, displacement: ArrayLike) -> ShellResultants:
-        """The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
 
 @final
 class GmshMesh:
@@ -3166,6 +3159,27 @@ class GmshSpaceMesh:
         ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
         surfaces that are sides of other elements need no part. Triangles match the sides that they share with
         quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
+        """
+
+@final
+class Grid:
+    """Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`."""
+
+    def row(self, index: int) -> list[int]:
+        """Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node."""
+    def __len__(self) -> int: ...
+    @property
+    def cells(self) -> list[list[int]]:
+        """Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
+        of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
+        upwards; of a wall that `Mesh.revolve` made, from outside.
+        """
+    @property
+    def cell_rows(self) -> NDArray[np.uint64]:
+        """Number of the lower row of each of `cells`: array of shape (cells,)."""
+    def extrude(self, mesh: Mesh, heights: ArrayLike) -> list[list[int]]:
+        """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
+        above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
         """
 
 @disjoint_base
@@ -3274,30 +3288,16 @@ class LeadRubber(Hysteresis):
         """Stiffness after yielding, N/m per metre."""
 
 @final
-class MatrixModel(Structure):
-    """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
-
-    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
-    (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
-    `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
-    in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
-    metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
-    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-    list of n names, each another one, for `dof`, frames and errors; none unless given.
+class WithSprings(Structure):
+    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
+    freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
+    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
+    (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
+    along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
+    y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
     """
 
-    def __new__(
-        cls,
-        mass: _MatrixLike,
-        stiffness: _MatrixLike,
-        base: _Base,
-        *,
-        damping: _MatrixLike | None = None,
-        active_damping: bool = False,
-        active_stiffness: bool = False,
-        rayleigh: RayleighDamping | None = None,
-        dof_names: Sequence[str] | None = None,
-    ) -> Self: ...
+    def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
 
 @final
 class Material:
@@ -3328,44 +3328,30 @@ class Layer:
     ) -> Self: ...
 
 @final
-class BeamSection:
-    """Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
-    m⁴) and ``torsion_constant`` (m⁴).
+class MatrixModel(Structure):
+    """A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
 
-    y and z are the principal axes: y along the orientation of the beam, z across it. ``shear_areas`` along y and along
-    z (two numbers, m²) make Timoshenko beams; they are infinite unless given. The shear area of a rectangle is 5/6 of
-    its area, its torsion constant about a b³ (1/3 − 0.21 b/a) with sides a ≥ b.
+    ``mass`` (n × n, kg/m) and ``stiffness`` (n × n, N/m per metre) act on absolute displacements
+    (m, rad). The structure is free, without supports: the ground holds it up. ``base``: its nodes, a list of
+    `BaseNode` from left to right; a list of such lists for several foundations; `BaseFaces` for a ground
+    in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
+    metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
+    (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
+    list of n different names, for `dof`, frames and errors; none unless given.
     """
 
     def __new__(
         cls,
-        area: float,
-        second_moments: Sequence[float],
-        torsion_constant: float,
+        mass: _MatrixLike,
+        stiffness: _MatrixLike,
+        base: _Base,
         *,
-        shear_areas: Sequence[float] | None = None,
+        damping: _MatrixLike | None = None,
+        active_damping: bool = False,
+        active_stiffness: bool = False,
+        rayleigh: RayleighDamping | None = None,
+        dof_names: Sequence[str] | None = None,
     ) -> Self: ...
-
-@final
-class Grid:
-    """Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`."""
-
-    def row(self, index: int) -> list[int]:
-        """Numbers of the nodes of the row ``index``, a list from the first column on; a pole is a row of one node."""
-    def __len__(self) -> int: ...
-    @property
-    def cells(self) -> list[list[int]]:
-        """Corner nodes of the cells between neighbouring rows, for `Mesh.add_shells`: a list of lists of four numbers,
-        of three beside a pole, row after row. They run counter-clockwise seen from where columns run to the right and rows
-        upwards; of a wall that `Mesh.revolve` made, from outside.
-        """
-    @property
-    def cell_rows(self) -> NDArray[np.uint64]:
-        """Number of the lower row of each of `cells`: array of shape (cells,)."""
-    def extrude(self, mesh: Mesh, heights: ArrayLike) -> list[list[int]]:
-        """Adds nodes to the ``mesh`` at ``heights`` (array of shape (layers,), m, ascending) above the grid, which is seen from
-        above; returns the list of the nodes of the bricks between them, for `Mesh.add_bricks`.
-        """
 
 @final
 class Mesh:
@@ -3378,38 +3364,6 @@ class Mesh:
     "rotation_y" and "rotation_z", rotations follow the right-hand rule.
     """
 
-    def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
-    @staticmethod
-    def in_space(nodes: ArrayLike | None = None) -> Mesh:
-        """Mesh in space; ``nodes``: array of shape (nodes, 3), x to the right, y away and z up, m; none unless given."""
-    @staticmethod
-    def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:
-        """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
-
-        ``points``: array of shape (nodes, 3), or (nodes, 2) in the plane, m. ``cells``: list of pairs (type, array of node
-        numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as the blocks of a mesh of meshio.
-        ``parts``: list with an entry for each block; None leaves the block out.
-
-        In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
-        of one per cell; of "hexahedron" it is a `Material`; of "line" it is ``(material, section, orientation)`` as in
-        `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`. Triangles match the
-        sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
-        added by the methods of the mesh.
-        """
-    @staticmethod
-    def layered_block(left: float, right: float, columns: int, layers: Sequence[Layer]) -> Mesh:
-        """Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
-        `Layer` from y = 0 upwards.
-        """
-    @staticmethod
-    def graded_block(grid: ArrayLike, layers: Sequence[Layer]) -> Mesh:
-        """Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
-        ``layers`` is a list of `Layer` from y = 0 upwards.
-        """
-    def add_node(self, x: float, y: float, z: float = 0.0) -> int:
-        """Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default."""
-    def add_nodes(self, points: ArrayLike) -> list[int]:
-        """Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers."""
     def add_grid(self, points: ArrayLike) -> Grid:
         """Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`."""
     def revolve(self, axis: Sequence[float], meridian: ArrayLike, sectors: int) -> Grid:
@@ -3419,6 +3373,9 @@ class Mesh:
         (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
         x towards y.
         """
+    @staticmethod
+    def in_space(nodes: ArrayLike | None = None) -> Mesh:
+        """Mesh in space; ``nodes``: array of shape (nodes, 3), x to the right, y away and z up, m; none unless given."""
     def add_shells(
         self,
         nodes: ArrayLike | Sequence[Sequence[int]],
@@ -3444,7 +3401,7 @@ class Mesh:
         orientation: ArrayLike,
         *,
         offsets: ArrayLike | None = None,
-        releases: tuple[Sequence[_Direction], Sequence[_Direction]] | None = None,
+        releases: Sequence[Sequence[_Direction]] | None = None,
         rotary_inertia: bool = False,
         compression: ArrayLike | None = None,
     ) -> list[int]:
@@ -3458,6 +3415,30 @@ class Mesh:
         ``rotary_inertia``: whether sections have one in bending, False by default; ``compression`` (N; one number or an
         array of one per beam): axial force of P–Δ, none unless given.
         """
+    def __new__(cls, nodes: ArrayLike | None = None) -> Self: ...
+    @staticmethod
+    def layered_block(left: float, right: float, columns: int, layers: Layer | Sequence[Layer]) -> Mesh:
+        """Block of ``columns`` of equal width from ``left`` to ``right`` (m): ``layers`` is a list of
+        `Layer` from y = 0 upwards.
+        """
+    @staticmethod
+    def graded_block(grid: ArrayLike, layers: Layer | Sequence[Layer]) -> Mesh:
+        """Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
+        ``layers`` is a list of `Layer` from y = 0 upwards.
+        """
+    def merge_nodes(self, tolerance: float) -> tuple[int, list[int]]:
+        """Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
+        number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
+
+        An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
+        """
+    @property
+    def nodes(self) -> NDArray[np.float64]:
+        """Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m."""
+    def add_node(self, x: float, y: float, z: float = 0.0) -> int:
+        """Adds a node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m; returns its number. ``z`` is 0 by default."""
+    def add_nodes(self, points: ArrayLike) -> list[int]:
+        """Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers."""
     def add_beams(
         self,
         nodes: ArrayLike,
@@ -3522,18 +3503,31 @@ class Mesh:
         ``nodes``, counter-clockwise: array of shape (quads, 4), or (quads, 8) with the midside nodes last.
         Quadrilaterals of four nodes take a ``formulation`` and ``hourglass_percent`` as `Layer` does.
         """
-    def merge_nodes(self, tolerance: float) -> tuple[int, list[int]]:
-        """Merges nodes at the same place within ``tolerance`` (m), so that their elements act on each other: returns the
-        number of nodes that are gone, and the list of the new numbers of all former nodes. Elements keep their numbers.
-
-        An element that would have two nodes at one place, or be there twice, is an error, and the mesh stays as it was.
-        """
-    @property
-    def nodes(self) -> NDArray[np.float64]:
-        """Coordinates of the nodes: array of shape (nodes, 2), in space (nodes, 3), m."""
     @property
     def elements(self) -> list[list[int]]:
         """Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists."""
+    def node_at(self, x: float, y: float, z: float = 0.0) -> int:
+        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
+        ``z`` is 0 by default.
+        """
+    def nodes_at_height(self, y: float, tolerance: float = 1e-09) -> list[int]:
+        """Numbers of the nodes at a height (``y`` in the plane, in space z; m) within a ``tolerance`` (m; 1e-9 by
+        default): list, from left to right, in space at each x from front to back.
+        """
+    @staticmethod
+    def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -> Mesh:
+        """Mesh from ``points`` and blocks of ``cells``; in space if the points have three coordinates.
+
+        ``points``: array of shape (nodes, 3), or (nodes, 2) in the plane, m. ``cells``: list of pairs (type, array of node
+        numbers, one row per cell), or of objects with these as ``type`` and ``data``, such as the blocks of a mesh of meshio.
+        ``parts``: list with an entry for each block; None leaves the block out.
+
+        In space the part of "triangle" and "quad" is ``(material, thickness)`` of shells, with one thickness (m) or an array
+        of one per cell; of "hexahedron" it is a `Material`; of "line" it is ``(material, section, orientation)`` as in
+        `Mesh.add_space_beams`. In the plane the part of "quad" and "quad8" is a `Material`. Triangles match the
+        sides that they share with quadrilaterals. Elements are numbered block by block, shells first. Other elements are
+        added by the methods of the mesh.
+        """
     def plot_shells(
         self,
         elements: Sequence[int],
@@ -3555,32 +3549,65 @@ class Mesh:
             axes: axes of matplotlib to draw into; unless given, axes of a new figure.
             title: text above the picture; none unless given.
         """
-    def node_at(self, x: float, y: float, z: float = 0.0) -> int:
-        """Number of the node at (``x``, ``y``), in space at (``x``, ``y``, ``z``), m, to a millionth of the mesh's size.
-        ``z`` is 0 by default.
-        """
-    def nodes_at_height(self, y: float, tolerance: float = 1e-09) -> list[int]:
-        """Numbers of the nodes at a height (``y`` in the plane, in space z; m) within a ``tolerance`` (m; 1e-9 by
-        default): list, from left to right, in space at each x from front to back.
+
+@final
+class ShellResultants:
+    """Forces and moments of a shell at a point, per metre of width, in its `axes`: from
+    `FemModel.shell_resultants` and `ShellRows.value`.
+    """
+
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors e1, e2 and n, the normal of the element, as rows: array of shape (3, 3), numbers without unit."""
+    @property
+    def membrane(self) -> NDArray[np.float64]:
+        """Membrane forces n_11, n_22 and n_12: array of shape (3,), N/m; tension is positive."""
+    @property
+    def moments(self) -> NDArray[np.float64]:
+        """Moments m_11, m_22 and m_12: array of shape (3,), N·m/m; positive with tension on the side of −n."""
+    @property
+    def principal_moments(self) -> NDArray[np.float64]:
+        """Larger and smaller principal moment: array of shape (2,), N·m/m."""
+    @property
+    def shears(self) -> NDArray[np.float64]:
+        """Shear forces q_1 and q_2: array of shape (2,), N/m; on a section whose outward normal is e1 or e2, along n."""
+    def in_axes(self, along: Sequence[float], outward: Sequence[float]) -> ShellResultants:
+        """The same forces and moments in other axes: e1 is the part of the vector ``along`` in the plane of the element, n the
+        normal on the side of the vector ``outward`` (x, y and z, of any length).
         """
 
 @final
-class WithSprings(Structure):
-    """A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
-    freedom, which is the spring's deformation (m), and a `Hysteresis` or `UserHysteresis`.
-    In plan also ``(row_x, row_y, law)`` with two deformations at a right angle and a `Hysteresis`
-    (``BoucWen`` with an exponent of 2), whose force (N) has the same limit in every direction; two springs
-    along x and y act independently, and carry √2 times their limit on the diagonal. With three deformations, along x, along
-    y and up, ``(row_x, row_y, row_z, bearing)`` of a `PendulumBearing`.
+class ShellRows:
+    """Forces and moments of shells per metre at a node, as rows of displacements for `Probe.section`: from
+    `FemModel.shell_rows`.
+
+    A probe records changes from the static state, whose part is the `value` of the ``static_displacement`` of the
+    simulation. The rows contain the elastic forces, without damping.
     """
 
-    def __new__(cls, structure: _Structure, springs: Sequence[_Spring]) -> Self: ...
+    @property
+    def node(self) -> int:
+        """Number of the node."""
+    @property
+    def axes(self) -> NDArray[np.float64]:
+        """Unit vectors e1, e2 and n as rows, means of the elements' axes: array of shape (3, 3), numbers without unit."""
+    @property
+    def membrane(self) -> list[SectionRows]:
+        """Three `SectionRows` of the membrane forces n_11, n_22 and n_12, N/m; tension is positive."""
+    @property
+    def moments(self) -> list[SectionRows]:
+        """Three `SectionRows` of the moments m_11, m_22 and m_12, N·m/m; positive with tension on the side of −n."""
+    @property
+    def shears(self) -> list[SectionRows]:
+        """Two `SectionRows` of the shear forces q_1 and q_2, N/m."""
+    def value(self, displacement: ArrayLike) -> ShellResultants:
+        """The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad."""
 
 @final
 class Condition:
     """One linear condition on an element at the end of a step:
     ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
-    pressure p and shear traction τ (Pa); what is not given is 0.
+    pressure p and shear traction τ (Pa). Each coefficient is 0 by default.
     """
 
     def __new__(
@@ -3592,6 +3619,18 @@ class Condition:
         shear: float = 0.0,
         value: float = 0.0,
     ) -> Self: ...
+    @staticmethod
+    def gap_is(value: float) -> Condition:
+        """The gap is ``value``, m."""
+    @staticmethod
+    def slip_is(value: float) -> Condition:
+        """The slip is ``value``, m."""
+    @staticmethod
+    def pressure_is(value: float) -> Condition:
+        """The pressure is ``value``, Pa."""
+    @staticmethod
+    def shear_is(value: float) -> Condition:
+        """The shear traction is ``value``, Pa."""
     @property
     def gap(self) -> float:
         """Coefficient of the gap."""
@@ -3607,18 +3646,20 @@ class Condition:
     @property
     def value(self) -> float:
         """Right-hand side: m or Pa where the coefficient is a number."""
-    @staticmethod
-    def gap_is(value: float) -> Condition:
-        """The gap is ``value``, m."""
-    @staticmethod
-    def slip_is(value: float) -> Condition:
-        """The slip is ``value``, m."""
-    @staticmethod
-    def pressure_is(value: float) -> Condition:
-        """The pressure is ``value``, Pa."""
-    @staticmethod
-    def shear_is(value: float) -> Condition:
-        """The shear traction is ``value``, Pa."""
+
+@final
+class Tolerance:
+    """Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
+    pressure and shear (Pa).
+    """
+
+    def __new__(cls, length: float, traction: float) -> Self: ...
+    @property
+    def length(self) -> float:
+        """Difference of gaps and slips, m."""
+    @property
+    def traction(self) -> float:
+        """Difference of tractions, Pa."""
 
 @disjoint_base
 class ContactState:
@@ -3626,6 +3667,16 @@ class ContactState:
     (positive in compression) and ``shear`` (Pa), in plan along y too, ``slip_across`` (m) and ``shear_across`` (Pa); 0 by default.
     """
 
+    def __new__(
+        cls,
+        *,
+        gap: float = 0.0,
+        slip: float = 0.0,
+        pressure: float = 0.0,
+        shear: float = 0.0,
+        slip_across: float = 0.0,
+        shear_across: float = 0.0,
+    ) -> Self: ...
     @property
     def gap(self) -> float:
         """Gap, m; positive when open."""
@@ -3644,30 +3695,6 @@ class ContactState:
     @property
     def shear_across(self) -> float:
         """Shear traction of the structure on the soil along y in plan, Pa; positive away."""
-    def __new__(
-        cls,
-        *,
-        gap: float = 0.0,
-        slip: float = 0.0,
-        pressure: float = 0.0,
-        shear: float = 0.0,
-        slip_across: float = 0.0,
-        shear_across: float = 0.0,
-    ) -> Self: ...
-
-@final
-class Tolerance:
-    """Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
-    pressure and shear (Pa).
-    """
-
-    @property
-    def length(self) -> float:
-        """Difference of gaps and slips, m."""
-    @property
-    def traction(self) -> float:
-        """Difference of tractions, Pa."""
-    def __new__(cls, length: float, traction: float) -> Self: ...
 
 @final
 class PreviousContact(ContactState):
@@ -3708,8 +3735,7 @@ class PreviousContact(ContactState):
 
 @final
 class Limits:
-    """Limits of an element's tractions on a ground in plan, in the step after a `PreviousContact`: what
-    `UserPlanLaw.limits` returns.
+    """Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
 
     Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
     traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
@@ -3737,13 +3763,13 @@ class Limits:
         """Pressure that friction acts on in addition to the contact pressure, Pa."""
     @property
     def shear_strength(self) -> float:
-        """Shear traction that is borne beside friction, Pa."""
+        """Shear strength in addition to friction, Pa."""
     @property
     def tension(self) -> float:
         """Tensile strength, Pa."""
     @property
     def pressure_cap(self) -> float:
-        """Greatest pressure, Pa."""
+        """Largest pressure, Pa."""
     @property
     def gap_offset(self) -> float:
         """Gap of a closed element, m."""
@@ -3751,6 +3777,86 @@ class Limits:
     def bonded(self) -> bool:
         """Whether base and soil neither separate nor slide."""
     def __eq__(self, value: object, /) -> bool: ...
+
+def memory_limit() -> int:
+    """Largest memory (bytes) that one mesh, matrix, ground, record or sweep may take; 4 GiB unless `set_memory_limit` was
+    called.
+    """
+
+def set_memory_limit(bytes: int) -> None:
+    """Sets the memory limit of this process: ``bytes``, the memory of the machine less that of its other programs.
+    Sizes are compared with it before anything is allocated; an error states the memory that they would take.
+    """
+
+def _case_numbers(grid: Sequence[tuple[str, Any]], shard: tuple[int, int] | None = None) -> list[int]: ...
+
+def _merge_cases(
+    paths: Sequence[str | os.PathLike[str]],
+    grid: Sequence[tuple[str, Any]],
+) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]: ...
+
+def _collect_warnings(collect: bool) -> list[str]: ...
+
+def free_field(
+    *,
+    displacement: Callable[[float, float], float | Sequence[float]] | None = None,
+    acceleration: Callable[[float], float | Sequence[float]] | None = None,
+    time_step: float | None = None,
+    duration: float | None = None,
+    displacement_at: Callable[[float, float, float], Sequence[float]] | None = None,
+) -> FreeField:
+    """A motion of functions, named by what they return: give one of them.
+
+    ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
+    (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
+
+    ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
+    sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
+    a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
+    velocity stays what it is by then.
+
+    ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
+    the point x, y (m).
+
+    The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
+    and for their ``time_step`` and ``duration``.
+    """
+
+def el_centro_1940() -> Record:
+    """The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
+
+def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
+    """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
+    (count,).
+    """
+
+def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
+    """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
+    same everywhere at once; a component is zero unless given.
+    """
+
+def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
+    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
+    once, for a ground in plan; what is None rests.
+    """
+
+def travelling_wave(
+    motion: FreeField,
+    apparent_velocity: float,
+    origin: float,
+    *,
+    azimuth: float = 0.0,
+) -> FreeField:
+    """A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
+    negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
+    from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
+    """
+
+def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = False) -> FreeField:
+    """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
+    right or, if ``vertical`` (False by default), up.
+    """
+
 @overload
 def refine(
     elements: int,
@@ -3787,6 +3893,7 @@ def refine(elements: int, time_step: float, scene: Callable[[int, float], float 
     settings of a sliding block. On layers the number of stages of the convolution quadrature follows the error at 15 Hz
     and may change between the settings; ``stages`` of `ElasticGround` keeps it.
     """
+
 def sensitivity(
     elements: int,
     time_step: float,
@@ -3800,99 +3907,7 @@ def sensitivity(
     finer setting makes them converge. The twins tell how many digits of a peak can be quoted, and cost less than two
     further runs.
     """
-def el_centro_1940() -> Record:
-    """The `Record` of El Centro 1940, north–south (Peknold's version, 0.319 g), 31.18 s at 0.02 s."""
-def free_field(
-    *,
-    displacement: Callable[[float, float], float | Sequence[float]] | None = None,
-    acceleration: Callable[[float], float | Sequence[float]] | None = None,
-    time_step: float | None = None,
-    duration: float | None = None,
-    displacement_at: Callable[[float, float, float], Sequence[float]] | None = None,
-) -> FreeField:
-    """A motion of functions, named by what they return: give one of them.
 
-    ``displacement``: a function ``(x, time) -> (right, up)`` of the surface's displacement in m, at x
-    (m) and time (s, above 0). It should begin with zero: until t = 0 the ground rests.
-
-    ``acceleration``: a function ``(time) -> (right, up)`` in m/s², everywhere the same at once. It is
-    sampled every ``time_step`` (s) from 0 to ``duration`` (s), taken as linear between the samples as
-    a `Record`, and integrated exactly from rest; after the ``duration`` it is zero, and the
-    velocity stays what it is by then.
-
-    ``displacement_at``: for a ground in plan, a function ``(x, y, time) -> (along x, along y, up)`` of the displacement in m at
-    the point x, y (m).
-
-    The first two may return a number instead, the motion to the right, and all may raise. None is for the other ones,
-    and for their ``time_step`` and ``duration``.
-    """
-def log_spaced(first: float, last: float, count: int) -> NDArray[np.float64]:
-    """``count`` numbers from ``first`` to ``last`` with equal ratios, for periods in s: array of shape
-    (count,).
-    """
-def vertical_incidence(horizontal: Record | None = None, vertical: Record | None = None) -> FreeField:
-    """Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
-    same everywhere at once; a component is zero unless given.
-    """
-def triaxial(x: Record | None = None, y: Record | None = None, up: Record | None = None) -> FreeField:
-    """Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
-    once, for a ground in plan; what is None rests.
-    """
-def travelling_wave(
-    motion: FreeField,
-    apparent_velocity: float,
-    origin: float,
-    *,
-    azimuth: float = 0.0,
-) -> FreeField:
-    """A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
-    negative), as it is at the ``origin`` (x, m). ``azimuth`` (rad; 0 by default): in plan the direction in which it runs and
-    from which x is counted, counter-clockwise from x as seen from above; the motion turns with it.
-    """
-def ricker(amplitude: float, sigma: float, center: float, *, vertical: bool = False) -> FreeField:
-    """A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
-    right or, if ``vertical`` (False by default), up.
-    """
-def memory_limit() -> int:
-    """Most memory (bytes) that the size of one mesh, matrix, ground, record or sweep may ask for;
-    4 GiB unless `set_memory_limit` was called.
-    """
-def set_memory_limit(bytes: int) -> None:
-    """Sets the limit for this process to so many ``bytes``: what the machine has, less what else runs on it.
-    Sizes are held against it before anything is allocated, and raise an error that says what they would take.
-    """
-def _cancel_when(event: Any = None) -> None: ...
-def _collect_warnings(collect: bool) -> list[str]: ...
 def _restored(kind: str, data: bytes) -> Any: ...
-def _case_numbers(
-    grid: Sequence[tuple[str, Sequence[Any]]],
-    shard: tuple[int, int] | None = None,
-) -> list[int]: ...
 
-@final
-class _CaseFile:
-    """The file at ``path`` of the cases of a grid, or of its ``shard`` (index, of): rows are appended while cases run."""
-
-    def __new__(
-        cls,
-        path: str | os.PathLike[str],
-        grid: Sequence[tuple[str, Sequence[Any]]],
-        shard: tuple[int, int] | None = None,
-    ) -> Self: ...
-    def rows(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
-        """Columns of results, and the rows so far: number of the case, results, warnings, error."""
-    def append(
-        self,
-        case: int,
-        names: Sequence[str],
-        results: Sequence[Any],
-        warnings: str | None,
-        error: str | None,
-    ) -> None:
-        """Appends the row of a case: ``results`` under ``names``, or the text of its ``error``."""
-    def finish(self) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]:
-        """Writes the whole file at once and returns its rows as `rows` does."""
-def _merge_cases(
-    paths: Sequence[str | os.PathLike[str]],
-    grid: Sequence[tuple[str, Sequence[Any]]],
-) -> tuple[list[str], list[tuple[int, list[float] | None, str | None, str | None]]]: ...
+def _cancel_when(event: Any = None) -> None: ...

@@ -17,13 +17,13 @@ from . import _core
 from ._case import Outcome, described, run_case
 
 Ended = Callable[[int, Outcome], None]
-"""Takes the place of a case in the list, and its outcome, when the case ends."""
+"""A function of the index of a case in the list and of its outcome, called when the case ends."""
 
 
 def run_in_turn(arguments: Sequence[Any], ended: Ended) -> None:
     """Runs cases in this thread."""
-    for place, own in enumerate(arguments):
-        ended(place, run_case(*own))
+    for place, case_arguments in enumerate(arguments):
+        ended(place, run_case(*case_arguments))
 
 
 def run_in_threads(arguments: Sequence[Any], jobs: int, ended: Ended) -> None:
@@ -48,7 +48,7 @@ def _run_in_thread(cancelled: threading.Event, *arguments: Any) -> Outcome:
 
 
 def run_by(executor: Any, arguments: Sequence[Any], ended: Ended) -> None:
-    """Runs cases by an executor; a process that dies costs the case that it ran, and no other.
+    """Runs cases by an executor; if a process dies, only the case that it ran is lost.
 
     A process pool is lost with one of its processes. The first cases without an outcome may have
     been running there: each of them runs again by itself, and the others in another pool.
@@ -83,9 +83,9 @@ def _run(
     run: Callable[..., Outcome] = run_case,
     *before: Any,
 ) -> dict[int, BrokenExecutor]:
-    """Runs the cases of these places, and tells of each when it ends; returns those that a pool lost.
+    """Runs the cases with these indices, and calls ``ended`` for each; returns the errors of those that a pool lost.
 
-    On an interrupt what has not begun is not begun.
+    After an interrupt no further case begins.
     """
     done: queue.SimpleQueue[tuple[int, Future[Outcome]]] = queue.SimpleQueue()
     futures: list[Future[Outcome]] = []
@@ -98,7 +98,7 @@ def _run(
                 lost[place] = error
                 continue
             futures.append(future)
-            future.add_done_callback(lambda own, place=place: done.put((place, own)))
+            future.add_done_callback(lambda future, place=place: done.put((place, future)))
         for _ in range(len(futures)):
             place, future = _next(done)
             found = _outcome(future)
@@ -117,7 +117,7 @@ def _next(done: queue.SimpleQueue[tuple[int, Future[Outcome]]]) -> tuple[int, Fu
     """The next case that has ended."""
     while True:
         try:
-            # A wait without end would not hear Ctrl-C everywhere.
+            # On some systems Ctrl-C does not interrupt a wait without a timeout.
             return done.get(timeout=0.2)
         except queue.Empty:
             pass

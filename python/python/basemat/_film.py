@@ -25,7 +25,7 @@ class Film(NamedTuple):
 
     @contextmanager
     def baked(self, dpi: float | None = None) -> Iterator[Callable[[], Any]]:
-        """While it lasts, all that does not move is one image; gives the function that returns a frame's pixels."""
+        """Context in which the artists that do not move are one image; its value is a function of a frame's pixels."""
         from matplotlib import artist, rcParams
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -35,9 +35,9 @@ class Film(NamedTuple):
         figure.dpi = dpi or (figure.dpi if usual == "figure" else usual)
         moving = set(self.draw(0))
         axes = list(figure.axes)
-        shown = [own.axison for own in axes]
-        parts = [own for part in (figure, *axes) for own in part.get_children() if own not in (figure.patch, *axes)]
-        still = [own for own in parts if own not in moving and own.get_visible()]
+        shown = [axis.axison for axis in axes]
+        parts = [item for part in (figure, *axes) for item in part.get_children() if item not in (figure.patch, *axes)]
+        still = [item for item in parts if item not in moving and item.get_visible()]
 
         class Canvas(FigureCanvasAgg):
             """A canvas that is drawn only when its pixels are read."""
@@ -54,16 +54,16 @@ class Film(NamedTuple):
         canvas: Any = Canvas(figure)
         image = Still()
         try:
-            for own in moving:
-                own.set_visible(False)
+            for item in moving:
+                item.set_visible(False)
             canvas.draw()
             pixels = np.array(canvas.buffer_rgba())[::-1]
             figure.add_artist(image)
             image.set_zorder(-10.0)
-            for own in moving:
-                own.set_visible(True)
-            for own in still:
-                own.set_visible(False)
+            for item in moving:
+                item.set_visible(True)
+            for item in still:
+                item.set_visible(False)
             for part in axes:
                 part.axison = False
 
@@ -74,8 +74,8 @@ class Film(NamedTuple):
             yield frame
         finally:
             image.remove()
-            for own in (*moving, *still):
-                own.set_visible(True)
+            for item in (*moving, *still):
+                item.set_visible(True)
             for part, before in zip(axes, shown):
                 part.axison = before
             figure.dpi = dpi_before
@@ -105,8 +105,8 @@ def moving(film: Film) -> FuncAnimation:
                     """Frames without another drawing."""
 
                     def grab_frame(self, **_: Any) -> None:
-                        own: Any = self
-                        own._frames.append(quantized(frame()))
+                        writer: Any = self
+                        writer._frames.append(quantized(frame()))
 
                 if str(os.fspath(filename)).lower().endswith(".gif") and writer in (None, "pillow"):
                     made: Any = Gif

@@ -104,12 +104,12 @@ def foundation_frame(self: Run) -> DataFrame:
     of safety the least value; in plan also the directions across: "torque" and others.
     """
     rows = []
-    for own, peaks in zip(self.foundations, self._foundation_peaks):
-        row: dict[str, float | None] = {"left": own.ends[0], "right": own.ends[1]}
-        row.update(peaks, static_normal_force=own.static_normal_force, residual_slip=own.residual_slip)
+    for foundation, peaks in zip(self.foundations, self._foundation_peaks):
+        row: dict[str, float | None] = {"left": foundation.ends[0], "right": foundation.ends[1]}
+        row.update(peaks, static_normal_force=foundation.static_normal_force, residual_slip=foundation.residual_slip)
         if self.in_plan:
-            row["front"], row["back"] = own.depth
-            row["residual_slip_across"] = own.residual_slip_across
+            row["front"], row["back"] = foundation.depth
+            row["residual_slip_across"] = foundation.residual_slip_across
         rows.append(row)
     units = {**_UNIT, **self.units, "static_normal_force": self.units["normal_force"]}
     return _with_units(pandas().DataFrame(rows, dtype=float).rename_axis("foundation"), units, self)
@@ -143,10 +143,10 @@ def floor_spectra(
     return _with_units(frame, {"period": "s", **dict.fromkeys(names, "m/s²")}, self)
 
 
-def _of(own: Any, index: str, columns: str) -> DataFrame:
+def _of(result: Any, index: str, columns: str) -> DataFrame:
     """A frame of arrays of an object, the first of which is its index."""
-    values = {name: getattr(own, name) for name in columns.split()}
-    frame = pandas().DataFrame(values, index=pandas().Index(getattr(own, index), name=index))
+    values = {name: getattr(result, name) for name in columns.split()}
+    frame = pandas().DataFrame(values, index=pandas().Index(getattr(result, index), name=index))
     return _with_units(frame, _UNIT)
 
 

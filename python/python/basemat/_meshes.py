@@ -40,7 +40,7 @@ def from_arrays(points: ArrayLike, cells: Sequence[Any], parts: Sequence[Any]) -
         if part is not None
     ]
     if in_space:
-        _add_shells(mesh, [own for own in given if own[1] in _SHELLS])
+        _add_shells(mesh, [part for part in given if part[1] in _SHELLS])
     for name, kind, nodes, part in given:
         if in_space and kind == "hexahedron":
             mesh.add_bricks(nodes, part)

@@ -25,12 +25,12 @@ AXES: dict[str, tuple[tuple[int, float], ...]] = {
 def line_of(rows: Rows, base_nodes: Sequence[int], width: float | None) -> list[BaseNode]:
     """Nodes of the base in the plane."""
     at = {tag: rows.at[tag] for tag in base_nodes if tag in rows.at}
-    x = {tag: float(own[0]) for tag, own in at.items()}
+    x = {tag: float(point[0]) for tag, point in at.items()}
     found = {}
     for tag in base_nodes:
         for name in rows.directions if width is not None else rows.directions[:2]:
             found[tag, name] = rows.row(tag, name, _FREE)
-    heights = sorted({float(own[1]) for own in at.values()})
+    heights = sorted({float(point[1]) for point in at.values()})
     if len(heights) > 1:
         raise InputError(f"base nodes are at heights of {heights[0]} to {heights[-1]} m, but must be at one")
     if len(x) < 2 and width is None or len(x) != 1 and width is not None:
@@ -40,7 +40,7 @@ def line_of(rows: Rows, base_nodes: Sequence[int], width: float | None) -> list[
     [tag] = x
     ends = (-0.5 * width, 0.5 * width)
     return [
-        BaseNode(x[tag] + own, found[tag, "x"], found[tag, "y"] + found[tag, "rotation"] * own) for own in ends
+        BaseNode(x[tag] + offset, found[tag, "x"], found[tag, "y"] + found[tag, "rotation"] * offset) for offset in ends
     ]
 
 
@@ -76,19 +76,19 @@ def faces_of(
     base.check_heights(base_nodes, up)
     depth = below or 0.0
     return BaseFaces(
-        [[base.node(tag, corner, depth, True) for corner in own] for tag, own in zip(base_nodes, outlines)]
+        [[base.node(tag, corner, depth, True) for corner in outline] for tag, outline in zip(base_nodes, outlines)]
     )
 
 
 def _outlines(outline: Sequence[Any]) -> list[Any]:
-    """A list of outlines, or one by itself, as arrays of corners."""
+    """A list of outlines, or a single one, as arrays of corners."""
     try:
-        found = [np.asarray(own, dtype=float) for own in outline]
-        if found and all(own.ndim == 1 for own in found):
+        found = [np.asarray(corners, dtype=float) for corners in outline]
+        if found and all(corners.ndim == 1 for corners in found):
             found = [np.asarray(found, dtype=float)]
     except (TypeError, ValueError):
         found = [np.zeros(0)]
-    if any(own.ndim != 2 or own.shape[1] != 2 for own in found):
+    if any(corners.ndim != 2 or corners.shape[1] != 2 for corners in found):
         raise InputError(f"outline is {outline!r}, but must be a list of corners, each of x and y in m, or a list of such lists")
     return found
 
@@ -99,10 +99,10 @@ def _faces(
     """Corners of each face, and the ground's distance below them, m."""
     shells = elements.shells()
     thickness: dict[tuple[int, ...], float] = {}
-    for nodes, own in shells.values():
+    for nodes, shell_thickness in shells.values():
         # Of several shells on the same nodes the thickest; one that is not printed must be given.
         key = tuple(sorted(nodes))
-        thickness[key] = max(thickness.get(key, 0.0), np.inf if own is None else own)
+        thickness[key] = max(thickness.get(key, 0.0), np.inf if shell_thickness is None else shell_thickness)
     if not len(faces):
         raise InputError("there are no faces: give the elements or the nodes of the base")
     for face in faces:
@@ -158,8 +158,8 @@ class _Base:
         """Displacement, or rotation, of a node along an axis of the plan or up."""
         axis, sign = self._axes[k % 3]
         directions = self._rows.directions
-        own = self._rows.row(tag, directions[axis + k // 3 * 3], _FREE)
-        return own if sign > 0.0 else own * sign
+        row = self._rows.row(tag, directions[axis + k // 3 * 3], _FREE)
+        return row if sign > 0.0 else row * sign
 
 
 def _sum(row: DofCombination, *terms: tuple[DofCombination, float]) -> DofCombination:
@@ -178,8 +178,8 @@ def moves(rows: Rows, used: Any) -> str:
     for name in rows.directions:
         moved = rows.rigid(name)
         missed = used & (np.abs(ties.sums @ moved[ties.kept] - moved) > 1e-6 * max(rows.size, 1.0))
-        for tag, own in rows.places.items():
-            for place, direction in zip(own, rows.directions):
+        for tag, numbers in rows.places.items():
+            for place, direction in zip(numbers, rows.directions):
                 if not missed[place]:
                     continue
                 by = f"node {tag} ({direction}) does not follow, by {ties.about(place)}"
@@ -190,7 +190,7 @@ def moves(rows: Rows, used: Any) -> str:
 
 
 def masses(rows: Rows, mass: Any, up: str) -> str:
-    """Words for masses that differ by direction; the one up makes the weight."""
+    """Text about masses that differ by direction; the vertical one gives the weight."""
     names = [name for name in rows.directions if name in ("x", "y", "z")]
     found = {}
     for name in names:
@@ -199,5 +199,5 @@ def masses(rows: Rows, mass: Any, up: str) -> str:
     if max(found.values()) - min(found.values()) <= 1e-3 * max(found.values()):
         return ""
     up = up if len(names) == 3 else "y"
-    listed = ", ".join(f"{own:.4g} {'kg' if len(names) == 3 else 'kg/m'} along {name}" for name, own in found.items())
+    listed = ", ".join(f"{mass:.4g} {'kg' if len(names) == 3 else 'kg/m'} along {name}" for name, mass in found.items())
     return f"the model of OpenSees has masses of {listed}: the ground carries the weight of those along {up}, the axis up"

@@ -1,4 +1,4 @@
-"""What of an OpenSees model is not linear, by the types of its elements, materials, sections and transformations."""
+"""Nonlinear parts of an OpenSees model, by the types of its elements, materials, sections and transformations."""
 
 from __future__ import annotations
 
@@ -92,7 +92,8 @@ class Elements:
         found: dict[str, list[int]] = {}
         for tag in self._ops.getEleTags():
             text = self._part("elements", tag).text if self._type(tag) not in _SOLIDS else ""
-            reasons = [self._name("material", own) for own in self._uses("material", text) if self._one_sided(own)]
+            materials = [material for material in self._uses("material", text) if self._one_sided(material)]
+            reasons = [self._name("material", material) for material in materials]
             if reasons or "Contact" in self._type(tag):
                 found.setdefault(", ".join([self._type(tag), *dict.fromkeys(reasons)]), []).append(int(tag))
         return found
@@ -105,7 +106,7 @@ class Elements:
                 continue
             [name] = self._uses("section", self._part("elements", tag).text) or [""]
             printed = re.search(r'"(?:t|totalT)hickness": "?([^",}]+)', self._part("section", name).text)
-            nodes = [int(own) for own in self._ops.eleNodes(tag)]
+            nodes = [int(node) for node in self._ops.eleNodes(tag)]
             found[int(tag)] = nodes, float(printed[1]) if printed else None
         return found
 
@@ -116,7 +117,7 @@ class Elements:
         return self._parts.get((kind, str(name)), Part("", ""))
 
     def _name(self, kind: str, name: str) -> str:
-        """Kind, tag and type for people."""
+        """Kind, tag and type as a text."""
         found = self._part(kind, name).type
         if not found and kind in ("material", "section"):
             command = "uniaxialMaterial" if kind == "material" else kind
@@ -128,10 +129,10 @@ class Elements:
         """Tags of this kind in a text."""
         single = re.findall(rf'"{kind}": "?(\d+)"?', text, re.IGNORECASE)
         several = re.findall(rf'"{kind}s": \[([^\]]*)\]', text)
-        return list(dict.fromkeys(single + [own for found in several for own in re.findall(r"\d+", found)]))
+        return list(dict.fromkeys(single + [number for found in several for number in re.findall(r"\d+", found)]))
 
     def _reasons(self, tag: int) -> Iterator[str]:
-        """What makes an element nonlinear, as far as it is printed."""
+        """Reasons why an element is nonlinear, as far as OpenSees prints them."""
         text = self._part("elements", tag).text
         if '"Mratios"' in text:
             yield "P-Delta"
@@ -182,4 +183,4 @@ class Elements:
         if part.type == "ViscousMaterial":
             power = re.search(r"Alpha: (\S+)", part.text)
             return power is None or float(power[1]) != 1.0
-        return any(self._one_sided(own) for own in self._uses("material", part.text))
+        return any(self._one_sided(material) for material in self._uses("material", part.text))

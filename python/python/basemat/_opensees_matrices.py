@@ -42,7 +42,7 @@ def matrices(ops: Any) -> Matrices:
             return _windows(ops, counts)
     (penalty,) = _assembled(ops, ("Penalty", 1.0, 1.0), np.zeros((1, 4)))
     mass, damping, present, initial = _assembled(ops, ("Penalty", 0.0, 0.0), np.eye(4))
-    places = {tag: [int(own) for own in ops.nodeDOFs(tag)] for tag in counts}
+    places = {tag: [int(number) for number in ops.nodeDOFs(tag)] for tag in counts}
     ops.wipeAnalysis()
     return Matrices(mass, damping, present, initial, penalty, places)
 
@@ -70,8 +70,8 @@ def _assembled(ops: Any, handler: tuple[Any, ...], factors: Any, system: str = "
     ops.initialize()
     order = ops.systemSize()
     found = []
-    for own in factors:
-        ops.integrator("GimmeMCK", *own.tolist())
+    for row in factors:
+        ops.integrator("GimmeMCK", *row.tolist())
         made = np.array(ops.printA("-ret"))
         found.append(made.reshape(order, order) if system == "FullGeneral" else made)
     return found
@@ -97,12 +97,12 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
     done: set[int] = set()
     try:
         for pair in pairs:
-            own = [tag for group in pair for tag in groups[group]]
-            if all(len(held.get(tag, ())) == counts[tag] for tag in own):
+            pair_tags = [tag for group in pair for tag in groups[group]]
+            if all(len(held.get(tag, ())) == counts[tag] for tag in pair_tags):
                 continue
-            closed.but(own)
+            closed.but(pair_tags)
             found = _assembled(ops, ("Auto", "-userPenalty", 0.0), np.eye(4))
-            if in_ties.intersection(own):
+            if in_ties.intersection(pair_tags):
                 found += _assembled(ops, ("Auto", "-userPenalty", 1.0), np.zeros((1, 4)))
             numbers = [
                 (place, group, int(number))
@@ -123,21 +123,21 @@ def _windows(ops: Any, counts: dict[int, int]) -> Matrices:
         ops.wipeAnalysis()
         closed.but(tags)
     diagonals = _assembled(ops, ("Penalty", 0.0, 0.0), np.eye(4), "Diagonal")
-    fixed = [(places[tag][k], int(ops.nodeDOFs(tag)[k])) for tag, own in held.items() for k in own]
+    fixed = [(places[tag][k], int(ops.nodeDOFs(tag)[k])) for tag, directions in held.items() for k in directions]
     ops.wipeAnalysis()
     at, rows = np.array(fixed, dtype=int).reshape(-1, 2).T
     for part, diagonal in zip(parts, [*diagonals, np.ones(order)]):
         part.append((diagonal[rows], at, at))
     made = []
     for part in parts:
-        values, row, column = (np.concatenate(own) for own in zip(*part))
+        values, row, column = (np.concatenate(column_values) for column_values in zip(*part))
         made.append(sparse.csr_matrix((values, (row, column)), shape=(order, order)))
     mass, damping, present, initial, penalty = made
     return Matrices(mass, damping, present, initial, penalty, places)
 
 
 class _Fixes:
-    """Supports that are put on a model for a while, beside its own."""
+    """Temporary supports in addition to those of a model."""
 
     def __init__(self, ops: Any, counts: dict[int, int], held: dict[int, set[int]]) -> None:
         self._ops, self._counts = ops, counts
@@ -151,10 +151,10 @@ class _Fixes:
             for k in self._free[tag]:
                 self._ops.remove("sp", tag, k + 1)
             self._fixed.remove(tag)
-        for tag, own in self._free.items():
-            if own and tag not in free and tag not in self._fixed:
+        for tag, directions in self._free.items():
+            if directions and tag not in free and tag not in self._fixed:
                 self._fixed.add(tag)
-                self._ops.fix(tag, *(int(k in own) for k in range(self._counts[tag])))
+                self._ops.fix(tag, *(int(k in directions) for k in range(self._counts[tag])))
 
 
 def _groups(ops: Any, tags: list[int]) -> tuple[list[list[int]], list[tuple[int, ...]]]:
@@ -164,7 +164,7 @@ def _groups(ops: Any, tags: list[int]) -> tuple[list[list[int]], list[tuple[int,
 
     index = {tag: k for k, tag in enumerate(tags)}
     edges = {(index[one], index[other]) for one, other in _neighbours(ops)}
-    row, column = (np.array(own, dtype=int) for own in zip(*edges))
+    row, column = (np.array(numbers, dtype=int) for numbers in zip(*edges))
     graph = sparse.csr_matrix((np.ones(len(row)), (row, column)), shape=(len(tags),) * 2)
     order = reverse_cuthill_mckee((graph + graph.T).tocsr(), symmetric_mode=True)
     size = max(WINDOW // (2 * _DIRECTIONS), 1)
@@ -174,8 +174,8 @@ def _groups(ops: Any, tags: list[int]) -> tuple[list[list[int]], list[tuple[int,
     pairs: set[tuple[int, ...]] = {
         (min(one, other), max(one, other)) for one, other in zip(group[row].tolist(), group[column].tolist()) if one != other
     }
-    met = {own for pair in pairs for own in pair}
-    return groups, sorted(pairs | {(own,) for own in range(len(groups)) if own not in met})
+    met = {group for pair in pairs for group in pair}
+    return groups, sorted(pairs | {(group,) for group in range(len(groups)) if group not in met})
 
 
 def _neighbours(ops: Any) -> Iterator[tuple[int, int]]:

@@ -29,11 +29,11 @@ class Rows:
         """The row of a node's displacement; ``need`` ends the message where constraints hold it at zero."""
         if node not in self.places:
             raise InputError(f"there is no node {node} in the model of OpenSees")
-        own = self.places[node]
-        if direction not in self.directions[: len(own)]:
-            known = ", ".join(self.directions[: len(own)])
+        numbers = self.places[node]
+        if direction not in self.directions[: len(numbers)]:
+            known = ", ".join(self.directions[: len(numbers)])
             raise InputError(f"there is no direction '{direction}', only {known}")
-        place = own[self.directions.index(direction)]
+        place = numbers[self.directions.index(direction)]
         terms = self.ties.terms(place)
         if not terms:
             by = self.ties.about(place)
@@ -43,8 +43,8 @@ class Rows:
     def rigid(self, direction: str) -> Any:
         """Displacements of all nodes by a unit motion of the whole in a direction, or about the origin's axis."""
         k, moved = self.directions.index(direction), np.zeros(self.ties.sums.shape[0])
-        for node, own in self.places.items():
-            moved[own] = _rigid(k, self.at[node])[: len(own)]
+        for node, numbers in self.places.items():
+            moved[numbers] = _rigid(k, self.at[node])[: len(numbers)]
         return moved
 
 

@@ -24,9 +24,9 @@ def shape_of(ops: Any, rows: Rows, base: Sequence[int], up: str) -> DeformedShap
     height = rows.at[base[0]][axes[-1][0]]
     number = {tag: k for k, tag in enumerate(rows.places)}
     points, moves = [], []
-    for tag, own in rows.places.items():
+    for tag, numbers in rows.places.items():
         points.append([sign * rows.at[tag][k] - height * (k == axes[-1][0]) for k, sign in axes])
-        moves.append([[(dof, sign * weight) for dof, weight in rows.ties.terms(own[k])] for k, sign in axes])
+        moves.append([[(dof, sign * weight) for dof, weight in rows.ties.terms(numbers[k])] for k, sign in axes])
     cells: dict[frozenset[int], list[int]] = {}
     inner = set()
     for element in ops.getEleTags():

@@ -18,8 +18,8 @@ _MOST = 8
 
 
 def fixes(ops: Any) -> dict[int, set[int]]:
-    """Directions, by their numbers, that supports hold of each node (its tag)."""
-    return {int(tag): {int(own) - 1 for own in ops.getFixedDOFs(tag)} for tag in ops.getFixedNodes()}
+    """Numbers of the directions that supports restrain, by the tag of the node."""
+    return {int(tag): {int(direction) - 1 for direction in ops.getFixedDOFs(tag)} for tag in ops.getFixedNodes()}
 
 
 def tied(ops: Any) -> Iterator[tuple[int, int]]:
@@ -42,11 +42,11 @@ class Ties:
 
     def __init__(self, ops: Any, places: dict[int, list[int]], directions: tuple[str, ...], penalty: Any) -> None:
         self._places, self.directions = places, directions
-        self._near = {int(own): _nonzero(penalty, int(own)) for own in np.flatnonzero(penalty.diagonal())}
+        self._near = {int(place): _nonzero(penalty, int(place)) for place in np.flatnonzero(penalty.diagonal())}
         self._fixed = fixes(ops)
         #: Tied directions of a node that follows, by the pair of nodes; ``retained``: of the other node.
-        self._pairs = {pair: [int(own) - 1 for own in ops.getConstrainedDOFs(*pair)] for pair in tied(ops)}
-        retained = {pair: [int(own) - 1 for own in ops.getRetainedDOFs(*pair[::-1])] for pair in self._pairs}
+        self._pairs = {pair: [int(direction) - 1 for direction in ops.getConstrainedDOFs(*pair)] for pair in tied(ops)}
+        retained = {pair: [int(direction) - 1 for direction in ops.getRetainedDOFs(*pair[::-1])] for pair in self._pairs}
         self._has_arms = {pair: self._turns(pair, held, penalty) for pair, held in self._pairs.items()}
         # Sparse matrices leave out what a fixed degree of freedom is tied to.
         for (tag, master), held in self._pairs.items():
@@ -59,7 +59,9 @@ class Ties:
         for (tag, _), held in self._pairs.items():
             followed.setdefault(tag, set()).update(held)
         #: Ties in a chain: a node that follows a second one, which follows a third.
-        self.chains = [pair for pair, own in retained.items() if followed.get(pair[1], set()).intersection(own)]
+        self.chains = [
+            pair for pair, directions in retained.items() if followed.get(pair[1], set()).intersection(directions)
+        ]
         #: Displacements of constrained places as (places, weights) of such as are left.
         self._followed: dict[int, tuple[Any, Any]] = {}
         for part in self._parts():
@@ -100,8 +102,8 @@ class Ties:
             sums[:, pivot] = left[:, pivot] = left[pivot, :] = 0.0
         # Weights that cancel leave their rounding.
         sums[np.abs(sums) < 1e-14 * np.abs(sums).max(axis=1, initial=1.0, keepdims=True)] = 0.0
-        for place, own in zip(places.tolist(), sums):
-            self._followed[place] = places[np.flatnonzero(own)], own[own != 0.0]
+        for place, row in zip(places.tolist(), sums):
+            self._followed[place] = places[np.flatnonzero(row)], row[row != 0.0]
 
     def _summed(self, order: int, is_sparse: bool) -> Any:
         terms = [(place, *term) for place in range(order) for term in self.terms(place)]
@@ -129,21 +131,21 @@ class Ties:
     def terms(self, place: int) -> list[tuple[int, float]]:
         """Pairs (number of a degree of freedom that is left, weight) that move the one at ``place``."""
         places, weights = self._followed.get(place, ((place,), (1.0,)))
-        return [(self._number[int(own)], float(weight)) for own, weight in zip(places, weights)]
+        return [(self._number[int(place)], float(weight)) for place, weight in zip(places, weights)]
 
     def _hanging(self, place: int) -> set[int]:
         """A place and all that constraints tie to it, one by another."""
         seen, edge = {place}, {place}
         while edge:
-            edge = {own for far in edge for own in self._near.get(far, ())} - seen
+            edge = {neighbour for far in edge for neighbour in self._near.get(far, ())} - seen
             seen |= edge
         return seen
 
     def _turns(self, pair: tuple[int, int], held: list[int], penalty: Any) -> bool:
         """Whether a rotation of the other node moves the one that follows in its tied translations."""
-        own, other = (self._places[tag] for tag in pair)
+        places, other = (self._places[tag] for tag in pair)
         lines = len(self.directions) // 2 + len(self.directions) % 2
-        return any(penalty[own[k], place] != 0.0 for k in held if k < lines for place in other[lines:])
+        return any(penalty[places[k], place] != 0.0 for k in held if k < lines for place in other[lines:])
 
     def off_plane(self, at: dict[int, tuple[float, ...]]) -> str:
         """Words for nodes beside the plane of their diaphragm; ``at``: coordinates of each node (its tag), m.
@@ -158,7 +160,7 @@ class Ties:
                     continue
                 offset = abs(at[tag][across] - at[master][across])
                 # An equalDOF of the same directions has no arms, nor have others to this master.
-                beside = (pair for pair, own in self._pairs.items() if pair[1] == master and own == held)
+                beside = (pair for pair, directions in self._pairs.items() if pair[1] == master and directions == held)
                 if offset and any(self._has_arms[pair] for pair in beside):
                     found.setdefault(master, []).append(f"node {tag} is {offset:.3g} m")
         return "; ".join(
@@ -169,28 +171,31 @@ class Ties:
         )
 
     def about(self, place: int) -> str:
-        """The constraints of the degree of freedom at ``place`` and of all that are tied to it, for people."""
+        """Text about the constraints of the degree of freedom at ``place`` and of all that are tied to it."""
         seen = self._hanging(place)
-        nodes = {tag: [k for k in range(len(own)) if own[k] in seen] for tag, own in self._places.items() if seen & set(own)}
+        nodes = {}
+        for tag, places in self._places.items():
+            if seen & set(places):
+                nodes[tag] = [k for k in range(len(places)) if places[k] in seen]
         found = []
         for tag, directions in nodes.items():
             if held := [k for k in directions if k in self._fixed.get(tag, ())]:
                 found.append(f"fix of node {tag} ({self._listed(held)})")
         found += [self.named(pair, nodes[pair[0]]) for pair in self._pairs if pair[0] in nodes]
-        found = [own for own in found if own]
+        found = [entry for entry in found if entry]
         more = [f"{len(found) - _MOST} more"] if len(found) > _MOST else []
         return ", ".join(found[:_MOST] + more) or "a constraint"
 
     def named(self, pair: tuple[int, int], directions: Sequence[int] | None = None) -> str:
-        """A tie for people, as far as it is one of these directions; all of them unless given."""
+        """A tie as a text, restricted to these directions; all of them unless given."""
         held = [k for k in self._pairs[pair] if directions is None or k in directions]
         return f"{self._command(*pair, held)} of node {pair[0]} ({self._listed(held)}) to node {pair[1]}" if held else ""
 
     def _command(self, tag: int, master: int, held: list[int]) -> str:
         """The commands that make such a tie."""
-        own, other = self._places[tag], self._places[master]
+        places, other = self._places[tag], self._places[master]
         lines = len(self.directions) // 2 + len(self.directions) % 2  # translations
-        turned = [(k, j) for k in held for j in range(len(other)) if j != k and other[j] in self._near[own[k]]]
+        turned = [(k, j) for k in held for j in range(len(other)) if j != k and other[j] in self._near[places[k]]]
         if not turned:
             return "equalDOF, rigidLink 'bar' or rigidDiaphragm"
         is_rigid = all(k < lines <= j for k, j in turned)
@@ -203,5 +208,5 @@ class Ties:
 def _nonzero(matrix: Any, row: int) -> list[int]:
     """Columns of the entries of a row that are not zero, ascending."""
     if isinstance(matrix, np.ndarray):
-        return [int(own) for own in np.flatnonzero(matrix[row])]
+        return [int(column) for column in np.flatnonzero(matrix[row])]
     return sorted(matrix.indices[matrix.indptr[row] : matrix.indptr[row + 1]].tolist())

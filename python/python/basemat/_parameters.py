@@ -23,7 +23,7 @@ Row = tuple[str, str, str]
 
 
 Known = Mapping[int, str]
-"""Words for objects that have their own rows, by their numbers (``id``)."""
+"""Names of objects that have separate rows, by their ``id``."""
 
 
 def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
@@ -41,7 +41,7 @@ def rows_of(name: str, value: Any, known: Known) -> Iterator[Row]:
     elif isinstance(value, (list, tuple)):
         yield from _rows_of_list(name, value, known)
     elif type(value).__module__ == "basemat" and _signature(type(value)):
-        given = {own: getattr(value, own) for own in _signature(type(value)) if hasattr(value, own)}
+        given = {attribute: getattr(value, attribute) for attribute in _signature(type(value)) if hasattr(value, attribute)}
         yield name, type(value).__name__, ""
         yield from _rows_of_arguments(name, given, inspect.getdoc(type(value)) or "", known)
     elif not inspect.isroutine(value) and hasattr(value, "__dict__"):
@@ -58,29 +58,30 @@ def _rows_of_call(name: str, made: Made, known: Known) -> Iterator[Row]:
     owner = made.owner if is_class or inspect.isroutine(made.owner) or hasattr(made.owner, "__wrapped__") else type(made.owner)
     function = owner if made.name is None else getattr(owner, made.name)
     yield name, owner.__name__ + ("" if made.name is None else f".{made.name}"), ""
-    parameters = {own: one for own, one in _signature(function).items() if own != "self"}
-    given = {own: one.default for own, one in parameters.items() if one.default not in (None, one.empty)}
+    parameters = {argument: one for argument, one in _signature(function).items() if argument != "self"}
+    given = {argument: one.default for argument, one in parameters.items() if one.default not in (None, one.empty)}
     arguments = {**dict(zip(parameters, made.arguments)), **made.keywords}
-    ordered = {own: arguments.get(own, given.get(own)) for own in parameters if own in arguments or own in given}
-    docs = "\n".join(inspect.getdoc(own) or "" for own in (function, owner))
+    merged = {**given, **arguments}
+    ordered = {argument: merged[argument] for argument in parameters if argument in merged}
+    docs = "\n".join(inspect.getdoc(documented) or "" for documented in (function, owner))
     yield from _rows_of_arguments(name, ordered, docs, known)
     for method, values, keywords in made.calls:
         yield f"{name}: {method}", ", ".join(map(_shown, (*values, *keywords.values()))), ""
 
 
 def _rows_of_arguments(name: str, arguments: Mapping[str, Any], docs: str, known: Known) -> Iterator[Row]:
-    for own, value in arguments.items():
+    for argument, value in arguments.items():
         if value is None:
             continue
-        path = f"{name}: {own.replace('_', ' ')}"
+        path = f"{name}: {argument.replace('_', ' ')}"
         if id(value) in known:
             yield path, known[id(value)], ""
         elif _is_description(value) or isinstance(value, (list, tuple)) and any(map(_is_description, value)):
             yield from rows_of(path, value, known)
         else:
             # Numbers of degrees of freedom have no unit, though what they read has one.
-            has_unit = own != "row" and not isinstance(value, (bool, str))
-            yield path, _shown(value), _unit(own, docs) if has_unit else ""
+            has_unit = argument != "row" and not isinstance(value, (bool, str))
+            yield path, _shown(value), _unit(argument, docs) if has_unit else ""
 
 
 def _rows_of_list(name: str, values: Any, known: Known) -> Iterator[Row]:
@@ -97,7 +98,7 @@ def _rows_of_list(name: str, values: Any, known: Known) -> Iterator[Row]:
 
 
 def _is_description(value: Any) -> bool:
-    """Whether rows of its own say more than its text."""
+    """Whether a value needs separate rows."""
     return isinstance(value, Made) or _MADE in getattr(value, "__dict__", {}) or isinstance(value, (_core.Record, _core.Soil))
 
 
@@ -114,8 +115,8 @@ def _unit(name: str, docs: str) -> str:
         # Names that share their words: ``left`` to ``right`` (m).
         part = re.sub(r"^(\s*(,|and|or|to|, and)\s*``\w+``)+", "", part)
         # Up to the next parameter, or the next entry of a list of arguments.
-        own = re.split(r"``|\n\s*\w+: |\. [A-Z]", part, maxsplit=1)[0]
-        if found := _UNIT.search(own):
+        sentence = re.split(r"``|\n\s*\w+: |\. [A-Z]", part, maxsplit=1)[0]
+        if found := _UNIT.search(sentence):
             return found[1]
     return ""
 

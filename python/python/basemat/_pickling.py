@@ -18,7 +18,7 @@ from . import _core
 
 _MADE = "_made"
 _CALLS = "_calls"
-"""Where a description keeps what it was made of, and a mesh what was added to it."""
+"""Attributes: what a description was made of, and what was added to a mesh."""
 
 _RETURNING = (
     (_core.PlaneWave, "field_from_horizontal"),
@@ -84,11 +84,11 @@ def _kept(value: Any) -> Any:
     if hasattr(value, "__array__"):
         return np.array(value)
     if isinstance(value, tuple):
-        return tuple(_kept(own) for own in value)
+        return tuple(_kept(entry) for entry in value)
     if isinstance(value, MutableSequence):
-        return [_kept(own) for own in value]
+        return [_kept(entry) for entry in value]
     if isinstance(value, Mapping):
-        return {name: _kept(own) for name, own in value.items()}
+        return {name: _kept(entry) for name, entry in value.items()}
     return value
 
 
@@ -99,12 +99,12 @@ def _is_part(value: Any) -> bool:
 
 
 def _made(owner: Any, name: str | None, arguments: Any, keywords: dict[str, Any]) -> Made:
-    named = {name: _kept(own) for name, own in keywords.items()}
+    named = {name: _kept(entry) for name, entry in keywords.items()}
     return Made(owner, name, tuple(map(_kept, arguments)), named)
 
 
 def _noting(call: Callable[..., Any], note: Callable[..., None]) -> Callable[..., Any]:
-    """``call``, after which ``note`` hears of its result and arguments."""
+    """``call``, followed by ``note`` with its result and arguments."""
 
     @functools.wraps(call)
     def noting(*arguments: Any, **keywords: Any) -> Any:
@@ -131,9 +131,9 @@ def _remembering(make: Callable[..., Any], owner: Any, name: str | None) -> Call
 
 def _how(description: Any) -> Made:
     """The origin of a description, calls that added to it included."""
-    own = vars(description)
-    made: Made = own[_MADE]
-    return made._replace(calls=tuple(own.get(_CALLS, ())))
+    attributes = vars(description)
+    made: Made = attributes[_MADE]
+    return made._replace(calls=tuple(attributes.get(_CALLS, ())))
 
 
 def _reduce(self: Any) -> Any:
@@ -156,7 +156,7 @@ def _repr(self: Any) -> str:
 
 def _values(self: Any) -> str:
     """The values that can be read of it."""
-    names = [name for name, own in vars(type(self)).items() if inspect.isgetsetdescriptor(own)]
+    names = [name for name, descriptor in vars(type(self)).items() if inspect.isgetsetdescriptor(descriptor)]
     # Arguments of the constructor as there, others by their names: the class keeps no order.
     order = [*inspect.signature(type(self)).parameters] if type(self).__text_signature__ else []
     names.sort(key=lambda name: (order.index(name) if name in order else len(order), name))
@@ -192,8 +192,8 @@ def _prepare(described: Any) -> None:
         vars(self)[_MADE] = _made(type(self), None, arguments, keywords)
 
     if signature is not None:
-        own = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
-        parameters = [own, *signature.parameters.values()]
+        self_parameter = inspect.Parameter("self", inspect.Parameter.POSITIONAL_ONLY)
+        parameters = [self_parameter, *signature.parameters.values()]
         try:
             __init__.__signature__ = signature.replace(parameters=parameters)  # type: ignore[attr-defined]
         except ValueError:
@@ -206,7 +206,7 @@ def _layer(profile: _core.SoilProfile, number: int) -> _core.SoilLayer:
 
 
 def _prepare_layers() -> None:
-    """The layers that a profile gives back know that they are its own."""
+    """Lets the layers that a profile returns pickle as layers of the profile."""
     get: Any = _core.SoilProfile.layers
 
     def layers(self: _core.SoilProfile) -> list[_core.SoilLayer]:
@@ -222,8 +222,8 @@ def _prepare_call(name: str) -> None:
     """A method that adds to a mesh."""
 
     def note(_: Any, arguments: Any, keywords: Any) -> None:
-        own, *others = arguments
-        vars(own).setdefault(_CALLS, []).append((name, tuple(map(_kept, others)), _kept(keywords)))
+        mesh, *others = arguments
+        vars(mesh).setdefault(_CALLS, []).append((name, tuple(map(_kept, others)), _kept(keywords)))
 
     setattr(_core.Mesh, name, _noting(getattr(_core.Mesh, name), note))
 
@@ -244,7 +244,7 @@ def _prepare_extrusion() -> None:
 
 def _prepare_all() -> None:
     """Lets all descriptions pickle; once, when the package is imported."""
-    classes: list[Any] = [own for own in vars(_core).values() if isinstance(own, type)]
+    classes: list[Any] = [value for value in vars(_core).values() if isinstance(value, type)]
     for described in classes:
         if described is _core.Record:
             # A record is its samples.

@@ -47,31 +47,31 @@ def plot_run(
     line style for each run. ``title`` stands above the picture; None for none.
     """
     has_modes = was_kept(self, "contact")
-    own = axes_for(axes, 3 if has_modes else 2, title)
-    before = results_in(own[0])
+    panels = axes_for(axes, 3 if has_modes else 2, title)
+    before = results_in(panels[0])
     names = {"base_shear": "base shear", "shear_across": "across"} if self.in_plan else {"base_shear": "base shear"}
     for number, name in enumerate(names):
         line: dict[str, Any] = {"color": color_for(color, before * len(names) + number), "linewidth": 0.8}
-        own[0].plot(self.time, 1e-3 * self[name], label=named(label, names[name]), **line)
-    label_axes(own[0], None, f"base shear, k{self.units['base_shear']}")
+        panels[0].plot(self.time, 1e-3 * self[name], label=named(label, names[name]), **line)
+    label_axes(panels[0], None, f"base shear, k{self.units['base_shear']}")
     if self.in_plan or label is not None:
-        key(own[0])
+        key(panels[0])
     if has_modes:
-        plot_modes(self, own[1])
-        own[1].set_xlabel("")
+        plot_modes(self, panels[1])
+        panels[1].set_xlabel("")
     terms = {**self.energy_balances}
     time, total = terms.pop("time"), terms.pop("input")
     style = _STYLES[before % len(_STYLES)]
-    own[-1].plot(time, 1e-3 * total, style, color="black", label=named(label, "input"))
+    panels[-1].plot(time, 1e-3 * total, style, color="black", label=named(label, "input"))
     for name in ("residual", "largest", "relative_input", "soil_error_bound"):
         terms.pop(name, None)
     for number, (name, values) in enumerate(terms.items()):
         if np.nanmax(np.abs(values), initial=0.0) > 1e-3 * np.nanmax(np.abs(total), initial=0.0):
             line = {"color": f"C{number % 10}", "linewidth": 0.8}
-            own[-1].plot(time, 1e-3 * values, style, label=named(label, name.replace("_", " ")), **line)
-    label_axes(own[-1], "time, s", f"energy, k{self.units['input']}")
-    key(own[-1])
-    return own
+            panels[-1].plot(time, 1e-3 * values, style, label=named(label, name.replace("_", " ")), **line)
+    label_axes(panels[-1], "time, s", f"energy, k{self.units['input']}")
+    key(panels[-1])
+    return panels
 
 
 def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None) -> Axes:
@@ -80,19 +80,19 @@ def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None)
     It needs snapshots of the contact: ``contact_every`` of `Simulation.run`. ``axes``: axes of matplotlib to draw into; of a
     new figure unless given. ``title`` stands above the picture; None for none.
     """
-    [own] = axes_for(axes, 1, title)
+    [panel] = axes_for(axes, 1, title)
     from matplotlib.colors import ListedColormap
 
     frames = self.contact
     time, modes = frames["time"], frames["mode"]
     found = np.unique(modes)
-    mode_key(own, found)
+    mode_key(panel, found)
     if self.in_plan:
         area = np.prod([high - low for low, high in sides(self)], axis=0)
         areas = [(modes == mode) @ area for mode in found]
-        own.stackplot(time, areas, colors=[COLORS[mode] for mode in found])
-        label_axes(own, "time, s", "area of the elements, m²")
-        return own
+        panel.stackplot(time, areas, colors=[COLORS[mode] for mode in found])
+        label_axes(panel, "time, s", "area of the elements, m²")
+        return panel
     lefts, rights = along(self)
     edges, rows = [lefts[0]], []
     for left, right, row in zip(lefts, rights, modes.T):
@@ -103,7 +103,7 @@ def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None)
         edges.append(right)
         rows.append(row)
     step = time[1] - time[0] if len(time) > 1 else 1.0
-    own.pcolormesh(
+    panel.pcolormesh(
         np.append(time, time[-1] + step),
         edges,
         np.array(rows, dtype=float),
@@ -112,9 +112,9 @@ def plot_modes(self: Run, axes: Axes | None = None, *, title: str | None = None)
         vmax=len(MODES) - 0.5,
         rasterized=True,
     )
-    label_axes(own, "time, s", "x, m")
-    own.grid(visible=False)
-    return own
+    label_axes(panel, "time, s", "x, m")
+    panel.grid(visible=False)
+    return panel
 
 
 def along(run: Run) -> tuple[Any, Any]:
@@ -157,7 +157,7 @@ def contact_plan(run: Run, axes: Axes | None) -> tuple[Axes, Callable[[int], lis
     if not run.in_plan:
         raise InputError("the ground is no one in plan: plot_modes draws a base in the plane")
     frames = run.contact
-    [own] = axes_for(axes, 1, figsize=(6.5, 5.0))
+    [panel] = axes_for(axes, 1, figsize=(6.5, 5.0))
     from matplotlib import colormaps
     from matplotlib.collections import PolyCollection
     from matplotlib.patches import Patch
@@ -168,13 +168,13 @@ def contact_plan(run: Run, axes: Axes | None) -> tuple[Axes, Callable[[int], lis
     cells = PolyCollection(list(corners), cmap=colors, edgecolors="white", linewidths=0.5)
     pressures = 1e-3 * frames["pressure"]
     cells.set_clim(0.0, max(float(pressures.max()), 1e-9))
-    own.add_collection(cells)
+    panel.add_collection(cells)
     x, y, size = 0.5 * (left + right), 0.5 * (front + back), 0.5 * np.minimum(right - left, back - front)
-    arrows = own.quiver(x, y, 0.0 * x, 0.0 * y, angles="xy", scale_units="xy", scale=1.0, pivot="mid", width=0.004)
-    own.figure.colorbar(cells, ax=own, label="pressure, kPa")
-    own.legend(handles=[Patch(color=OPEN, label="open")], fontsize="small", loc="lower right", bbox_to_anchor=(1.0, 1.0))
-    own.set(xlabel="x, m", ylabel="y, m", aspect="equal")
-    own.autoscale_view()
+    arrows = panel.quiver(x, y, 0.0 * x, 0.0 * y, angles="xy", scale_units="xy", scale=1.0, pivot="mid", width=0.004)
+    panel.figure.colorbar(cells, ax=panel, label="pressure, kPa")
+    panel.legend(handles=[Patch(color=OPEN, label="open")], fontsize="small", loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    panel.set(xlabel="x, m", ylabel="y, m", aspect="equal")
+    panel.autoscale_view()
 
     def draw(frame: int) -> list[Artist]:
         mode, shears = frames["mode"][frame], [frames[name][frame] for name in ("shear", "shear_across")]
@@ -186,7 +186,7 @@ def contact_plan(run: Run, axes: Axes | None) -> tuple[Axes, Callable[[int], lis
         arrows.set_UVC(factor * shears[0], factor * shears[1])
         return [cells, arrows]
 
-    return own, draw
+    return panel, draw
 
 
 def plot_spectrum(
@@ -203,16 +203,16 @@ def plot_spectrum(
     ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
     none.
     """
-    [own] = axes_for(axes, 1, title)
-    shown = color_for(color, results_in(own))
+    [panel] = axes_for(axes, 1, title)
+    shown = color_for(color, results_in(panel))
     total, pseudo = named(label, "total acceleration"), named(label, "pseudo-acceleration")
-    own.plot(self.period, self.acceleration, color=shown, label=total)
-    own.plot(self.period, self.pseudo_acceleration, "--", color=shown, linewidth=1.0, label=pseudo)
-    logarithmic(own)
-    label_axes(own, "period, s", "acceleration, m/s²")
-    own.set_ylim(0.0, 1.05 * own.dataLim.y1)
-    key(own)
-    return own
+    panel.plot(self.period, self.acceleration, color=shown, label=total)
+    panel.plot(self.period, self.pseudo_acceleration, "--", color=shown, linewidth=1.0, label=pseudo)
+    logarithmic(panel)
+    label_axes(panel, "period, s", "acceleration, m/s²")
+    panel.set_ylim(0.0, 1.05 * panel.dataLim.y1)
+    key(panel)
+    return panel
 
 
 def plot_profile(
@@ -228,23 +228,23 @@ def plot_profile(
     ``axes``: those of matplotlib to draw into; unless given, axes of a new figure. For several profiles in the same axes:
     ``label``, a name of the curve, and its ``color``. ``title`` stands above the picture; None for none.
     """
-    [own] = axes_for(axes, 1, title, figsize=(4.0, 5.0))
-    shown, depths, speeds = color_for(color, results_in(own)), [0.0], []
+    [panel] = axes_for(axes, 1, title, figsize=(4.0, 5.0))
+    shown, depths, speeds = color_for(color, results_in(panel)), [0.0], []
     for layer in self.layers:
         depths.append(depths[-1] + layer.thickness)
         speeds.append(layer.soil.shear_wave_speed)
     if self.bedrock is not None:
         depths.append(1.2 * depths[-1] if depths[-1] > 0.0 else 1.0)
         speeds.append(self.bedrock.shear_wave_speed)
-    own.plot(np.repeat(speeds, 2), np.repeat(depths, 2)[1:-1], color=shown, label=label)
-    label_axes(own, "speed of shear waves, m/s", "depth, m")
+    panel.plot(np.repeat(speeds, 2), np.repeat(depths, 2)[1:-1], color=shown, label=label)
+    label_axes(panel, "speed of shear waves, m/s", "depth, m")
     if self.bedrock is None:
-        own.axhline(depths[-1], color=shown, linewidth=3.0, label=named(label, "rigid bedrock"))
+        panel.axhline(depths[-1], color=shown, linewidth=3.0, label=named(label, "rigid bedrock"))
     if label is not None or self.bedrock is None:
-        own.legend(fontsize="small", loc="lower left")
-    own.set_xlim(0.0, max(own.get_xlim()[1], 1.1 * max(speeds, default=1.0)))
-    own.set_ylim(max(depths[-1], own.dataLim.y1), 0.0)
-    return own
+        panel.legend(fontsize="small", loc="lower left")
+    panel.set_xlim(0.0, max(panel.get_xlim()[1], 1.1 * max(speeds, default=1.0)))
+    panel.set_ylim(max(depths[-1], panel.dataLim.y1), 0.0)
+    return panel
 
 
 def plot_impedances(
@@ -261,13 +261,13 @@ def plot_impedances(
     ``label``, a name before the names of the curves, and ``color`` of both. ``title`` stands above the picture; None for
     none.
     """
-    own = axes_for(axes, 4, title)
-    shown = color_for(color, results_in(own[0]))
+    panels = axes_for(axes, 4, title)
+    shown = color_for(color, results_in(panels[0]))
     units = {"horizontal": "N/m²", "vertical": "N/m²", "rocking": "N", "coupling": "N/m"}
-    for place, (name, unit) in zip(own, units.items()):
+    for place, (name, unit) in zip(panels, units.items()):
         values = getattr(self, name)
         place.plot(self.frequency, values.real, color=shown, label=named(label, "real part"))
         place.plot(self.frequency, values.imag, "--", color=shown, linewidth=1.0, label=named(label, "imaginary part"))
-        label_axes(place, "frequency, Hz" if place is own[-1] else None, f"{name}, {unit}")
-    key(own[0])
-    return own
+        label_axes(place, "frequency, Hz" if place is panels[-1] else None, f"{name}, {unit}")
+    key(panels[0])
+    return panels

@@ -88,10 +88,10 @@ class Program:
         return self._object(value)
 
     def _list(self, value: Any) -> str:
-        numbers = len(value) > _SHORT and all(isinstance(own, (int, float, np.number)) for own in value)
+        numbers = len(value) > _SHORT and all(isinstance(number, (int, float, np.number)) for number in value)
         if numbers:
             return self._array(np.asarray(value))
-        texts = [self._text(own) for own in value]
+        texts = [self._text(entry) for entry in value]
         # Equal storeys, or springs, once.
         if len(texts) > 1 and len(set(texts)) == 1 and isinstance(value, list):
             return f"[{texts[0]}] * {len(texts)}"
@@ -106,12 +106,12 @@ class Program:
         return f'data["{name}"]'
 
     def _sparse(self, value: Any) -> str:
-        parts = ", ".join(self._array(np.asarray(own)) for own in (value.row, value.col))
+        parts = ", ".join(self._array(np.asarray(indices)) for indices in (value.row, value.col))
         return f"sparse.coo_matrix(({self._array(value.data)}, ({parts})), shape={tuple(value.shape)}).tocsr()"
 
     def _call(self, function: str, arguments: Any, keywords: Mapping[str, Any]) -> str:
-        texts = [self._text(own) for own in arguments]
-        texts += [f"{name}={self._text(own)}" for name, own in keywords.items()]
+        texts = [self._text(argument) for argument in arguments]
+        texts += [f"{name}={self._text(argument)}" for name, argument in keywords.items()]
         return f"{function}({', '.join(texts)})"
 
     def _made(self, made: Made) -> str:
@@ -143,9 +143,9 @@ class Program:
             if value.time_step == known.time_step and np.array_equal(samples, known.accelerations):
                 return "bm.el_centro_1940()"
             return f"bm.Record({_number(value.time_step)}, {self._array(samples)})"
-        own = getattr(value, "__dict__", {})
-        if _MADE in own:
-            return self._made(own[_MADE]._replace(calls=tuple(own.get(_CALLS, ()))))
+        attributes = getattr(value, "__dict__", {})
+        if _MADE in attributes:
+            return self._made(attributes[_MADE]._replace(calls=tuple(attributes.get(_CALLS, ()))))
         if isinstance(value, _core.DofCombination):
             return f"bm.DofCombination({dict(value.terms)})"
         if isinstance(value, _core.BaseFaces):
@@ -166,7 +166,7 @@ class Program:
         if hasattr(value, "__getnewargs__"):
             return self._call(name, value.__getnewargs__(), {})
         parameters = inspect.signature(type(value)).parameters
-        return self._call(name, (), {own: getattr(value, own) for own in parameters if hasattr(value, own)})
+        return self._call(name, (), {parameter: getattr(value, parameter) for parameter in parameters if hasattr(value, parameter)})
 
     def _of_user(self, value: Any) -> str:
         """An object of a class that the user wrote: its class and its attributes; or a name that is said to be missing."""
@@ -184,7 +184,7 @@ class Program:
         name = f"{self._subject}_object"
         while name in self._names.values():
             name += "_"
-        attributes = ", ".join(f"{own!r}: {self._text(value)}" for own, value in vars(value).items())
+        attributes = ", ".join(f"{attribute!r}: {self._text(value)}" for attribute, value in vars(value).items())
         self._lines += [f"{name} = {kind.__name__}.__new__({kind.__name__})", f"vars({name}).update({{{attributes}}})"]
         self._name(value, name)
         return name

@@ -7,7 +7,7 @@ import time
 
 
 class Line:
-    """Writes the share of the steps (or ``items``) made and the time left, always into one line.
+    """Writes the fraction of the steps (or ``items``) done and the remaining time, always into one line.
 
     The time left follows from what has been made since the first call, which comes when work has begun.
     """

@@ -116,14 +116,15 @@ class UserGround(Protocol):
 
 
 class UserLaw(Protocol):
-    """A law between base and ground written in Python. It keeps nothing itself.
+    """A law between base and ground in the plane written in Python, by the conditions of each contact mode.
 
-    If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
+    Most laws need only limits: `UserPlanLaw`. This form is for laws that no limits describe, such as a slip that its speed
+    resists. The law stores nothing itself. If it has them, these count too: ``compliance(mode, start)`` (normal and tangential, m/Pa),
     ``state_variables`` (count of the numbers that it remembers of each element),
     ``initial_state_variables(start)`` and ``commit(start, end, mode)`` (which return them),
     ``friction_coefficient`` (for the factor of safety: of a friction that varies the smallest, since with a larger one a
     base slides at a factor above 1), ``check(gravity, time_step)`` (may refuse).
-    On a ground in plan it is a `UserPlanLaw`.
+    On a ground in plan it needs the ``limits`` of a `UserPlanLaw`.
 
     What they raise comes out of the run; the simulation stays at the last accepted step.
     """
@@ -138,19 +139,19 @@ class UserLaw(Protocol):
     def next_mode(
         self, mode: Mode, start: PreviousContact, trial: ContactState, tolerance: Tolerance
     ) -> str:
-        """The mode to try next, after the ``trial`` that ``mode`` led to; ``mode`` if that will do."""
+        """The mode to try next, after the ``trial`` with the conditions of ``mode``; ``mode`` itself if the trial is admissible."""
 
 
 class UserPlanLaw(Protocol):
-    """A law for grounds in plan written in Python; one that is a `UserLaw` too acts on any ground.
+    """A law between base and ground written in Python, by the limits of the tractions: for any ground, in the plane and in plan.
 
-    Slip is along the shear traction there, and the law says how far tractions go. If it has them, ``state_variables``,
-    ``initial_state_variables``, ``commit``, ``compliance`` (of the mode "stick"), ``friction_coefficient`` and ``check``
-    count as for a `UserLaw`.
+    In plan slip is along the shear traction. In the plane contact modes and their conditions follow from the limits, unless
+    the law is a `UserLaw` too. If it has them, ``state_variables``, ``initial_state_variables``, ``commit``, ``compliance``
+    (of the mode "stick"), ``friction_coefficient`` and ``check`` count as for a `UserLaw`.
     """
 
     def limits(self, start: PreviousContact) -> Limits:
-        """Limits of an element's tractions in the step after ``start``; asked once per attempted step. While the weight
+        """Limits of an element's tractions in the step after ``start``; in plan called once per attempted step. While the weight
         comes on without friction, all but friction, attraction and shear strength hold."""
 
 

@@ -49,7 +49,7 @@ show(0); start();
 </script>
 """
 _LEFT_OUT = {"time", "sliding_safety", "overturning_safety", "overturning_safety_across"}
-"""Time series whose largest value says nothing."""
+"""Time series that are left out of the table of peaks."""
 _ROUNDING = 1e-6
 """Response on a fixed base, over the one on the ground, that is zero but for rounding."""
 
@@ -121,7 +121,7 @@ def _records(motion: Any) -> dict[str, Record]:
         return {}
     function = made.owner if made.name is None else getattr(made.owner, made.name)
     named = {**dict(zip(inspect.signature(function).parameters, made.arguments)), **made.keywords}
-    return {f"ground acceleration, {name}": own for name, own in named.items() if isinstance(own, Record)}
+    return {f"ground acceleration, {name}": value for name, value in named.items() if isinstance(value, Record)}
 
 
 def _motion(run: Run, simulation: Simulation | None) -> Iterator[str]:
@@ -136,8 +136,8 @@ def _motion(run: Run, simulation: Simulation | None) -> Iterator[str]:
     )
     periods = _core.log_spaced(0.05, 4.0, 100)
     for (left, right), (name, record) in zip(axes, records.items()):
-        own = np.asarray(record.accelerations)
-        left.plot(record.time_step * np.arange(len(own)), own, color="black", linewidth=0.7)
+        samples = np.asarray(record.accelerations)
+        left.plot(record.time_step * np.arange(len(samples)), samples, color="black", linewidth=0.7)
         label_axes(left, "time, s", "m/s²")
         left.set_title(name, fontsize="medium", loc="left")
         record.response_spectrum(periods, 0.05).plot(right, title="spectrum, 5 %")
@@ -161,7 +161,7 @@ def _peaks(run: Run, interaction: Interaction | None) -> str:
         heads += ["fixed base", "ratio"]
     units, rows = run.units, [heads]
     terms = set(run.energy_balance.to_dict())
-    for name in (own for own in units if own not in terms | _LEFT_OUT):
+    for name in (series_name for series_name in units if series_name not in terms | _LEFT_OUT):
         peak = _largest(run, name)
         if peak is None:
             continue
@@ -213,7 +213,7 @@ def _largest(run: Run, name: str) -> _core.Peak | None:
 
 
 def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
-    """Pictures of whatever the run kept."""
+    """Pictures of all that the run recorded."""
     try:
         axes = run.plot()
     except InputError:
@@ -225,18 +225,18 @@ def _pictures(run: Run, shape: DeformedShape | None) -> Iterator[str]:
     floors = [name for name in run.probes if units[name] == "m/s²"]
     if floors:
         yield "<h2>Floor spectra, 5 %</h2>"
-        [own] = axes_for(None, 1, figsize=(8.0, 3.6))
+        [panel] = axes_for(None, 1, figsize=(8.0, 3.6))
         shortest = max(0.02, 10.0 * run.time_step)
         for name in floors:
-            run.floor_spectrum(name, _core.log_spaced(shortest, 4.0, 120), 0.05).plot(own, label=name)
-        yield _picture(own.figure, "floor spectra")
+            run.floor_spectrum(name, _core.log_spaced(shortest, 4.0, 120), 0.05).plot(panel, label=name)
+        yield _picture(panel.figure, "floor spectra")
     has_contact, has_motion = was_kept(run, "contact"), was_kept(run, "motion")
     if has_contact and run.in_plan:
         yield "<h2>The base when most of it is open</h2>"
         yield _picture(run.plot_contact_plan().figure, "contact in plan")
     if shape is not None and has_motion:
         yield "<h2>Largest deformation</h2>"
-        moved = [float(np.abs(shape.displacements(own)).max()) for own in run.motion["displacement"]]
+        moved = [float(np.abs(shape.displacements(displacement)).max()) for displacement in run.motion["displacement"]]
         frame = int(np.argmax(moved))
         text = f"{run.motion['time'][frame]:.2f} s"
         yield _picture(shape.plot(run.motion["displacement"][frame], label=text).figure, "deformed structure")

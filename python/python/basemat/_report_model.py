@@ -19,7 +19,7 @@ def table(rows: Sequence[Sequence[str]], kind: str = "") -> str:
     lines = []
     for number, row in enumerate(rows):
         cell = "td" if number else "th"
-        lines.append(f"<tr>{''.join(f'<{cell}>{escape(own)}</{cell}>' for own in row)}</tr>")
+        lines.append(f"<tr>{''.join(f'<{cell}>{escape(text)}</{cell}>' for text in row)}</tr>")
     return f'<div class="wide"><table{kind and f" class={kind}"}>{"".join(lines)}</table></div>'
 
 

@@ -33,11 +33,11 @@ class Outline:
 
     def __init__(self, shape: DeformedShape) -> None:
         self.shape, self.in_space, self.points = shape, shape.in_space, shape.points
-        cells = [own for own in shape.cells if len(own) > 1]
+        cells = [cell for cell in shape.cells if len(cell) > 1]
         if self.in_space:
             nearness = self.points @ [1.0, -1.0, 1.0]
-            cells.sort(key=lambda own: float(np.mean(nearness[own])))
-        self.cells = [np.array(own) for own in cells]
+            cells.sort(key=lambda cell: float(np.mean(nearness[cell])))
+        self.cells = [np.array(cell) for cell in cells]
 
     def moved(self, displacement: ArrayLike, scale: float) -> NDArray[np.float64]:
         """Places in the picture under magnified displacements."""
@@ -45,7 +45,7 @@ class Outline:
 
     def polygons(self, places: NDArray[np.float64]) -> list[NDArray[np.float64]]:
         """Corners of the cells at these places of the points."""
-        return [places[own] for own in self.cells]
+        return [places[cell] for cell in self.cells]
 
     def draw(self, axes: Axes, places: NDArray[np.float64], **options: Any) -> PolyCollection:
         """Cells of the shape at these places."""
@@ -66,14 +66,14 @@ def usual_scale(points: NDArray[np.float64], largest: float) -> float:
 
 
 def _nice(least: float) -> float:
-    """The least of 1, 2 and 5 times a power of ten that is not below a value."""
+    """The smallest number of 1, 2 or 5 times a power of ten that is not below a value."""
     power = 10.0 ** np.floor(np.log10(least))
-    return float(min(own for own in (1.0, 2.0, 5.0, 10.0) if own * power >= least * (1.0 - 1e-12)) * power)
+    return float(min(digit for digit in (1.0, 2.0, 5.0, 10.0) if digit * power >= least * (1.0 - 1e-12)) * power)
 
 
 def draw_ground(axes: Axes, points: NDArray[np.float64], in_space: bool) -> None:
     """Surface of the soil around a shape."""
-    (left, right), (front, back) = ((own.min(), own.max()) for own in points.T[:2])
+    (left, right), (front, back) = ((coordinates.min(), coordinates.max()) for coordinates in points.T[:2])
     margin = 0.15 * max(right - left, (back - front) * in_space)
     if in_space:
         x, y = (left - margin, right + margin), (front - margin, back + margin)
@@ -111,23 +111,23 @@ def plot_shape(
         color: colour of the moved structure; blue, then matplotlib's next, unless given.
         title: text above the picture; none unless given.
     """
-    [own] = axes_for(axes, 1, title, figsize=(6.0, 5.0))
-    outline, before = Outline(self), results_in(own)
+    [panel] = axes_for(axes, 1, title, figsize=(6.0, 5.0))
+    outline, before = Outline(self), results_in(panel)
     if before == 0:
-        draw_ground(own, outline.points, outline.in_space)
+        draw_ground(panel, outline.points, outline.in_space)
         rest = seen(outline.points, outline.in_space)
-        outline.draw(own, rest, edgecolors="#b0b0b0", linewidths=0.6, zorder=1)
+        outline.draw(panel, rest, edgecolors="#b0b0b0", linewidths=0.6, zorder=1)
     if displacement is not None:
         largest = float(np.linalg.norm(self.displacements(displacement), axis=1).max(initial=0.0))
-        usual = _SCALES.setdefault(own, usual_scale(outline.points, largest) if scale is None else scale)
+        usual = _SCALES.setdefault(panel, usual_scale(outline.points, largest) if scale is None else scale)
         scale = usual if scale is None else scale
         text = f"{'' if label is None else f'{label}, '}displacements × {scale:g}"
         shown = color_for(color, before + 1)
         moved = outline.moved(displacement, scale)
-        outline.draw(own, moved, edgecolors=shown, linewidths=1.0, label=text, zorder=2 + before)
-        own.legend(fontsize="small", loc="upper left", bbox_to_anchor=(0.0, -0.12), frameon=False)
-    own.autoscale_view()
-    return own
+        outline.draw(panel, moved, edgecolors=shown, linewidths=1.0, label=text, zorder=2 + before)
+        panel.legend(fontsize="small", loc="upper left", bbox_to_anchor=(0.0, -0.12), frameon=False)
+    panel.autoscale_view()
+    return panel
 
 
 def plot_shells(
@@ -169,7 +169,7 @@ def plot_shells(
         if abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 1e-6 * np.ptp(place, axis=0).max() ** 2:
             raise InputError(f"element {element} stands upright: it has no area in plan")
         corners.append(place[:, :2])
-    [own] = axes_for(axes, 1, title, figsize=(6.5, 5.0))
+    [panel] = axes_for(axes, 1, title, figsize=(6.5, 5.0))
     from matplotlib import colormaps
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import BoundaryNorm
@@ -182,10 +182,10 @@ def plot_shells(
     bounds = step * np.arange(-classes, classes + 1)
     cells = PolyCollection(corners, edgecolors="white", linewidths=0.3)
     cells.set(cmap=colormaps["RdBu_r"], norm=BoundaryNorm(bounds, 256), array=numbers)
-    own.add_collection(cells)
+    panel.add_collection(cells)
     shown = bounds[(bounds >= low - step * (1.0 - 1e-9)) & (bounds <= high + step * (1.0 - 1e-9))]
-    bar = own.figure.colorbar(cells, ax=own, label=quantity, ticks=shown, spacing="proportional")
+    bar = panel.figure.colorbar(cells, ax=panel, label=quantity, ticks=shown, spacing="proportional")
     bar.ax.set_ylim(shown[0], shown[-1])
-    own.set(xlabel="x, m", ylabel="y, m", aspect="equal")
-    own.autoscale_view()
-    return own
+    panel.set(xlabel="x, m", ylabel="y, m", aspect="equal")
+    panel.autoscale_view()
+    return panel

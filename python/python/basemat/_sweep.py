@@ -153,7 +153,7 @@ def _run(
     executor: Any,
     ended: Ended,
 ) -> None:
-    """Runs cases where the caller wants them to run."""
+    """Runs cases in this thread, on threads, or by the caller's executor."""
     arguments = [(make, case, *options) for case in cases]
     if _dask.is_client(executor):
         _dask.run(executor, make, cases, options, ended)

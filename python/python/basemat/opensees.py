@@ -42,7 +42,7 @@ class OpenSeesModel:
         self.base = model.base
         self.mass, self.stiffness, self.damping = model.mass, model.stiffness, model.damping
         if sparse:
-            self.mass, self.stiffness, self.damping = (own.copy for own in sparse)
+            self.mass, self.stiffness, self.damping = (matrix.copy for matrix in sparse)
 
     def __repr__(self) -> str:
         return f"OpenSeesModel({len(self.nodes)} nodes, {self.dofs} degrees of freedom)"
@@ -176,9 +176,9 @@ def structure(
         warnings.warn(text, BasematWarning, stacklevel=2)
     if uneven := masses(rows, mass, up):
         warnings.warn(uneven, BasematWarning, stacklevel=2)
-    names = {place: f"{tag} {name}" for tag, own in places.items() for place, name in zip(own, directions)}
+    names = {place: f"{tag} {name}" for tag, numbers in places.items() for place, name in zip(numbers, directions)}
     options: dict[str, Any] = {"dof_names": [names[int(place)] for place in ties.kept]}
-    kept = [_clean(ties.sums.T @ _symmetric(own, names) @ ties.sums) for own in (mass, stiffness, damping)]
+    kept = [_clean(ties.sums.T @ _symmetric(matrix, names) @ ties.sums) for matrix in (mass, stiffness, damping)]
     if abs(damping).max() > 1e-12 * abs(stiffness).max():
         options["damping"] = kept[2]
     model = MatrixModel(kept[0], kept[1], base, **options)

@@ -11,10 +11,10 @@ use pyo3::types::{PyDict, PyTuple};
 use super::strip::{Elements, grading};
 use super::superclass::{contact, history_options};
 use super::{PyGround, PyImpedances, PyPlan};
-use crate::array::{Numbers, whole};
-use crate::error::{OrRaise, WithGiven};
+use crate::array::{Numbers, whole_numbers};
+use crate::error::{OrRaise, WithOption};
 use crate::profile::Profile;
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// Kernels that grounds of equal soil and elements share: evaluated once for all simulations that
 /// are built with the same object. A copy in another process begins empty; ``len()`` counts them.
@@ -45,12 +45,12 @@ impl PySharedKernels {
 ///
 /// ``history``: how the response to all past tractions is summed: "auto" (the default: exponentials on a
 /// half-plane under strips, else transforms), "direct", "relaxed_fft" or, without layers and damping, "exponentials".
-/// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (1e-12 unless
-/// given, 1e-10 where they were asked for); ``history_memory``: bytes that the history may take (1 GiB
-/// unless given). ``kernels``: `SharedKernels` of several simulations; own ones unless given.
+/// ``history_tolerance``: relative error, 1e-12 to 1e-2, that exponentials may have (unless given, 1e-12 with "auto" and
+/// 1e-10 with "exponentials"); ``history_memory``: bytes that the history may take (1 GiB unless given).
+/// ``kernels``: `SharedKernels` of several simulations; not shared unless given.
 /// Of layers and damping: ``stages``: 2 or 3 Runge–Kutta stages (the rule's choice unless given);
 /// ``tolerance``: relative error of the element compliances, 1e-13 to 1e-4 (1e-10 unless given);
-/// ``kernel_file``: path of a file that keeps them (none unless given).
+/// ``kernel_file``: path of a file that stores them (none unless given).
 #[pyclass(name = "ElasticGround", module = "basemat", extends = PyGround, frozen)]
 pub(crate) struct PyElasticGround {
     make: Box<dyn Fn() -> basemat::Result<ElasticGround> + Send + Sync>,
@@ -66,8 +66,8 @@ impl PyElasticGround {
         strips: Elements,
         history: &str,
         history_tolerance: Option<f64>,
-        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
-        #[pyo3(from_py_with = whole)] stages: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] stages: Option<usize>,
         tolerance: Option<f64>,
         kernel_file: Option<PathBuf>,
         kernels: Option<Bound<'_, PySharedKernels>>,
@@ -90,7 +90,7 @@ impl PyElasticGround {
                 .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
                 .with(tolerance, ElasticGround::with_tolerance)
                 .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
-                .with(kernels.as_ref(), |ground, own| Ok(ground.with_shared_kernels(own)))
+                .with(kernels.as_ref(), |ground, kernels| Ok(ground.with_shared_kernels(kernels)))
         };
         let base = PyGround::new(make.clone())?;
         Ok(PyClassInitializer::from(base).add_subclass(Self { make: Box::new(make), plan }))
@@ -114,7 +114,7 @@ impl PyElasticGround {
     fn under<'py>(
         soil: Bound<'py, PyAny>,
         structure: Bound<'py, PyAny>,
-        #[pyo3(from_py_with = whole)] count: usize,
+        #[pyo3(from_py_with = whole_numbers)] count: usize,
         grading: &str,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
@@ -136,9 +136,10 @@ impl PyElasticGround {
         if let Some((soil, plan)) = &self.plan {
             return plan.impedances(py, soil.clone(), frequencies, contact)?.into_py_any(py);
         }
-        let (ground, contact) = ((self.make)().or_raise()?, self::contact(contact)?);
+        let ground = (self.make)().or_raise()?;
+        let contact = self::contact(contact)?;
         let found = py.detach(move || {
-            watched(None, |observer| ground.impedances(&frequencies.0, contact, observer))
+            with_progress(None, |observer| ground.impedances(&frequencies.0, contact, observer))
         });
         PyImpedances(found?).into_py_any(py)
     }

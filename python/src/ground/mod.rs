@@ -1,7 +1,7 @@
 //! Grounds.
 
 mod elastic;
-mod given;
+mod from_python;
 mod plan;
 mod spring;
 mod strip;
@@ -10,7 +10,7 @@ mod trench;
 mod trench_ground;
 
 pub(crate) use elastic::{PyElasticGround, PySharedKernels};
-pub(crate) use given::made;
+pub(crate) use from_python::new_ground;
 pub(crate) use plan::PyPlan;
 pub(crate) use spring::PySpringGround;
 pub(crate) use strip::PyStrip;

@@ -5,13 +5,13 @@ use numpy::{Complex64, PyArray3};
 use pyo3::prelude::*;
 
 use super::superclass::contact;
-use crate::array::{Count, Numbers, complex, whole};
-use crate::error::{OrRaise, refuse};
+use crate::array::{Count, Numbers, complex, whole_numbers};
+use crate::error::{OrRaise, input_error};
 use crate::profile::Profile;
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// Square cells of contact under a mat, for an `ElasticGround` of three directions: those that its ``faces``
-/// cover, convex polygons by their corners (list of lists of x and y, m; one by itself will do), with ``cells`` along the shorter side of them all.
+/// cover, convex polygons by their corners (list of lists of x and y, m; a single one needs no list around it), with ``cells`` along the shorter side of them all.
 /// Cells at oblique edges are cut there; under straight edges along x and y they extend 0.105 of their side beyond.
 #[pyclass(name = "Plan", module = "basemat", frozen, dict)]
 #[derive(Clone)]
@@ -24,7 +24,7 @@ fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
         Ok(0.0) => Ok(false),
         _ => {
             let found = entry.repr()?;
-            Err(refuse(format!(
+            Err(input_error(format!(
                 "mask has the entry {found}, but must be of True and False, or of 1 and 0"
             )))
         }
@@ -35,12 +35,14 @@ fn is_cell(entry: &Bound<'_, PyAny>) -> PyResult<bool> {
 impl PyPlan {
     #[new]
     fn new(faces: Bound<'_, PyAny>, cells: Count) -> PyResult<Self> {
-        // A single face may be given without a list.
-        let one = |_: PyErr| faces.extract().map(|face| vec![face]);
-        let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
-        let all = faces.extract().or_else(one);
-        let faces: Vec<Vec<[f64; 2]>> = all.map_err(|_: PyErr| refuse(needed))?;
-        Ok(Self(Plan::on_faces(&faces, cells.0).or_raise()?))
+        let polygons: Vec<Vec<[f64; 2]>> = if let Ok(polygons) = faces.extract() {
+            polygons
+        } else {
+            // A single face needs no list around it.
+            let needed = "faces: give a list of polygons, each a list of its corners (x, y)";
+            vec![faces.extract().map_err(|_: PyErr| input_error(needed))?]
+        };
+        Ok(Self(Plan::on_faces(&polygons, cells.0).or_raise()?))
     }
 
     /// Disc around ``center`` (x and y, m) of a ``radius`` (m), with ``cells`` across it.
@@ -59,7 +61,7 @@ impl PyPlan {
     ) -> PyResult<Self> {
         let columns = mask.first().map_or(0, Vec::len);
         if mask.iter().any(|row| row.len() != columns) {
-            return Err(refuse(format!("mask has a row that is not {columns} cells long")));
+            return Err(input_error(format!("mask has a row that is not {columns} cells long")));
         }
         let mask = mask.iter().flatten().map(is_cell).collect::<PyResult<Vec<_>>>()?;
         Plan::masked(corner, pitch, columns, &mask).or_raise().map(Self)
@@ -87,8 +89,8 @@ impl PyPlan {
     /// ``across``, all of them. Sixteen cells by 1, 2, 2, 3, 3, 2, 2, 1 are for a rigid mat as good as all of them.
     fn with_unions(
         &self,
-        #[pyo3(from_py_with = whole)] along: Vec<usize>,
-        #[pyo3(from_py_with = whole)] across: Vec<usize>,
+        #[pyo3(from_py_with = whole_numbers)] along: Vec<usize>,
+        #[pyo3(from_py_with = whole_numbers)] across: Vec<usize>,
     ) -> PyResult<Self> {
         Ok(Self(self.0.clone().with_unions(&along, &across).or_raise()?))
     }
@@ -114,15 +116,16 @@ impl PyPlan {
         frequencies: Numbers,
         contact: &str,
     ) -> PyResult<Bound<'py, PyArray3<Complex64>>> {
-        let (plan, contact) = (&self.0, self::contact(contact)?);
+        let plan = &self.0;
+        let contact = self::contact(contact)?;
         let found = py.detach(move || {
-            watched(None, |observer| {
+            with_progress(None, |observer| {
                 impedances_in_plan(&soil.0, plan, &frequencies.0, contact, observer)
             })
         });
         let matrices: Vec<Vec<Vec<_>>> = found?
             .iter()
-            .map(|at| at.matrix.iter().map(|row| row.map(complex).to_vec()).collect())
+            .map(|impedance| impedance.matrix.iter().map(|row| row.map(complex).to_vec()).collect())
             .collect();
         Ok(PyArray3::from_vec3(py, &matrices)?)
     }

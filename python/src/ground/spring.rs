@@ -6,8 +6,8 @@ use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
 use super::strip::Elements;
-use crate::array::whole;
-use crate::error::WithGiven;
+use crate::array::whole_numbers;
+use crate::error::WithOption;
 
 /// Independent springs and dashpots under each element (Winkler bed).
 ///
@@ -31,12 +31,14 @@ impl PySpringGround {
         theta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let base = PyGround::new(move || {
-            let (normal, tangential) = (normal_stiffness, tangential_stiffness);
             let ground = match &strips {
-                Elements::Strips(strips) => SpringGround::on_strips(strips, normal, tangential),
+                Elements::Strips(strips) => {
+                    SpringGround::on_strips(strips, normal_stiffness, tangential_stiffness)
+                }
                 Elements::Plan(plan) => {
-                    let across = across_stiffness.unwrap_or(tangential);
-                    SpringGround::in_plan(plan.clone(), [normal, tangential, across])
+                    let across = across_stiffness.unwrap_or(tangential_stiffness);
+                    let stiffness = [normal_stiffness, tangential_stiffness, across];
+                    SpringGround::in_plan(plan.clone(), stiffness)
                 }
             };
             ground
@@ -60,7 +62,7 @@ impl PySpringGround {
     )]
     fn under<'py>(
         structure: Bound<'py, PyAny>,
-        #[pyo3(from_py_with = whole)] count: usize,
+        #[pyo3(from_py_with = whole_numbers)] count: usize,
         stiffness: &Bound<'py, PyTuple>,
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {

@@ -8,9 +8,9 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 use super::PyPlan;
-use crate::array::{Numbers, whole};
+use crate::array::{Numbers, whole_numbers};
 use crate::error::OrRaise;
-use crate::several::no_such;
+use crate::several::type_error;
 
 /// A strip of contact elements from ``left`` to ``right`` (m): ``count`` elements with the ``grading``
 /// "cosine" (the default: short at the edges, where tractions are singular) or "uniform".
@@ -29,7 +29,7 @@ impl PyStrip {
     fn new(
         left: f64,
         right: f64,
-        #[pyo3(from_py_with = whole)] count: usize,
+        #[pyo3(from_py_with = whole_numbers)] count: usize,
         grading: &str,
     ) -> PyResult<Self> {
         Ok(Self(Strip::new(left..right, count, self::grading(grading)?).or_raise()?))
@@ -68,7 +68,7 @@ impl Elements {
         soil: Option<Soil>,
     ) -> PyResult<Py<PyAny>> {
         let py = structure.py();
-        let structure = crate::structure::recipe(structure)?().or_raise()?;
+        let structure = crate::structure::structure_recipe(structure)?().or_raise()?;
         if matches!(structure.base(), Base::Faces(_)) {
             let plan = match soil {
                 Some(soil) => Plan::on_soil(&*structure, count, &soil),
@@ -89,6 +89,6 @@ extracts!(Elements, object => {
         return Ok(Self::Strips(vec![strip.get().0.clone()]));
     }
     let list: Vec<Bound<'_, PyStrip>> =
-        object.extract().map_err(|_| no_such(&object, "a Strip, a list of them, or a Plan"))?;
+        object.extract().map_err(|_| type_error(&object, "a Strip, a list of them, or a Plan"))?;
     Ok(Self::Strips(list.iter().map(|strip| strip.get().0.clone()).collect()))
 });

@@ -37,20 +37,20 @@ impl PyGround {
     /// same on a wall.
     #[getter]
     fn elements(&self) -> Rows {
-        Rows(self.elements.iter().map(|e| vec![e.left(), e.right()]).collect())
+        Rows(self.elements.iter().map(|element| vec![element.left(), element.right()]).collect())
     }
 
     /// Lower and upper end of the contact elements: array of shape (elements, 2), m above the surface; zero on it.
     #[getter]
     fn heights(&self) -> Rows {
-        Rows(self.elements.iter().map(|e| e.heights().to_vec()).collect())
+        Rows(self.elements.iter().map(|element| element.heights().to_vec()).collect())
     }
 
     /// Front and back ends of the contact elements along y in plan: array of shape (elements, 2), m; −½ and ½, the
     /// metre of thickness, in the plane.
     #[getter]
     fn depths(&self) -> Rows {
-        Rows(self.elements.iter().map(|e| e.depth().to_vec()).collect())
+        Rows(self.elements.iter().map(|element| element.depth().to_vec()).collect())
     }
 }
 
@@ -80,30 +80,30 @@ impl PyImpedances {
     /// Frequencies: array of shape (m,), Hz.
     #[getter]
     fn frequency(&self) -> Array {
-        self.0.iter().map(|at| at.frequency).collect()
+        self.0.iter().map(|impedance| impedance.frequency).collect()
     }
 
     /// Horizontal force by horizontal translation: complex array of shape (m,), N/m².
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.horizontal)).collect()
+        self.0.iter().map(|impedance| complex(impedance.horizontal)).collect()
     }
 
     /// Vertical force by vertical translation: complex array of shape (m,), N/m².
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.vertical)).collect()
+        self.0.iter().map(|impedance| complex(impedance.vertical)).collect()
     }
 
     /// Moment by rotation: complex array of shape (m,), N.
     #[getter]
     fn rocking(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.rocking)).collect()
+        self.0.iter().map(|impedance| complex(impedance.rocking)).collect()
     }
 
     /// Horizontal force by rotation: complex array of shape (m,), N/m.
     #[getter]
     fn coupling(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.coupling)).collect()
+        self.0.iter().map(|impedance| complex(impedance.coupling)).collect()
     }
 }

@@ -51,9 +51,12 @@ impl PyTrenchElements {
     /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base, ``walls`` for both walls (each
     /// an `InterfaceLaw` or an object with the methods of `UserLaw`).
     fn interfaces(&self, base: Py<PyAny>, walls: Py<PyAny>, py: Python<'_>) -> Vec<Py<PyAny>> {
-        let elements = self.0.elements();
-        let is_base = elements.iter().map(|own| own.directions()[0][2] < -0.5);
-        is_base.map(|below| if below { &base } else { &walls }.clone_ref(py)).collect()
+        let mut laws = Vec::new();
+        for element in self.0.elements() {
+            let is_base = element.directions()[0][2] < -0.5;
+            laws.push(if is_base { base.clone_ref(py) } else { walls.clone_ref(py) });
+        }
+        laws
     }
 
     fn __len__(&self) -> usize {

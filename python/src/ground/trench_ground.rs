@@ -12,13 +12,13 @@ use pyo3::prelude::*;
 
 use super::superclass::history_options;
 use super::{PyGround, PyImpedances, PySharedKernels, PyTrenchElements};
-use crate::array::{Array, Numbers, complex, whole};
-use crate::error::{OrRaise, WithGiven};
+use crate::array::{Array, Numbers, complex, whole_numbers};
+use crate::error::{OrRaise, WithOption};
 use crate::interface::PyEarthPressure;
-use crate::profile::{Profile, PyDampingLaw, law};
-use crate::several::Several;
+use crate::profile::{Profile, PyDampingLaw, law_or_elastic};
+use crate::several::{ListOf, type_error};
 use crate::soil::{PySoil, PySoilStrength};
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// A damping law that several grounds read.
 #[derive(Debug, Clone)]
@@ -51,12 +51,15 @@ struct Backfill(f64, PySoil, SharedLaw);
 
 extracts!(Backfill, object => {
     if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
-        return Ok(Self(width, PySoil(soil.get().0), SharedLaw(law(None))));
+        return Ok(Self(width, PySoil(soil.get().0), SharedLaw(law_or_elastic(None))));
     }
     let needed = "a tuple (width, Soil) or (width, Soil, DampingLaw)";
-    let found = object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>();
-    let (width, soil, damping) = found.map_err(|_: PyErr| crate::several::no_such(&object, needed))?;
-    Ok(Self(width, PySoil(soil.get().0), SharedLaw(law(Some(damping.get())))))
+    match object.extract::<(f64, Bound<'_, PySoil>, Bound<'_, PyDampingLaw>)>() {
+        Ok((width, soil, damping)) => {
+            Ok(Self(width, PySoil(soil.get().0), SharedLaw(law_or_elastic(Some(damping.get())))))
+        }
+        Err(_) => Err(type_error(&object, needed)),
+    }
 });
 
 /// Soil around a trench, in the plane: a ``soil`` (`Soil` or `SoilProfile`) with the contact elements of walls and base,
@@ -85,8 +88,8 @@ impl PyTrenchGround {
         backfill: Option<Backfill>,
         history: &str,
         history_tolerance: Option<f64>,
-        #[pyo3(from_py_with = whole)] history_memory: Option<usize>,
-        #[pyo3(from_py_with = whole)] stages: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] history_memory: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] stages: Option<usize>,
         kernel_file: Option<PathBuf>,
         kernels: Option<Bound<'_, PySharedKernels>>,
     ) -> PyResult<PyClassInitializer<Self>> {
@@ -103,11 +106,11 @@ impl PyTrenchGround {
                 .and_then(|ground| ground.with_history(options))
                 .with(stages, |ground, stages| Ok(ground.with_stages(stages)))
                 .with(kernel_file.as_ref(), |ground, file| Ok(ground.with_kernel_file(file)))
-                .with(kernels.as_ref(), |ground, own| Ok(ground.with_shared_kernels(own)))
+                .with(kernels.as_ref(), |ground, kernels| Ok(ground.with_shared_kernels(kernels)))
         };
         let make = Arc::new(make);
-        let again = Arc::clone(&make);
-        let base = PyGround::new(move || again())?;
+        let make_ground = Arc::clone(&make);
+        let base = PyGround::new(move || make_ground())?;
         Ok(PyClassInitializer::from(base).add_subclass(Self { make }))
     }
 
@@ -116,8 +119,10 @@ impl PyTrenchGround {
     /// It refers to the middle of the base. Frequency 0 is the static stiffness, on rigid bedrock.
     fn impedances(&self, py: Python<'_>, frequencies: Numbers) -> PyResult<PyImpedances> {
         let ground = (self.make)().or_raise()?;
-        let call = move || watched(None, |observer| ground.impedances(&frequencies.0, observer));
-        py.detach(call).map(PyImpedances)
+        let found = py.detach(move || {
+            with_progress(None, |observer| ground.impedances(&frequencies.0, observer))
+        });
+        found.map(PyImpedances)
     }
 
     /// Interface laws of all elements, a list for `Simulation`: the law ``base`` for the base (an `InterfaceLaw` or an object
@@ -130,24 +135,26 @@ impl PyTrenchGround {
         &self,
         py: Python<'_>,
         base: Py<PyAny>,
-        strengths: Several<'_, PySoilStrength>,
+        strengths: ListOf<'_, PySoilStrength>,
         gravity: f64,
     ) -> PyResult<Vec<Py<PyAny>>> {
         let ground = (self.make)().or_raise()?;
-        let strengths: Vec<_> = strengths.iter().map(|own| own.get().0).collect();
-        let laws = ground.wall_laws(&strengths, gravity).or_raise()?;
+        let strengths: Vec<_> = strengths.iter().map(|strength| strength.get().0).collect();
+        let wall_laws = ground.wall_laws(&strengths, gravity).or_raise()?;
         let class = py.get_type::<PyEarthPressure>();
-        let wall = laws.iter().map(|law| {
+        let mut wall: Vec<Py<PyAny>> = Vec::with_capacity(wall_laws.len());
+        for law in &wall_laws {
             let [active, passive] = law.pressures();
-            Ok(class.call1((active, passive, law.friction()))?.unbind())
-        });
-        let wall: Vec<Py<PyAny>> = wall.collect::<PyResult<_>>()?;
+            wall.push(class.call1((active, passive, law.friction()))?.unbind());
+        }
+        // Both walls have the same laws, from the surface down to the base.
         let count = ground.trench_elements().elements().len();
-        let law = |e: usize| match e.min(count - 1 - e) {
-            below if below < wall.len() => wall[below].clone_ref(py),
-            _ => base.clone_ref(py),
-        };
-        Ok((0..count).map(law).collect())
+        let mut laws = Vec::with_capacity(count);
+        for element in 0..count {
+            let depth_index = element.min(count - 1 - element);
+            laws.push(wall.get(depth_index).unwrap_or(&base).clone_ref(py));
+        }
+        Ok(laws)
     }
 
     /// Motion of a rigid body without mass in the trench, `KinematicMotions`, at ``frequencies`` (array of shape (m,), Hz).
@@ -159,9 +166,10 @@ impl PyTrenchGround {
         frequencies: Numbers,
     ) -> PyResult<PyKinematicMotions> {
         let ground = (self.make)().or_raise()?;
-        let call =
-            move || watched(None, |observer| ground.kinematic_motions(&frequencies.0, observer));
-        py.detach(call).map(PyKinematicMotions)
+        let found = py.detach(move || {
+            with_progress(None, |observer| ground.kinematic_motions(&frequencies.0, observer))
+        });
+        found.map(PyKinematicMotions)
     }
 }
 
@@ -178,24 +186,24 @@ impl PyKinematicMotions {
     /// Frequencies: array of shape (m,), Hz.
     #[getter]
     fn frequency(&self) -> Array {
-        self.0.iter().map(|at| at.frequency).collect()
+        self.0.iter().map(|motion| motion.frequency).collect()
     }
 
     /// Horizontal translation by horizontal motion, shear waves: complex array of shape (m,), a ratio.
     #[getter]
     fn horizontal(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.horizontal)).collect()
+        self.0.iter().map(|motion| complex(motion.horizontal)).collect()
     }
 
     /// Rotation by horizontal motion, shear waves: complex array of shape (m,), 1/m.
     #[getter]
     fn rotation(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.rotation)).collect()
+        self.0.iter().map(|motion| complex(motion.rotation)).collect()
     }
 
     /// Vertical translation by vertical motion, pressure waves: complex array of shape (m,), a ratio.
     #[getter]
     fn vertical(&self) -> Array<Complex64> {
-        self.0.iter().map(|at| complex(at.vertical)).collect()
+        self.0.iter().map(|motion| complex(motion.vertical)).collect()
     }
 }

@@ -9,8 +9,8 @@ use basemat::interface::{
 use pyo3::prelude::*;
 
 use super::PyInterfaceLaw;
-use crate::array::real;
-use crate::error::{OrRaise, WithGiven, asked, refuse};
+use crate::array::real_number;
+use crate::error::{OrRaise, WithOption, call_user_code, input_error};
 use crate::soil::PySoil;
 use crate::user::PyPreviousContact;
 
@@ -22,14 +22,14 @@ pub(crate) struct PyBonded;
 impl PyBonded {
     #[new]
     fn new() -> PyClassInitializer<Self> {
-        PyClassInitializer::from(PyInterfaceLaw::copied(Bonded)).add_subclass(Self)
+        PyClassInitializer::from(PyInterfaceLaw::from_law(Bonded)).add_subclass(Self)
     }
 }
 
 /// Hard unilateral contact with Coulomb friction: an element sticks, slides or opens.
 ///
 /// ``friction``: coefficient, 0 or more; ``math.inf`` for a base that opens but never slides.
-/// With 3 or more, steps in plan may have several solutions: hold the run against one of a mirror image.
+/// With 3 or more, steps in plan may have several solutions: compare the run with one of the mirror image.
 /// ``tensile_strength`` (Pa; 0 by default) holds an element until it first opens. ``closed_below`` (m):
 /// contact conditions act on the change of the gap of elements whose gap is at most that (Moreau's
 /// rule); on the gap unless given.
@@ -51,7 +51,7 @@ impl PyCoulomb {
             .and_then(|law| law.with_tensile_strength(tensile_strength))
             .with(condition, Coulomb::with_unilateral_condition)
             .or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
+        Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self(law)))
     }
 
     /// Friction coefficient, a number.
@@ -71,7 +71,7 @@ impl PyCohesive {
     #[new]
     fn new(tension: f64, cohesion: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Cohesive::new(tension, cohesion, friction).or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
+        Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self))
     }
 }
 
@@ -84,7 +84,7 @@ impl PyYielding {
     #[new]
     fn new(bearing_pressure: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = Yielding::new(bearing_pressure, friction).or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self))
+        Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self))
     }
 }
 
@@ -101,7 +101,7 @@ impl PyEarthPressure {
     #[new]
     fn new(active: f64, passive: f64, friction: f64) -> PyResult<PyClassInitializer<Self>> {
         let law = EarthPressure::new(active, passive, friction).or_raise()?;
-        Ok(PyClassInitializer::from(PyInterfaceLaw::copied(law)).add_subclass(Self(law)))
+        Ok(PyClassInitializer::from(PyInterfaceLaw::from_law(law)).add_subclass(Self(law)))
     }
 
     /// Active and passive pressure, Pa.
@@ -115,15 +115,15 @@ impl PyEarthPressure {
 ///
 /// ``soil``: of the layer. ``neighbour_height``: of the finite elements beside it, m. ``friction``:
 /// coefficient. ``thickness_ratio``: of the layer to them; 0.1 unless given. ``debonded_ratio``: of the
-/// stiffness that is kept when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
-/// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure that friction sees, "total" (of this
+/// stiffness that remains when it is open, 0 to 1; 0.001 unless given. ``slip_stiffness_ratio``: when
+/// it slides, 0 to 1; 0 unless given. ``friction_limit``: pressure in the friction limit, "total" (of this
 /// step; the default), "lagged" (of the step before), "static" or "dynamic" (what shaking added).
 /// ``slip_sense``: quantity that decides the sense of slip, "inelastic" (slip beyond the elastic one; the
 /// default), "velocity" or "last_velocity" (of this step or the one before).
 #[pyclass(name = "ThinLayer", module = "basemat", extends = PyInterfaceLaw, frozen)]
 pub(crate) struct PyThinLayer(ThinLayer);
 
-extends!(PyThinLayer, own => PyInterfaceLaw::copied(own.0));
+extends!(PyThinLayer, layer => PyInterfaceLaw::from_law(layer.0));
 
 impl PyThinLayer {
     fn with_options(
@@ -202,21 +202,20 @@ impl PyVariableFriction {
         tensile_strength: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
         if !coefficient.is_callable() {
-            return Err(refuse("the coefficient must be a function of the start of a step"));
+            return Err(input_error("the coefficient must be a function of the start of a step"));
         }
         let function = Arc::new(coefficient.unbind());
         // An invalid strength raises now, and not when a simulation is built.
         VariableFriction::new(|_| 0.0).with_tensile_strength(tensile_strength).or_raise()?;
         let make = move || {
             let function = Arc::clone(&function);
-            let own = move |start: &PreviousContact<'_>| {
-                asked(f64::NAN, |py| {
+            let law = VariableFriction::new(move |start: &PreviousContact<'_>| {
+                call_user_code(f64::NAN, |py| {
                     let found = function.call1(py, (PyPreviousContact::from_core(py, start)?,))?;
-                    real("the coefficient's function", found.bind(py))
+                    real_number("the coefficient's function", found.bind(py))
                 })
-            };
-            Ok(Box::new(VariableFriction::new(own).with_tensile_strength(tensile_strength)?)
-                as Box<_>)
+            });
+            Ok(Box::new(law.with_tensile_strength(tensile_strength)?) as Box<_>)
         };
         Ok(PyClassInitializer::from(PyInterfaceLaw { make: Arc::new(make) }).add_subclass(Self))
     }

@@ -6,4 +6,4 @@ mod superclass;
 pub(crate) use laws::{
     PyBonded, PyCohesive, PyCoulomb, PyEarthPressure, PyThinLayer, PyVariableFriction, PyYielding,
 };
-pub(crate) use superclass::{PyInterfaceLaw, recipes};
+pub(crate) use superclass::{PyInterfaceLaw, law_recipes};

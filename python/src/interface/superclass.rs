@@ -1,26 +1,26 @@
-//! The superclass of laws, and laws in any form that Python may give them.
+//! The superclass of laws, laws of this package, and laws written in Python.
 
 use std::sync::Arc;
 
 use basemat::interface::InterfaceLaw;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, heard, refuse};
+use crate::error::{OrRaise, input_error, raise_user_exceptions};
 use crate::names::{mode, mode_name};
 use crate::recipe::Recipe;
-use crate::several::no_class;
+use crate::several::reject_class;
 use crate::user::{PyCondition, PyContactState, PyLimits, PyPreviousContact, PyTolerance, UserLaw};
 
-/// A law between base and ground: what an element of the contact does in a step, its mode (see
-/// `MODES`), and which conditions that imposes.
+/// A law between base and ground: the limits of an element's tractions, and in the plane its contact modes (see
+/// `MODES`) and the conditions that each of them imposes.
 #[pyclass(name = "InterfaceLaw", module = "basemat", subclass, frozen, dict)]
 pub(crate) struct PyInterfaceLaw {
     pub(crate) make: Recipe<dyn InterfaceLaw>,
 }
 
 impl PyInterfaceLaw {
-    /// A law that can be copied.
-    pub(crate) fn copied(law: impl InterfaceLaw + Clone + Sync + 'static) -> Self {
+    /// The superclass object of a law that can be cloned.
+    pub(crate) fn from_law(law: impl InterfaceLaw + Clone + Sync + 'static) -> Self {
         Self { make: Arc::new(move || Ok(Box::new(law.clone()))) }
     }
 }
@@ -40,10 +40,10 @@ impl PyInterfaceLaw {
         mode: &str,
         start: &PyPreviousContact,
     ) -> PyResult<(PyCondition, PyCondition)> {
-        heard(|| {
+        raise_user_exceptions(|| {
             let law = (self.make)().or_raise()?;
-            let [first, second] = law.conditions(self::mode(mode)?, &start.core());
-            Ok((PyCondition(first), PyCondition(second)))
+            let conditions = law.conditions(self::mode(mode)?, &start.core());
+            Ok(conditions.map(PyCondition).into())
         })
     }
 
@@ -57,26 +57,28 @@ impl PyInterfaceLaw {
         trial: &PyContactState,
         tolerance: &PyTolerance,
     ) -> PyResult<&'static str> {
-        heard(|| {
+        raise_user_exceptions(|| {
             let law = (self.make)().or_raise()?;
             let mode = self::mode(mode)?;
             Ok(mode_name(law.next_mode(mode, &start.core(), &trial.0, tolerance.0)))
         })
     }
 
-    /// The `Limits` of an element's tractions on a ground in plan, in the step after ``start``
+    /// The `Limits` of an element's tractions in the step after ``start``
     /// (`PreviousContact`).
     fn limits(&self, start: &PyPreviousContact) -> PyResult<PyLimits> {
-        heard(|| (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits))
+        raise_user_exceptions(|| {
+            (self.make)().and_then(|law| law.limits(&start.core())).or_raise().map(PyLimits)
+        })
     }
 }
 
-/// The recipe of a law of this package, or of one written in Python, for a ground in plan or in the plane.
-fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn InterfaceLaw>> {
-    if let Ok(own) = object.cast::<PyInterfaceLaw>() {
-        return Ok(own.get().make.clone());
+/// The recipe of a law of this package, or of one written in Python.
+fn law_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn InterfaceLaw>> {
+    if let Ok(law) = object.cast::<PyInterfaceLaw>() {
+        return Ok(law.get().make.clone());
     }
-    if object.hasattr("conditions")? || (in_plan && object.hasattr("limits")?) {
+    if object.hasattr("limits")? || object.hasattr("conditions")? {
         let law = UserLaw::new(object)?;
         return Ok(Arc::new(move || Ok(Box::new(law.clone()))));
     }
@@ -85,20 +87,17 @@ fn recipe(object: &Bound<'_, PyAny>, in_plan: bool) -> PyResult<Recipe<dyn Inter
     } else if object.is_callable() {
         "VariableFriction(function) has the friction coefficient that a function returns".into()
     } else {
-        format!("it has no method `{}`", if in_plan { "limits" } else { "conditions" })
+        "it has no method `limits`".into()
     };
     let found = object.get_type().name()?;
-    Err(refuse(format!("{found} is no interface law for this ground: {hint}")))
+    Err(input_error(format!("{found} is no interface law: {hint}")))
 }
 
 /// One law for all elements, or a sequence of one each.
-pub(crate) fn recipes(
-    object: &Bound<'_, PyAny>,
-    in_plan: bool,
-) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
-    no_class(object)?;
+pub(crate) fn law_recipes(object: &Bound<'_, PyAny>) -> PyResult<Vec<Recipe<dyn InterfaceLaw>>> {
+    reject_class(object)?;
     match object.extract::<Vec<Bound<'_, PyAny>>>() {
-        Ok(list) => list.iter().map(|law| recipe(law, in_plan)).collect(),
-        Err(_) => Ok(vec![recipe(object, in_plan)?]),
+        Ok(list) => list.iter().map(law_recipe).collect(),
+        Err(_) => Ok(vec![law_recipe(object)?]),
     }
 }

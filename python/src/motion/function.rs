@@ -1,4 +1,4 @@
-//! The base class of free fields, and motions given as functions.
+//! The superclass of free fields, and motions by functions.
 
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -6,10 +6,10 @@ use std::sync::Arc;
 use basemat::motion::{FreeField, FreeFieldFn, Record, TravellingWave, VerticalIncidence};
 use pyo3::prelude::*;
 
-use crate::array::real;
-use crate::error::{self, OrRaise, has_raised, heard, refuse};
+use crate::array::real_number;
+use crate::error::{self, OrRaise, has_stored_exception, input_error, raise_user_exceptions};
 use crate::recipe::Recipe;
-use crate::several::no_class;
+use crate::several::reject_class;
 
 /// Motion of the ground's surface without the structure: a `Record`, a wave, or what
 /// `free_field` makes of a function. Until t = 0 the ground rests.
@@ -28,37 +28,37 @@ pub(super) type MakeWave = dyn Fn() -> basemat::Result<TravellingWave> + Send + 
 impl PyFreeField {
     /// Displacement (to the right, up), m, at ``x`` (m) and ``time`` (s).
     fn displacement(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
-        heard(|| Ok((self.make)().or_raise()?.displacement(x, time)))
+        raise_user_exceptions(|| Ok((self.make)().or_raise()?.displacement(x, time)))
     }
 
     /// Displacement (along x, along y, up), m, at the point ``x``, ``y`` (m) of a ground in plan and ``time`` (s).
     fn displacement_at(&self, x: f64, y: f64, time: f64) -> PyResult<[f64; 3]> {
-        heard(|| Ok((self.make)().or_raise()?.displacement_at([x, y], time)))
+        raise_user_exceptions(|| Ok((self.make)().or_raise()?.displacement_at([x, y], time)))
     }
 
     /// Velocity (to the right, up), m/s, at ``x`` (m) and ``time`` (s).
     fn velocity(&self, x: f64, time: f64) -> PyResult<[f64; 2]> {
-        heard(|| Ok((self.make)().or_raise()?.velocity(x, time)))
+        raise_user_exceptions(|| Ok((self.make)().or_raise()?.velocity(x, time)))
     }
 }
 
-/// A free field of this package from what makes it, which is tried once.
-pub(super) fn field<F: FreeField + 'static>(
+/// A free field that `make` makes for each simulation; `make` is tried once.
+pub(super) fn new_free_field<F: FreeField + 'static>(
     make: impl Fn() -> basemat::Result<F> + Send + Sync + 'static,
 ) -> PyResult<PyFreeField> {
     make().or_raise()?;
     Ok(PyFreeField { make: Arc::new(move || Ok(Box::new(make()?))), duration: None, wave: None })
 }
 
-/// The free field that Python gives.
-pub(crate) fn given<'a, 'py>(
+/// The object as a free field.
+pub(crate) fn free_field_object<'a, 'py>(
     object: &'a Bound<'py, PyAny>,
 ) -> PyResult<&'a Bound<'py, PyFreeField>> {
-    if let Ok(own) = object.cast::<PyFreeField>() {
-        return Ok(own);
+    if let Ok(field) = object.cast::<PyFreeField>() {
+        return Ok(field);
     }
-    no_class(object)?;
-    Err(refuse(if object.is_callable() {
+    reject_class(object)?;
+    Err(input_error(if object.is_callable() {
         "a function is no motion before it is said what it returns: \
          free_field(displacement=function), or free_field(acceleration=function, time_step=…, \
          duration=…)"
@@ -93,67 +93,71 @@ pub(crate) fn free_field(
     displacement_at: Option<Bound<'_, PyAny>>,
 ) -> PyResult<PyFreeField> {
     if acceleration.is_none() && (time_step.is_some() || duration.is_some()) {
-        return Err(refuse("time_step and duration are those of an acceleration"));
+        return Err(input_error("time_step and duration are those of an acceleration"));
     }
     match (displacement, acceleration, displacement_at) {
         (Some(function), None, None) => {
-            let function = Arc::new(callable("displacement", &function)?);
-            field(move || {
+            let function = Arc::new(checked_callable("displacement", &function)?);
+            new_free_field(move || {
                 let function = Arc::clone(&function);
                 Ok(FreeFieldFn::new(move |x, time| {
-                    asked("displacement", |py| function.call1(py, (x, time)))
+                    call_motion_function("displacement", |py| function.call1(py, (x, time)))
                 }))
             })
         }
         (None, None, Some(function)) => {
-            let function = Arc::new(callable("displacement_at", &function)?);
-            field(move || Ok(InPlan(Arc::clone(&function))))
+            let function = Arc::new(checked_callable("displacement_at", &function)?);
+            new_free_field(move || Ok(InPlan(Arc::clone(&function))))
         }
         (None, Some(function), None) => {
-            let function = callable("acceleration", &function)?;
+            let function = checked_callable("acceleration", &function)?;
             let (Some(time_step), Some(duration)) = (time_step, duration) else {
-                return Err(refuse("an acceleration is sampled: give its time_step and duration"));
+                return Err(input_error(
+                    "an acceleration is sampled: give its time_step and duration",
+                ));
             };
             if duration < time_step {
-                return Err(refuse(format!(
+                return Err(input_error(format!(
                     "duration is {duration} s, but must be the time_step ({time_step} s) or more"
                 )));
             }
-            let (own, end) = heard(|| sampled(&function, time_step, duration).or_raise())?;
-            Ok(PyFreeField { duration: Some(end), ..field(move || Ok(own.clone()))? })
+            let motion = raise_user_exceptions(|| {
+                sampled_motion(&function, time_step, duration).or_raise()
+            })?;
+            let end = motion.horizontal.as_ref().map(Record::duration);
+            Ok(PyFreeField { duration: end, ..new_free_field(move || Ok(motion.clone()))? })
         }
-        _ => Err(refuse(
+        _ => Err(input_error(
             "give the displacement, the acceleration or displacement_at as a function, one of them",
         )),
     }
 }
 
-fn callable(name: &str, function: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
+fn checked_callable(name: &str, function: &Bound<'_, PyAny>) -> PyResult<Py<PyAny>> {
     if function.is_callable() {
         return Ok(function.clone().unbind());
     }
     let found = function.get_type().name()?;
-    Err(refuse(format!("{name} is of the type {found}, but must be a function")))
+    Err(input_error(format!("{name} is of the type {found}, but must be a function")))
 }
 
-/// Records of the accelerations to the right and up that a function returns, and their length.
-fn sampled(
+/// Records of the accelerations to the right and up that a function returns.
+fn sampled_motion(
     function: &Py<PyAny>,
     time_step: f64,
     duration: f64,
-) -> basemat::Result<(VerticalIncidence, f64)> {
+) -> basemat::Result<VerticalIncidence> {
     let up = RefCell::new(Vec::new());
     let right = Record::from_fn(time_step, duration, |time| {
-        if has_raised() {
+        if has_stored_exception() {
             return f64::NAN;
         }
-        let [right, own] = asked("acceleration", |py| function.call1(py, (time,)));
-        up.borrow_mut().push(own);
-        right
+        let acceleration = call_motion_function("acceleration", |py| function.call1(py, (time,)));
+        up.borrow_mut().push(acceleration[1]);
+        acceleration[0]
     })?;
     let up = Record::new(time_step, up.into_inner())?;
-    let end = right.duration();
-    Ok((VerticalIncidence { horizontal: Some(right), vertical: Some(up) }, end))
+    Ok(VerticalIncidence { horizontal: Some(right), vertical: Some(up) })
 }
 
 /// A function `(x, y, time)` of the displacement in plan.
@@ -170,39 +174,43 @@ impl FreeField for InPlan {
     }
 
     fn displacement_at(&self, [x, y]: [f64; 2], time: f64) -> [f64; 3] {
-        error::asked([f64::NAN; 3], |py| {
+        error::call_user_code([f64::NAN; 3], |py| {
             let found = self.0.call1(py, (x, y, time))?;
             let found = found.bind(py);
-            numbers("displacement_at", found).ok_or_else(|| {
-                wrong("displacement_at", found, "three numbers (along x, along y, up)")
+            extract_numbers("displacement_at", found).ok_or_else(|| {
+                return_error("displacement_at", found, "three numbers (along x, along y, up)")
             })
         })
     }
 }
 
 /// Value of a function: a pair, or a number to the right. NaN, which ends the step, if it raises.
-fn asked(name: &str, call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>) -> [f64; 2] {
-    error::asked([f64::NAN; 2], |py| {
+fn call_motion_function(
+    name: &str,
+    call: impl FnOnce(Python<'_>) -> PyResult<Py<PyAny>>,
+) -> [f64; 2] {
+    error::call_user_code([f64::NAN; 2], |py| {
         let found = call(py)?;
         let found = found.bind(py);
-        if let Ok(right) = real(name, found) {
+        if let Ok(right) = real_number(name, found) {
             return Ok([right, 0.0]);
         }
         let needed = "a pair of numbers (to the right, up) or a number (to the right)";
-        numbers(name, found).ok_or_else(|| wrong(name, found, needed))
+        extract_numbers(name, found).ok_or_else(|| return_error(name, found, needed))
     })
 }
 
 /// Extracts `N` numbers, if `found` has as many.
-fn numbers<const N: usize>(name: &str, found: &Bound<'_, PyAny>) -> Option<[f64; N]> {
-    let all: [Bound<'_, PyAny>; N] = found.extract().ok()?;
-    let all: Result<Vec<f64>, _> = all.iter().map(|own| real(name, own)).collect();
-    all.ok()?.try_into().ok()
+fn extract_numbers<const N: usize>(name: &str, found: &Bound<'_, PyAny>) -> Option<[f64; N]> {
+    let entries: [Bound<'_, PyAny>; N] = found.extract().ok()?;
+    let values: Result<Vec<f64>, _> =
+        entries.iter().map(|entry| real_number(name, entry)).collect();
+    values.ok()?.try_into().ok()
 }
 
-fn wrong(name: &str, found: &Bound<'_, PyAny>, needed: &str) -> PyErr {
+fn return_error(name: &str, found: &Bound<'_, PyAny>, needed: &str) -> PyErr {
     let found = found.repr().map_or_else(|_| "something".into(), |text| text.to_string());
-    refuse(format!(
+    input_error(format!(
         "the function of the motion's {name} returned {found}, but must return {needed}"
     ))
 }

@@ -7,7 +7,7 @@ mod spectrum;
 mod trench;
 mod waves;
 
-pub(crate) use function::{PyFreeField, free_field, given};
+pub(crate) use function::{PyFreeField, free_field, free_field_object};
 pub(crate) use record::{PyRecord, el_centro_1940};
 pub(crate) use spectrum::{PySpectrum, coarse, log_spaced};
 pub(crate) use trench::PyTrenchMotion;

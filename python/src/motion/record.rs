@@ -10,9 +10,9 @@ use pyo3::types::PyDict;
 use super::PyFreeField;
 use super::record_file::{FileOptions, unit_of};
 use super::spectrum::{PySpectrum, coarse};
-use crate::array::{Array, Numbers, whole};
-use crate::error::{OrRaise, refuse};
-use crate::ticker::watched;
+use crate::array::{Array, Numbers, whole_numbers};
+use crate::error::{OrRaise, input_error};
+use crate::ticker::with_progress;
 
 /// Ground acceleration at equal time steps, linear between samples; velocity and displacement are
 /// its exact integrals from rest.
@@ -23,11 +23,11 @@ use crate::ticker::watched;
 #[pyclass(name = "Record", module = "basemat", extends = PyFreeField, frozen)]
 pub(crate) struct PyRecord(pub(crate) Arc<Record>);
 
-extends!(PyRecord, own => {
-    let record = Arc::clone(&own.0);
+extends!(PyRecord, record => {
+    let samples = Arc::clone(&record.0);
     PyFreeField {
-        duration: Some(record.duration()),
-        make: Arc::new(move || Ok(Box::new(Record::clone(&record)))),
+        duration: Some(samples.duration()),
+        make: Arc::new(move || Ok(Box::new(Record::clone(&samples)))),
         wave: None,
     }
 });
@@ -59,7 +59,7 @@ impl PyRecord {
     ) -> PyResult<PyClassInitializer<Self>> {
         let samples = acceleration.0.len();
         if samples < 2 {
-            return Err(refuse(format!(
+            return Err(input_error(format!(
                 "acceleration has {samples} samples, but must have 2 or more"
             )));
         }
@@ -151,10 +151,10 @@ impl PyRecord {
         format: &str,
         unit: Option<&str>,
         time_step: Option<f64>,
-        #[pyo3(from_py_with = whole)] columns: Option<[usize; 2]>,
-        #[pyo3(from_py_with = whole)] channel: Option<usize>,
-        #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
-        #[pyo3(from_py_with = whole)] samples: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] columns: Option<[usize; 2]>,
+        #[pyo3(from_py_with = whole_numbers)] channel: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] header_lines: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] samples: Option<usize>,
         layout: Option<&str>,
     ) -> PyResult<Self> {
         let options =
@@ -175,7 +175,7 @@ impl PyRecord {
         format: &str,
         unit: Option<&str>,
         time_step: Option<f64>,
-        #[pyo3(from_py_with = whole)] header_lines: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] header_lines: Option<usize>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let options = FileOptions { unit, time_step, header_lines, ..FileOptions::default() };
         let components = Record::read_all(path, options.reader(format)?.as_ref()).or_raise()?;
@@ -215,7 +215,7 @@ impl PyRecord {
     fn with_baseline(
         &self,
         treatment: &str,
-        #[pyo3(from_py_with = whole)] degree: usize,
+        #[pyo3(from_py_with = whole_numbers)] degree: usize,
     ) -> PyResult<Self> {
         Self::from_core(self.0.with_baseline(baseline(treatment, degree)?))
     }
@@ -227,7 +227,11 @@ impl PyRecord {
     /// for a corner of 0.2 Hz, into which such a filter reaches. Keep it: without it velocity and
     /// displacement do not return to zero.
     #[pyo3(signature = (corner, *, order=4))]
-    fn high_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
+    fn high_pass(
+        &self,
+        corner: f64,
+        #[pyo3(from_py_with = whole_numbers)] order: u32,
+    ) -> PyResult<Self> {
         Self::from_core(self.0.high_pass(corner, order))
     }
 
@@ -235,7 +239,11 @@ impl PyRecord {
     /// forwards and backwards, so without phase shift; longer as by `high_pass`. Deconvolution needs it
     /// (`SoilColumn.from_surface`).
     #[pyo3(signature = (corner, *, order=4))]
-    fn low_pass(&self, corner: f64, #[pyo3(from_py_with = whole)] order: u32) -> PyResult<Self> {
+    fn low_pass(
+        &self,
+        corner: f64,
+        #[pyo3(from_py_with = whole_numbers)] order: u32,
+    ) -> PyResult<Self> {
         Self::from_core(self.0.low_pass(corner, order))
     }
 
@@ -259,8 +267,9 @@ impl PyRecord {
         damping: f64,
     ) -> PyResult<PySpectrum> {
         let record = &self.0;
-        let spectrum =
-            py.detach(|| watched(None, |own| record.response_spectrum(&periods.0, damping, own)));
+        let spectrum = py.detach(|| {
+            with_progress(None, |observer| record.response_spectrum(&periods.0, damping, observer))
+        });
         Ok(PySpectrum(spectrum?, coarse(record, &periods.0)))
     }
 
@@ -282,8 +291,10 @@ impl PyRecord {
     }
 }
 
-/// A treatment of the baseline by its name, which may hold a degree of its own.
+/// A treatment of the baseline by its name, which may contain the degree.
 fn baseline(name: &str, degree: usize) -> PyResult<Baseline> {
-    let alone = name.parse::<Baseline>();
-    alone.or_else(|error| format!("{name}({degree})").parse().map_err(|_| error)).or_raise()
+    let without_degree = name.parse::<Baseline>();
+    without_degree
+        .or_else(|error| format!("{name}({degree})").parse().map_err(|_| error))
+        .or_raise()
 }

@@ -6,9 +6,9 @@ use basemat::motion::{
 };
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, input_error};
 
-/// What is said of a file that is to be read.
+/// Options of `Record.read` other than path and format; `None` for those that the caller left out.
 #[derive(Default)]
 pub(super) struct FileOptions<'a> {
     pub(super) unit: Option<&'a str>,
@@ -49,7 +49,7 @@ impl FileOptions<'_> {
                 self.checked(format, MillimetrePerSecondSquared, true, reader)?
             }
             _ => {
-                return Err(refuse(format!(
+                return Err(input_error(format!(
                     "format is '{format}', but must be 'columns', 'along_lines', 'peer', 'cosmos', \
                      'k_net', 'k_net_csv', 'esm', 'afad', 'slist', 'smc' or 'geonet'"
                 )));
@@ -59,12 +59,15 @@ impl FileOptions<'_> {
 
     fn column_format(&self) -> PyResult<ColumnFormat> {
         if self.channel.is_some() {
-            return Err(refuse("a file of columns has no `channel`: give `columns`"));
+            return Err(input_error("a file of columns has no `channel`: give `columns`"));
         }
         if self.layout.is_some() {
-            return Err(refuse("a file of columns takes no `layout`: read format=\"along_lines\""));
+            return Err(input_error(
+                "a file of columns takes no `layout`: read format=\"along_lines\"",
+            ));
         }
-        let unit = self.unit.ok_or_else(|| refuse("a file of columns has no unit: give `unit`"))?;
+        let unit =
+            self.unit.ok_or_else(|| input_error("a file of columns has no unit: give `unit`"))?;
         let format = ColumnFormat {
             header_lines: self.header_lines.unwrap_or(0),
             samples: self.samples,
@@ -86,13 +89,16 @@ impl FileOptions<'_> {
     }
 
     fn along_lines(&self) -> PyResult<AlongLinesFormat> {
-        let given = [("columns", self.columns.is_some()), ("channel", self.channel.is_some())];
-        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(refuse(format!("values along lines have no `{name}`")));
+        let presence = [("columns", self.columns.is_some()), ("channel", self.channel.is_some())];
+        if let Some((name, _)) = presence.iter().find(|(_, is_present)| *is_present) {
+            return Err(input_error(format!("values along lines have no `{name}`")));
         }
-        let missing = |name| refuse(format!("a file of values along lines has no {name}"));
-        let unit = self.unit.ok_or_else(|| missing("unit: give `unit`"))?;
-        let step = self.time_step.ok_or_else(|| missing("times: give `time_step`"))?;
+        let unit = self
+            .unit
+            .ok_or_else(|| input_error("a file of values along lines has no unit: give `unit`"))?;
+        let step = self.time_step.ok_or_else(|| {
+            input_error("a file of values along lines has no times: give `time_step`")
+        })?;
         Ok(AlongLinesFormat {
             layout: self.layout.map(str::parse).transpose().or_raise()?,
             samples: self.samples,
@@ -101,7 +107,7 @@ impl FileOptions<'_> {
         })
     }
 
-    /// The reader of files in a `unit` of their own.
+    /// The reader of a format whose files are in a fixed `unit`.
     fn checked(
         &self,
         format: &str,
@@ -113,9 +119,17 @@ impl FileOptions<'_> {
         Ok(Box::new(reader))
     }
 
-    /// Error for options that files of a format do not take; `own` is their unit.
-    fn check(&self, format: &str, own: Option<AccelerationUnit>, several: bool) -> PyResult<()> {
-        let given = [
+    /// Error for options that files of a format do not take.
+    ///
+    /// `file_unit`: unit of all files of the format; `None` if files name it. `several`: whether a file holds several
+    /// components.
+    fn check(
+        &self,
+        format: &str,
+        file_unit: Option<AccelerationUnit>,
+        several: bool,
+    ) -> PyResult<()> {
+        let presence = [
             ("columns", self.columns.is_some()),
             ("time_step", self.time_step.is_some()),
             ("header_lines", self.header_lines.is_some()),
@@ -123,13 +137,15 @@ impl FileOptions<'_> {
             ("layout", self.layout.is_some()),
             ("channel", self.channel.is_some_and(|channel| !several && channel != 1)),
         ];
-        if let Some((name, _)) = given.iter().find(|(_, given)| *given) {
-            return Err(refuse(format!("files of the format '{format}' take no `{name}`")));
+        if let Some((name, _)) = presence.iter().find(|(_, is_present)| *is_present) {
+            return Err(input_error(format!("files of the format '{format}' take no `{name}`")));
         }
-        match (self.unit, own) {
-            (Some(name), Some(own)) if unit_of(name)? != own => Err(refuse(format!(
-                "unit is '{name}', but files of the format '{format}' are in {own}: leave it out"
-            ))),
+        match (self.unit, file_unit) {
+            (Some(name), Some(file_unit)) if unit_of(name)? != file_unit => {
+                Err(input_error(format!(
+                    "unit is '{name}', but files of the format '{format}' are in {file_unit}: leave it out"
+                )))
+            }
             _ => Ok(()),
         }
     }

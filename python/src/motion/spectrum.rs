@@ -3,7 +3,7 @@
 use basemat::motion::{Record, SpectralOrdinate};
 use pyo3::prelude::*;
 
-use crate::array::{Array, whole};
+use crate::array::{Array, whole_numbers};
 use crate::error::OrRaise;
 
 /// A response spectrum: arrays of shape (m,), one value per natural period.
@@ -22,7 +22,7 @@ pub(crate) fn coarse(record: &Record, periods: &[f64]) -> Vec<String> {
 pub(crate) fn log_spaced(
     first: f64,
     last: f64,
-    #[pyo3(from_py_with = whole)] count: usize,
+    #[pyo3(from_py_with = whole_numbers)] count: usize,
 ) -> PyResult<Array> {
     Ok(basemat::results::log_spaced(first, last, count).or_raise()?.into())
 }

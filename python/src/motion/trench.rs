@@ -2,15 +2,14 @@
 
 use std::sync::Arc;
 
-use basemat::Observer;
 use basemat::site::TrenchMotion;
 use pyo3::prelude::*;
 
-use super::waves::incidence;
-use super::{PyFreeField, PyRecord, given};
-use crate::error::{OrRaise, refuse};
+use super::waves::{incidence, latest_end};
+use super::{PyFreeField, PyRecord, free_field_object};
+use crate::error::{OrRaise, input_error};
 use crate::ground::PyTrenchGround;
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// Free field of a trench: vertical waves below a surface that moves as recorded; `travelling` has other waves.
 ///
@@ -31,10 +30,13 @@ impl PyTrenchMotion {
         horizontal: Option<Bound<'_, PyRecord>>,
         vertical: Option<Bound<'_, PyRecord>>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let (surface, duration) = incidence([horizontal, vertical])?;
+        let surface = incidence(horizontal.as_ref(), vertical.as_ref())?;
+        let duration = latest_end([surface.horizontal.as_ref(), surface.vertical.as_ref()]);
         let ground = (ground.get().make)().or_raise()?;
-        let call = move |observer: &mut Observer<'_>| TrenchMotion::new(&ground, surface, observer);
-        Ok(around(py.detach(move || watched(None, call))?, duration))
+        let motion = py.detach(move || {
+            with_progress(None, |observer| TrenchMotion::new(&ground, surface, observer))
+        });
+        Ok(around(motion?, duration))
     }
 
     /// The `TrenchMotion` of a ``wave`` around the trench of ``ground``: of what a `PlaneWave` or an `InclinedWave` makes of
@@ -48,14 +50,15 @@ impl PyTrenchMotion {
         ground: Bound<'_, PyTrenchGround>,
         wave: Bound<'_, PyAny>,
     ) -> PyResult<Py<Self>> {
-        let field = given(&wave)?.get();
+        let field = free_field_object(&wave)?.get();
         let needed = "the wave runs along the surface: a travelling_wave, or a field of a PlaneWave or an InclinedWave";
-        let wave = field.wave.as_ref().ok_or_else(|| refuse(needed))?;
+        let wave = field.wave.as_ref().ok_or_else(|| input_error(needed))?;
         let wave = wave().or_raise()?;
         let ground = (ground.get().make)().or_raise()?;
-        let call =
-            move |observer: &mut Observer<'_>| TrenchMotion::travelling(&ground, &wave, observer);
-        Py::new(py, around(py.detach(move || watched(None, call))?, field.duration))
+        let motion = py.detach(move || {
+            with_progress(None, |observer| TrenchMotion::travelling(&ground, &wave, observer))
+        });
+        Py::new(py, around(motion?, field.duration))
     }
 }
 

@@ -12,14 +12,14 @@ use basemat::site::{
 use numpy::Complex64;
 use pyo3::prelude::*;
 
-use super::function::{MakeWave, field};
-use super::{PyFreeField, PyRecord, given};
+use super::function::{MakeWave, new_free_field};
+use super::{PyFreeField, PyRecord, free_field_object};
 use crate::array::{Array, Numbers, complex};
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, input_error};
 use crate::names::choice;
 use crate::profile::PySoilProfile;
 use crate::soil::PySoil;
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// Motion of a ``horizontal`` `Record` (to the right), of a ``vertical`` one (up), or of both, the
 /// same everywhere at once; a component is zero unless given.
@@ -29,32 +29,30 @@ pub(crate) fn vertical_incidence(
     horizontal: Option<Bound<'_, PyRecord>>,
     vertical: Option<Bound<'_, PyRecord>>,
 ) -> PyResult<PyFreeField> {
-    let (incidence, duration) = incidence([horizontal, vertical])?;
-    Ok(PyFreeField { duration, ..field(move || Ok(incidence.clone()))? })
+    let motion = incidence(horizontal.as_ref(), vertical.as_ref())?;
+    let duration = latest_end([motion.horizontal.as_ref(), motion.vertical.as_ref()]);
+    Ok(PyFreeField { duration, ..new_free_field(move || Ok(motion.clone()))? })
 }
 
-/// Motion by a horizontal and a vertical record, and the time at which the last of them ends (s).
+/// Motion by a horizontal and a vertical record, of which one may be missing.
 pub(super) fn incidence(
-    given: [Option<Bound<'_, PyRecord>>; 2],
-) -> PyResult<(VerticalIncidence, Option<f64>)> {
-    let duration = longest(&given);
-    let [horizontal, vertical] =
-        given.map(|record| record.map(|record| Record::clone(&record.get().0)));
-    if duration.is_none() {
-        return Err(refuse("give a horizontal record, a vertical one, or both"));
+    horizontal: Option<&Bound<'_, PyRecord>>,
+    vertical: Option<&Bound<'_, PyRecord>>,
+) -> PyResult<VerticalIncidence> {
+    if horizontal.is_none() && vertical.is_none() {
+        return Err(input_error("give a horizontal record, a vertical one, or both"));
     }
-    Ok((VerticalIncidence { horizontal, vertical }, duration))
+    Ok(VerticalIncidence { horizontal: cloned(horizontal), vertical: cloned(vertical) })
 }
 
 /// Time at which the last of the records ends, s.
-fn longest(given: &[Option<Bound<'_, PyRecord>>]) -> Option<f64> {
-    given.iter().flatten().map(|record| record.get().0.duration()).reduce(f64::max)
+pub(super) fn latest_end<const N: usize>(records: [Option<&Record>; N]) -> Option<f64> {
+    records.into_iter().flatten().map(Record::duration).reduce(f64::max)
 }
 
-/// Records along x, y and up.
-fn records(given: [Option<Bound<'_, PyRecord>>; 3]) -> Triaxial {
-    let [x, y, up] = given.map(|record| record.map(|record| Record::clone(&record.get().0)));
-    Triaxial { x, y, up }
+/// A copy of the record, if there is one.
+fn cloned(record: Option<&Bound<'_, PyRecord>>) -> Option<Record> {
+    record.map(|record| Record::clone(&record.get().0))
 }
 
 /// Motion of records along ``x`` (to the right), ``y`` (away) and ``up`` (each a `Record`), the same everywhere at
@@ -66,13 +64,12 @@ pub(crate) fn triaxial(
     y: Option<Bound<'_, PyRecord>>,
     up: Option<Bound<'_, PyRecord>>,
 ) -> PyResult<PyFreeField> {
-    let given = [x, y, up];
-    let duration = longest(&given);
+    let motion = Triaxial { x: cloned(x.as_ref()), y: cloned(y.as_ref()), up: cloned(up.as_ref()) };
+    let duration = latest_end([motion.x.as_ref(), motion.y.as_ref(), motion.up.as_ref()]);
     if duration.is_none() {
-        return Err(refuse("give a record along x, along y or up"));
+        return Err(input_error("give a record along x, along y or up"));
     }
-    let motion = records(given);
-    Ok(PyFreeField { duration, ..field(move || Ok(motion.clone()))? })
+    Ok(PyFreeField { duration, ..new_free_field(move || Ok(motion.clone()))? })
 }
 
 /// A ``motion`` (`FreeField`) that runs along x with an ``apparent_velocity`` (m/s; to the left if
@@ -86,7 +83,7 @@ pub(crate) fn travelling_wave(
     origin: f64,
     azimuth: f64,
 ) -> PyResult<PyFreeField> {
-    let motion = given(&motion)?.get().make.clone();
+    let motion = free_field_object(&motion)?.get().make.clone();
     turned(azimuth, move || TravellingWave::new(motion()?, apparent_velocity, origin))
 }
 
@@ -99,8 +96,8 @@ fn turned(
         // A wave along x has exact velocities.
         if azimuth == 0.0 { make() } else { make()?.with_azimuth(azimuth) }
     });
-    let again = Arc::clone(&wave);
-    Ok(PyFreeField { wave: Some(wave), ..field(move || again())? })
+    let make_field = Arc::clone(&wave);
+    Ok(PyFreeField { wave: Some(wave), ..new_free_field(move || make_field())? })
 }
 
 /// A Ricker pulse of displacement: peak ``amplitude`` (m), width ``sigma`` (s), at ``center`` (s), to the
@@ -113,7 +110,7 @@ pub(crate) fn ricker(
     center: f64,
     vertical: bool,
 ) -> PyResult<PyFreeField> {
-    field(move || {
+    new_free_field(move || {
         let pulse = RickerDisplacement::new(amplitude, sigma, center)?;
         Ok(if vertical { pulse.vertical() } else { pulse })
     })
@@ -123,40 +120,6 @@ pub(crate) fn ricker(
 /// `field_from_horizontal` and `field_from_vertical` make it a motion.
 #[pyclass(name = "PlaneWave", module = "basemat", frozen, dict)]
 pub(crate) struct PyPlaneWave(PlaneWave);
-
-/// Methods of a plane wave that make it a motion: the core's of the same name.
-macro_rules! fields_from {
-    ($($(#[doc = $doc:tt])+ $name:ident;)+) => {
-        #[pymethods]
-        impl PyPlaneWave {
-            $(
-                $(#[doc = $doc])+
-                #[pyo3(signature = (record, origin, *, azimuth=0.0))]
-                fn $name(
-                    &self,
-                    record: &PyRecord,
-                    origin: f64,
-                    azimuth: f64,
-                ) -> PyResult<PyFreeField> {
-                    let (wave, record) = (self.0, Arc::clone(&record.0));
-                    turned(azimuth, move || wave.$name(&record, origin))
-                }
-            )+
-        }
-    };
-}
-
-fields_from! {
-    /// The `FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-    /// `travelling_wave`.
-    field_from_horizontal;
-    /// The `FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
-    /// `travelling_wave`.
-    field_from_vertical;
-    /// The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
-    /// (rad; 0 by default) is as in `travelling_wave`.
-    field_from_across;
-}
 
 #[pymethods]
 impl PyPlaneWave {
@@ -187,6 +150,48 @@ impl PyPlaneWave {
         Self(PlaneWave::rayleigh(soil.0))
     }
 
+    /// The `FreeField` whose horizontal motion at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+    /// `travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_horizontal(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
+        let wave = self.0;
+        let record = Arc::clone(&record.0);
+        turned(azimuth, move || wave.field_from_horizontal(&record, origin))
+    }
+
+    /// The `FreeField` whose vertical motion (up) at ``origin`` (x, m) is the ``record``; ``azimuth`` (rad; 0 by default) is as in
+    /// `travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_vertical(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
+        let wave = self.0;
+        let record = Arc::clone(&record.0);
+        turned(azimuth, move || wave.field_from_vertical(&record, origin))
+    }
+
+    /// The `FreeField` whose motion across its direction at ``origin`` (x, m) is the ``record``, of an SH wave; ``azimuth``
+    /// (rad; 0 by default) is as in `travelling_wave`.
+    #[pyo3(signature = (record, origin, *, azimuth=0.0))]
+    fn field_from_across(
+        &self,
+        record: &PyRecord,
+        origin: f64,
+        azimuth: f64,
+    ) -> PyResult<PyFreeField> {
+        let wave = self.0;
+        let record = Arc::clone(&record.0);
+        turned(azimuth, move || wave.field_from_across(&record, origin))
+    }
+
     /// Apparent velocity along the surface, m/s.
     #[getter]
     fn apparent_velocity(&self) -> f64 {
@@ -208,34 +213,39 @@ pub(crate) fn control(name: &str) -> PyResult<ControlPoint> {
     choice("control", name, &[("outcrop", ControlPoint::Outcrop), ("within", ControlPoint::Within)])
 }
 
-/// Part of its peak that a motion may lack without a warning: less than response spectra show.
-const UNSEEN: f64 = 1e-4;
+/// Largest error of a motion without a warning, relative to its peak: smaller ones do not show in response spectra.
+const MAX_SILENT_ERROR: f64 = 1e-4;
 
-/// The record of what a column makes of one, with a warning if it lacks what can be seen.
-fn through(
+/// The record that a soil column makes of another one, with a warning of parts that are cut off or lost in rounding.
+fn through_column(
     py: Python<'_>,
     record: &PyRecord,
     control: &str,
     column: impl Send
     + FnOnce(ControlPoint, f64, &[f64], &mut Observer<'_>) -> basemat::Result<SiteMotion>,
 ) -> PyResult<PyRecord> {
-    let (control, step) = (self::control(control)?, record.0.time_step());
+    let control = self::control(control)?;
+    let step = record.0.time_step();
     let samples = record.0.accelerations();
     let motion =
-        py.detach(|| watched(None, |observer| column(control, step, samples, observer)))?;
-    let lost = [motion.before, motion.after, motion.rounding].map(|part| part / motion.peak());
-    let [before, after, rounding] = lost.map(|part| format!("{:.2} %", 100.0 * part));
-    if lost[0].max(lost[1]) > UNSEEN {
+        py.detach(|| with_progress(None, |observer| column(control, step, samples, observer)))?;
+    let before = motion.before / motion.peak();
+    let after = motion.after / motion.peak();
+    let rounding = motion.rounding / motion.peak();
+    if before.max(after) > MAX_SILENT_ERROR {
         let text = format!(
-            "the motion begins before the record or lasts longer, and is cut off: up to {before} of its peak \
-             before the first sample, up to {after} after the last; give the record quiet time on both sides (padded)"
+            "the motion begins before the record or lasts longer, and is cut off: up to {:.2} % of its peak \
+             before the first sample, up to {:.2} % after the last; give the record quiet time on both sides (padded)",
+            100.0 * before,
+            100.0 * after
         );
         crate::error::warn(py, text)?;
     }
-    if lost[2] > UNSEEN {
+    if rounding > MAX_SILENT_ERROR {
         let text = format!(
-            "rounding is {rounding} of the motion's peak, since layers amplify high frequencies on the way down; \
-             remove these from the record before (low_pass)"
+            "rounding is {:.2} % of the motion's peak, since layers amplify high frequencies on the way down; \
+             remove these from the record before (low_pass)",
+            100.0 * rounding
         );
         crate::error::warn(py, text)?;
     }
@@ -266,9 +276,9 @@ impl PyColumn {
         control: &str,
     ) -> PyResult<Array<Complex64>> {
         let control = self::control(control)?;
-        let call =
-            |observer: &mut Observer<'_>| self.0.transfers(control, &frequencies.0, observer);
-        let values = py.detach(|| watched(None, call))?;
+        let values = py.detach(|| {
+            with_progress(None, |observer| self.0.transfers(control, &frequencies.0, observer))
+        })?;
         Ok(values.into_iter().map(complex).collect())
     }
 
@@ -277,8 +287,8 @@ impl PyColumn {
     /// and is cut off, from 0.01 % on: `Record.padded` makes room for it.
     #[pyo3(signature = (record, *, control="outcrop"))]
     fn to_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
-        through(py, record, control, |control, step, own, observer| {
-            self.0.to_surface(control, step, own, observer)
+        through_column(py, record, control, |control, step, samples, observer| {
+            self.0.to_surface(control, step, samples, observer)
         })
     }
 
@@ -288,8 +298,8 @@ impl PyColumn {
     #[pyo3(signature = (record, *, control="outcrop"))]
     #[allow(clippy::wrong_self_convention, reason = "the core's name")]
     fn from_surface(&self, py: Python<'_>, record: &PyRecord, control: &str) -> PyResult<PyRecord> {
-        through(py, record, control, |control, step, own, observer| {
-            self.0.from_surface(control, step, own, observer)
+        through_column(py, record, control, |control, step, samples, observer| {
+            self.0.from_surface(control, step, samples, observer)
         })
     }
 
@@ -306,12 +316,16 @@ impl PyColumn {
         up: Option<Bound<'_, PyRecord>>,
         control: &str,
     ) -> PyResult<[Option<PyRecord>; 3]> {
-        let (motion, control) = (records([x, y, up]), self::control(control)?);
-        let call = |observer: &mut Observer<'_>| {
-            SoilColumn::surface_in_plan(&profile.0, control, &motion, observer)
-        };
-        let found = py.detach(|| watched(None, call))?;
-        Ok([found.x, found.y, found.up].map(|own| own.map(|own| PyRecord(Arc::new(own)))))
+        let motion =
+            Triaxial { x: cloned(x.as_ref()), y: cloned(y.as_ref()), up: cloned(up.as_ref()) };
+        let control = self::control(control)?;
+        let surface = py.detach(|| {
+            with_progress(None, |observer| {
+                SoilColumn::surface_in_plan(&profile.0, control, &motion, observer)
+            })
+        })?;
+        let records = [surface.x, surface.y, surface.up];
+        Ok(records.map(|record| record.map(|record| PyRecord(Arc::new(record)))))
     }
 }
 
@@ -367,9 +381,9 @@ impl PyInclinedWave {
             ("incident", InclinedControl::Incident),
         ];
         let control = choice("control", control, &all)?;
-        let call =
-            |observer: &mut Observer<'_>| self.0.surface_records(control, &record.0, observer);
-        let surface = py.detach(|| watched(None, call))?;
+        let surface = py.detach(|| {
+            with_progress(None, |observer| self.0.surface_records(control, &record.0, observer))
+        })?;
         let speed = self.0.apparent_velocity();
         turned(azimuth, move || TravellingWave::new(surface.clone(), speed, origin))
     }

@@ -3,7 +3,7 @@
 use basemat::coupled::{EnergyBalance, EnergyTerm};
 use pyo3::prelude::*;
 
-use crate::array::Named;
+use crate::array::OrderedDict;
 
 /// Energies since the start, J, in the plane J per metre of thickness:
 /// ``kinetic + strain + hysteresis + damping + algorithmic + soil + contact + interface + static_contact = input``.
@@ -98,15 +98,14 @@ impl PyEnergyBalance {
     }
 
     /// All terms by their names: dict of numbers, J, in the plane J/m.
-    fn to_dict(&self) -> Named<String, f64> {
+    fn to_dict(&self) -> OrderedDict<String, f64> {
         EnergyTerm::ALL.into_iter().map(|term| (term.to_string(), self.0.term(term))).collect()
     }
 
     fn _repr_html_(&self) -> String {
-        let row = |term: EnergyTerm| {
-            format!("<tr><td>{term}</td><td>{:.4e}</td></tr>", self.0.term(term))
-        };
-        let rows: String = EnergyTerm::ALL.into_iter().map(row).collect();
+        let rows = EnergyTerm::ALL
+            .map(|term| format!("<tr><td>{term}</td><td>{:.4e}</td></tr>", self.0.term(term)))
+            .concat();
         format!(
             "<table><tr><th>energy</th><th>J (in the plane J/m)</th></tr>{rows}<tr><td>residual, relative</td>\
              <td>{:.1e}</td></tr></table>",
@@ -115,7 +114,8 @@ impl PyEnergyBalance {
     }
 
     fn __repr__(&self) -> String {
-        let (input, residual) = (self.0.input, self.0.residual());
+        let input = self.0.input;
+        let residual = self.0.residual();
         format!("EnergyBalance(input {input:.6e} J, in the plane J/m, residual {residual:.1e})")
     }
 }

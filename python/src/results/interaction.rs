@@ -5,7 +5,7 @@ use basemat::results::Quantity;
 use pyo3::prelude::*;
 
 use super::PyRun;
-use crate::array::Named;
+use crate::array::OrderedDict;
 use crate::error::OrRaise;
 use crate::html::preformatted;
 
@@ -99,7 +99,7 @@ impl PyInteraction {
 
     /// Largest magnitudes of the probes on the ground over those on the fixed base: dict of numbers by their names.
     #[getter]
-    fn probe_ratios(&self) -> PyResult<Named<String, f64>> {
+    fn probe_ratios(&self) -> PyResult<OrderedDict<String, f64>> {
         let names = self.found.on_ground.probes.iter().map(|probe| probe.name.clone());
         names.map(|name| Ok((name.clone(), self.found.probe_ratio(&name).or_raise()?))).collect()
     }

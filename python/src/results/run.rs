@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use basemat::coupled::EnergyTerm;
 use basemat::io::paraview;
 use basemat::results::{Quantity, Run, Summary, TimeSeries};
 use pyo3::prelude::*;
@@ -10,11 +9,11 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use super::shape::shape;
 use super::{PyEnergyBalance, PyExtremes, PyPeak, PyServiceCheck, PySummary, series};
-use crate::array::{Array, Named, Numbers, Rows};
-use crate::error::{OrRaise, in_python, refuse, warn};
+use crate::array::{Array, Numbers, OrderedDict, Rows};
+use crate::error::{OrRaise, in_python_words, input_error, warn};
 use crate::html::preformatted;
 use crate::motion::{PyRecord, PySpectrum, coarse};
-use crate::ticker::watched;
+use crate::ticker::with_progress;
 
 /// A run: the `Summary` of the whole base, envelopes, energies, warnings, and its time series.
 ///
@@ -28,7 +27,7 @@ pub(crate) struct PyRun {
     names: Option<Vec<String>>,
 }
 
-extends!(PyRun, own => PySummary(own.run.whole.clone()));
+extends!(PyRun, run => PySummary(run.run.whole.clone()));
 
 impl PyRun {
     pub(crate) fn new(
@@ -39,28 +38,30 @@ impl PyRun {
         Self { run, time_series, names }
     }
 
-    fn kept(&self) -> PyResult<&TimeSeries> {
+    /// The time series; an error if the run recorded none.
+    fn recorded(&self) -> PyResult<&TimeSeries> {
         self.time_series
             .as_ref()
-            .ok_or_else(|| refuse("the run kept no time series (`series=False`)"))
+            .ok_or_else(|| input_error("the run kept no time series (`series=False`)"))
     }
 
     /// Peaks of all scalars of the base or of a foundation; None where there is none.
-    fn peaks(&self, of: &Summary) -> impl Iterator<Item = (String, Option<f64>)> {
+    fn peaks(&self, summary: &Summary) -> impl Iterator<Item = (String, Option<f64>)> {
         Quantity::recorded(self.run.in_plan).map(|quantity| {
-            let value = of.peak(quantity).value;
+            let value = summary.peak(quantity).value;
             (quantity.to_string(), (!value.is_nan()).then_some(value))
         })
     }
 
     /// The time series, of which the `probe` is one.
-    fn probed(&self, probe: &str) -> PyResult<&TimeSeries> {
-        let (time_series, known) = (self.kept()?, series::names(self.kept()?));
-        if known.iter().any(|own| own == probe) {
+    fn series_with_probe(&self, probe: &str) -> PyResult<&TimeSeries> {
+        let time_series = self.recorded()?;
+        let names = series::probe_names(time_series);
+        if names.iter().any(|name| name == probe) {
             return Ok(time_series);
         }
-        let known = if known.is_empty() { "none".into() } else { known.join(", ") };
-        Err(refuse(format!("there is no probe '{probe}', only {known}")))
+        let names = if names.is_empty() { "none".into() } else { names.join(", ") };
+        Err(input_error(format!("there is no probe '{probe}', only {names}")))
     }
 }
 
@@ -99,7 +100,7 @@ impl PyRun {
     /// The ground motion: dict of "peak" (largest component of the acceleration, m/s²), "duration" and "time_step" of its
     /// record (s; None without one) and "passed", the fraction of the record's intensity until the end of the run.
     #[getter]
-    fn ground_motion(&self) -> Named<&'static str, Option<f64>> {
+    fn ground_motion(&self) -> OrderedDict<&'static str, Option<f64>> {
         let motion = self.run.ground_motion;
         let numbers = [Some(motion.peak), motion.duration, motion.time_step, motion.passed];
         ["peak", "duration", "time_step", "passed"].into_iter().zip(numbers).collect()
@@ -117,10 +118,10 @@ impl PyRun {
         self.run.ground_motion.to_string()
     }
 
-    /// Times of the kept steps: array of shape (steps + 1,), s; the first is the start.
+    /// Times of the recorded steps: array of shape (steps + 1,), s; the first is the start.
     #[getter]
     fn time(&self) -> PyResult<Array> {
-        Ok(Array::from(self.kept()?.times()))
+        Ok(Array::from(self.recorded()?.times()))
     }
 
     /// Names of the structure's degrees of freedom: list of n texts; None without names.
@@ -159,7 +160,7 @@ impl PyRun {
         self.run.serviceability.iter().copied().map(PyServiceCheck).collect()
     }
 
-    /// Whether all limits of service were kept; None without limits.
+    /// Whether the run stays within all limits of service; None without limits.
     #[getter]
     fn is_serviceable(&self) -> Option<bool> {
         self.run.is_serviceable()
@@ -177,7 +178,7 @@ impl PyRun {
         PyEnergyBalance(self.run.energy_balance)
     }
 
-    /// Largest residual of the energy balance, relative to the largest energy; NaN if none is kept.
+    /// Largest residual of the energy balance, relative to the largest energy; NaN without an energy balance.
     #[getter]
     fn energy_error(&self) -> f64 {
         self.run.energy_error
@@ -198,51 +199,47 @@ impl PyRun {
     /// List of the texts of warnings: strained assumptions, and steps and elements too coarse for it.
     #[getter]
     pub(crate) fn warnings(&self) -> Vec<String> {
-        self.run.warnings.iter().map(|own| in_python(own.to_string())).collect()
+        self.run.warnings.iter().map(|warning| in_python_words(warning.to_string())).collect()
     }
 
     /// All time series: dict of arrays of shape (steps + 1,), "time" first.
     #[getter]
-    fn series(&self) -> PyResult<Named<String, Array>> {
-        series::all(self.kept()?)
+    fn series(&self) -> PyResult<OrderedDict<String, Array>> {
+        series::all_series(self.recorded()?)
     }
 
     /// Terms of the energy balance over time: dict of arrays of shape (steps + 1,), J, in the plane J/m.
     #[getter]
-    fn energy_balances(&self) -> PyResult<Named<String, Array>> {
-        Ok(series::energy_balances(self.kept()?))
+    fn energy_balances(&self) -> PyResult<OrderedDict<String, Array>> {
+        Ok(series::energy_balances(self.recorded()?))
     }
 
     /// Smallest and largest value of each probe: dict of `Extremes` by its name, in its unit.
     #[getter]
-    fn probes(&self) -> Named<String, PyExtremes> {
-        self.run.probes.iter().map(|own| (own.name.clone(), PyExtremes(own.extremes))).collect()
+    fn probes(&self) -> OrderedDict<String, PyExtremes> {
+        let probes = self.run.probes.iter();
+        probes.map(|probe| (probe.name.clone(), PyExtremes(probe.extremes))).collect()
     }
 
     /// SI units of the time series and of the energies: dict of texts by their names, "" for ratios.
     #[getter]
-    fn units(&self) -> Named<String, &str> {
-        let Run { in_plan, probes, .. } = &self.run;
-        let scalars = Quantity::recorded(*in_plan).map(|own| (own.to_string(), own.unit(*in_plan)));
-        let probes = probes.iter().map(|own| (own.name.clone(), own.unit.as_str()));
-        let energy = if *in_plan { "J" } else { "J/m" };
-        let terms = EnergyTerm::ALL.map(|term| (term.to_string(), energy));
-        let time = [("time".to_owned(), "s")].into_iter();
-        time.chain(scalars).chain(probes).chain(terms).collect()
+    fn units(&self) -> OrderedDict<String, &str> {
+        series::units(&self.run)
     }
 
     /// Lower and upper end of each element: array of shape (elements, 2), m above the surface; zero on it.
     #[getter]
     fn heights(&self) -> Rows {
-        Rows(self.run.envelope.iter().map(|own| own.element.heights().to_vec()).collect())
+        let envelopes = self.run.envelope.iter();
+        Rows(envelopes.map(|envelope| envelope.element.heights().to_vec()).collect())
     }
 
     /// `FaceForces` over time, by ``contact_every`` of `Simulation.run`: dict of "left_wall", "base" and "right_wall", without
     /// walls of "base" alone. Each is a dict of arrays of shape (frames,): "time" (s), "thrust", "shear" (N/m), "place" (m),
     /// "open_fraction" (a ratio).
     #[getter]
-    fn faces(&self) -> PyResult<Named<&'static str, Named<&'static str, Array>>> {
-        series::faces(self.kept()?)
+    fn faces(&self) -> PyResult<OrderedDict<&'static str, OrderedDict<&'static str, Array>>> {
+        series::faces(self.recorded()?)
     }
 
     /// Envelopes of the elements: dict of arrays of shape (elements,): "left", "right", "gap",
@@ -250,22 +247,20 @@ impl PyRun {
     /// "open" (s); in plan also "front", "back", "slip_across" (m) and "shear_across" (Pa), along y;
     /// "gap_time", "lowest_pressure_time" and so on are the times of extremes (s).
     #[getter]
-    fn envelope(&self) -> Named<&'static str, Array> {
-        let columns = Run::ENVELOPE.into_iter().filter(|column| column.2(&self.run));
-        let values = |value| self.run.envelope.iter().map(value).collect();
-        columns.map(|(name, .., value)| (name, values(value))).collect()
+    fn envelope(&self) -> OrderedDict<&'static str, Array> {
+        series::envelope(&self.run)
     }
 
     /// Fractions of the energy input at the end: dict of numbers by the terms' names; None if the input
     /// is not positive.
     #[getter]
-    fn energy_fractions(&self) -> Option<Named<&'static str, f64>> {
+    fn energy_fractions(&self) -> Option<OrderedDict<&'static str, f64>> {
         self.run.energy_balance.fractions().map(|fractions| fractions.into_iter().collect())
     }
 
     /// Peaks of all scalar quantities of each foundation.
     #[getter]
-    fn _foundation_peaks(&self) -> Vec<Named<String, Option<f64>>> {
+    fn _foundation_peaks(&self) -> Vec<OrderedDict<String, Option<f64>>> {
         self.run.foundations.iter().map(|foundation| self.peaks(foundation).collect()).collect()
     }
 
@@ -277,7 +272,7 @@ impl PyRun {
 
     /// Time series of the scalar or the probe ``name``: array of shape (steps + 1,).
     fn __getitem__(&self, name: &str) -> PyResult<Array> {
-        series::named(self.kept()?, name)
+        series::series_named(self.recorded()?, name)
     }
 
     /// Snapshots of the base: dict of "time" (frames,), s, and "gap", "slip" (m), "pressure", "shear"
@@ -285,25 +280,25 @@ impl PyRun {
     /// "shear_across" (Pa), along y.
     #[getter]
     fn contact<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        series::contact(py, self.kept()?)
+        series::contact(py, self.recorded()?)
     }
 
     /// Snapshots of the structure: dict of "time" (frames,), s, "displacement" and "velocity" (frames, n),
     /// m and m/s, and "free_field" (frames, 2), m to the right and up; in plan also "free_field_across" (frames,), m along y.
     #[getter]
     fn motion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        series::motion(py, self.kept()?)
+        series::motion(py, self.recorded()?)
     }
 
     /// Static displacement of the degrees of freedom, under weight and loads at the start: array of shape (n,), m and rad. It
-    /// is kept with the motion: give ``motion_every`` to `Simulation.run`.
+    /// is recorded with the motion: give ``motion_every`` to `Simulation.run`.
     #[getter]
     fn static_displacement(&self) -> PyResult<Array> {
-        let kept = self.kept()?;
-        if kept.motion_frames().next().is_none() {
-            return Err(refuse("no motion was kept: give `motion_every` to `run`"));
+        let time_series = self.recorded()?;
+        if time_series.motion_frames().next().is_none() {
+            return Err(input_error("no motion was kept: give `motion_every` to `run`"));
         }
-        Ok(Array::from(kept.static_displacement()))
+        Ok(Array::from(time_series.static_displacement()))
     }
 
     fn _repr_html_(&self) -> String {
@@ -312,7 +307,7 @@ impl PyRun {
 
     /// The `Record` of the acceleration probe called ``probe``.
     fn acceleration_record(&self, probe: &str) -> PyResult<PyRecord> {
-        PyRecord::from_core(self.probed(probe)?.acceleration_record(probe))
+        PyRecord::from_core(self.series_with_probe(probe)?.acceleration_record(probe))
     }
 
     /// Floor (in-structure) response `Spectrum` of the acceleration probe called ``probe`` at
@@ -327,9 +322,10 @@ impl PyRun {
         periods: Numbers,
         damping: f64,
     ) -> PyResult<PySpectrum> {
-        let record = self.probed(probe)?.acceleration_record(probe).or_raise()?;
-        let spectrum =
-            py.detach(|| watched(None, |own| record.response_spectrum(&periods.0, damping, own)))?;
+        let record = self.series_with_probe(probe)?.acceleration_record(probe).or_raise()?;
+        let spectrum = py.detach(|| {
+            with_progress(None, |observer| record.response_spectrum(&periods.0, damping, observer))
+        })?;
         let warnings = coarse(&record, &periods.0);
         for warning in &warnings {
             warn(py, warning.clone())?;
@@ -341,7 +337,7 @@ impl PyRun {
     /// service "is_serviceable".
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let Self { run, .. } = self;
-        let own = [
+        let further = [
             ("end", Some(run.end)),
             ("shear_coefficient", run.shear_coefficient()),
             ("uplift_duration", Some(run.whole.uplift.duration)),
@@ -351,8 +347,8 @@ impl PyRun {
             ("energy_input", Some(run.energy_balance.input)),
             ("energy_error", Some(run.energy_error)),
         ];
-        let own = own.into_iter().map(|(name, value)| (name.to_owned(), value));
-        let numbers = self.peaks(&run.whole).chain(own).into_py_dict(py)?;
+        let further = further.into_iter().map(|(name, value)| (name.to_owned(), value));
+        let numbers = self.peaks(&run.whole).chain(further).into_py_dict(py)?;
         if let Some(is_serviceable) = run.is_serviceable() {
             numbers.set_item("is_serviceable", is_serviceable)?;
         }
@@ -365,7 +361,7 @@ impl PyRun {
     /// Writes all time series and snapshots as arrays of numpy to the file at ``path``: ``numpy.load(path)`` has them by
     /// names with their units, such as "base_shear_n_per_m", in any version and without this package.
     fn save_npz(&self, path: PathBuf) -> PyResult<()> {
-        self.kept()?.save_npz(path).or_raise()
+        self.recorded()?.save_npz(path).or_raise()
     }
 
     /// Writes the snapshots for ParaView into a ``folder``: ``name.pvd``, and a grid of the base for each snapshot of the
@@ -382,10 +378,13 @@ impl PyRun {
         structure: Option<Bound<'_, PyAny>>,
         height: Option<f64>,
     ) -> PyResult<usize> {
-        let (kept, shape) = (self.kept()?, structure.map(|own| shape(&own, height)).transpose()?);
-        match shape {
-            Some(shape) => paraview::write_series(folder, name, &shape, kept).or_raise(),
-            None => paraview::write_base(folder, name, kept).or_raise(),
+        let time_series = self.recorded()?;
+        match structure {
+            Some(structure) => {
+                let shape = shape(&structure, height)?;
+                paraview::write_series(folder, name, &shape, time_series).or_raise()
+            }
+            None => paraview::write_base(folder, name, time_series).or_raise(),
         }
     }
 

@@ -7,12 +7,12 @@ use basemat::results::{DeformedShape, ShapePoint};
 use basemat::structure::DofCombination;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, Points, Rows, whole};
-use crate::error::{OrRaise, refuse};
+use crate::array::{Numbers, Points, Rows, whole_numbers};
+use crate::error::{OrRaise, input_error};
 use crate::row::RowLike;
 use crate::structure::{
     PyFemModel, PyReducedModel, PyShearBuilding, PyStoreyBuilding, PyStructureGroup,
-    PyWithModalDamping, PyWithSprings, PyWithWalls, recipe,
+    PyWithModalDamping, PyWithSprings, PyWithWalls, structure_recipe,
 };
 
 /// Points and outlines of a ``structure`` that its degrees of freedom move, for pictures and for ParaView.
@@ -24,93 +24,117 @@ use crate::structure::{
 #[pyclass(name = "DeformedShape", module = "basemat", frozen, dict)]
 pub(crate) struct PyDeformedShape(pub(super) DeformedShape);
 
-/// Shape of a structure, of one without a form of its own a box of this `height`.
+/// Shape of a structure; a box of this `height` for one without a shape.
 pub(super) fn shape(object: &Bound<'_, PyAny>, height: Option<f64>) -> PyResult<DeformedShape> {
     let py = object.py();
-    if let Ok(own) = object.cast::<PyDeformedShape>() {
-        return Ok(own.get().0.clone());
+    if let Ok(shape) = object.cast::<PyDeformedShape>() {
+        return Ok(shape.get().0.clone());
     }
-    if let Ok(own) = object.cast::<PyFemModel>() {
-        return Ok(DeformedShape::of_model(&own.get().0));
+    if let Ok(model) = object.cast::<PyFemModel>() {
+        return Ok(DeformedShape::of_model(&model.get().0));
     }
-    if let Ok(own) = object.cast::<PyShearBuilding>() {
-        return DeformedShape::of_building(&own.get().made()?).or_raise();
+    if let Ok(building) = object.cast::<PyShearBuilding>() {
+        return DeformedShape::of_building(&building.get().model()?).or_raise();
     }
-    if let Ok(own) = object.cast::<PyStoreyBuilding>() {
-        return DeformedShape::of_storeys(&own.get().made()?).or_raise();
+    if let Ok(building) = object.cast::<PyStoreyBuilding>() {
+        return DeformedShape::of_storeys(&building.get().model()?).or_raise();
     }
-    if let Ok(own) = object.cast::<PyWithSprings>() {
-        return shape(own.get().0.bind(py), height);
+    if let Ok(with_springs) = object.cast::<PyWithSprings>() {
+        return shape(with_springs.get().0.bind(py), height);
     }
-    if let Ok(own) = object.cast::<PyWithModalDamping>() {
-        return shape(own.get().structure.bind(py), height);
+    if let Ok(damped) = object.cast::<PyWithModalDamping>() {
+        return shape(damped.get().structure.bind(py), height);
     }
-    if let Ok(own) = object.cast::<PyWithWalls>() {
-        let own = own.get();
-        return mapped(&shape(own.structure.bind(py), height)?, [0.0, -own.depth], Ok)
-            .and_then(made);
+    if let Ok(with_walls) = object.cast::<PyWithWalls>() {
+        let with_walls = with_walls.get();
+        let on_surface = shape(with_walls.structure.bind(py), height)?;
+        return mapped(&on_surface, [0.0, -with_walls.depth], Ok).and_then(new_shape);
     }
-    if let Ok(own) = object.cast::<PyReducedModel>() {
-        let recovery = own.get().reduced.recovery();
-        let full = shape(own.get().structure.bind(py), height)?;
-        return mapped(&full, [0.0; 2], |row| recovery.row(row)).and_then(made);
+    if let Ok(model) = object.cast::<PyReducedModel>() {
+        let recovery = model.get().reduced.recovery();
+        let full = shape(model.get().structure.bind(py), height)?;
+        return mapped(&full, [0.0; 2], |row| recovery.row(row)).and_then(new_shape);
     }
-    if let Ok(own) = object.cast::<PyStructureGroup>() {
-        return group(own.get(), py, height);
+    if let Ok(group) = object.cast::<PyStructureGroup>() {
+        return group_shape(group.get(), py, height);
     }
-    if let Some(own) = object.getattr_opt("deformed_shape")? {
-        let own = own.call0()?;
-        let own = own
-            .cast::<PyDeformedShape>()
-            .map_err(|_| refuse("deformed_shape() of the structure must return a DeformedShape"))?;
-        return Ok(own.get().0.clone());
+    if let Some(method) = object.getattr_opt("deformed_shape")? {
+        let returned = method.call0()?;
+        let shape = returned.cast::<PyDeformedShape>().map_err(|_| {
+            input_error("deformed_shape() of the structure must return a DeformedShape")
+        })?;
+        return Ok(shape.get().0.clone());
     }
     let needed = "height: give that of the box that stands for the structure";
-    let height = height.ok_or_else(|| refuse(needed))?;
-    DeformedShape::of_block(recipe(object)?().or_raise()?.as_ref(), height).or_raise()
+    let height = height.ok_or_else(|| input_error(needed))?;
+    DeformedShape::of_block(structure_recipe(object)?().or_raise()?.as_ref(), height).or_raise()
 }
 
-/// Points, and cells by their indices.
-type Parts = (Vec<ShapePoint>, Vec<Vec<usize>>);
+/// Points, and cells by the indices of their points.
+type PointsAndCells = (Vec<ShapePoint>, Vec<Vec<usize>>);
 
-fn made((points, cells): Parts) -> PyResult<DeformedShape> {
+fn new_shape((points, cells): PointsAndCells) -> PyResult<DeformedShape> {
     DeformedShape::new(points, cells).or_raise()
 }
 
-/// A shape moved to the right and up by `shift` (m), whose points are moved by `row` of their own rows.
+/// A shape moved to the right and up by `shift` (m), whose rows `map` converts to those of another structure.
 fn mapped(
     shape: &DeformedShape,
     shift: [f64; 2],
-    row: impl Fn(DofCombination) -> basemat::Result<DofCombination>,
-) -> PyResult<Parts> {
-    let point = |own: &ShapePoint| {
-        let moved = |of: &DofCombination| {
-            if of.is_empty() { Ok(DofCombination::default()) } else { row(of.clone()) }
-        };
-        Ok(ShapePoint {
-            position: [own.position[0] + shift[0], own.position[1] + shift[1]],
-            horizontal: moved(&own.horizontal)?,
-            vertical: moved(&own.vertical)?,
-            away: own.away,
-            across: moved(&own.across)?,
-        })
+    map: impl Fn(DofCombination) -> basemat::Result<DofCombination>,
+) -> PyResult<PointsAndCells> {
+    let map_row = |row: &DofCombination| {
+        if row.is_empty() { Ok(DofCombination::default()) } else { map(row.clone()) }
     };
-    let points = shape.points().iter().map(point).collect::<basemat::Result<_>>().or_raise()?;
+    let points = shape.points().iter().map(|point| {
+        Ok(ShapePoint {
+            position: [point.position[0] + shift[0], point.position[1] + shift[1]],
+            horizontal: map_row(&point.horizontal)?,
+            vertical: map_row(&point.vertical)?,
+            away: point.away,
+            across: map_row(&point.across)?,
+        })
+    });
+    let points = points.collect::<basemat::Result<_>>().or_raise()?;
     Ok((points, shape.cells().to_vec()))
 }
 
 /// Shapes of all members of a group.
-fn group(own: &PyStructureGroup, py: Python<'_>, height: Option<f64>) -> PyResult<DeformedShape> {
-    let (group, mut all) = ((own.make)().or_raise()?, Parts::default());
-    for (member, (structure, shift)) in own.members.iter().enumerate() {
+fn group_shape(
+    group: &PyStructureGroup,
+    py: Python<'_>,
+    height: Option<f64>,
+) -> PyResult<DeformedShape> {
+    let group_model = (group.make)().or_raise()?;
+    let mut points = Vec::new();
+    let mut cells = Vec::new();
+    for (member, (structure, shift)) in group.members.iter().enumerate() {
         let shape = shape(structure.bind(py), height)?;
-        let (points, cells) = mapped(&shape, [*shift, 0.0], |row| group.row(member, row))?;
-        let first = all.0.len();
-        let moved = |cell: Vec<usize>| cell.into_iter().map(|point| first + point).collect();
-        all.0.extend(points);
-        all.1.extend(cells.into_iter().map(moved));
+        let first_point = points.len();
+        let member_shape = mapped(&shape, [*shift, 0.0], |row| group_model.row(member, row))?;
+        points.extend(member_shape.0);
+        for cell in member_shape.1 {
+            cells.push(cell.into_iter().map(|point| first_point + point).collect());
+        }
     }
-    made(all)
+    new_shape((points, cells))
+}
+
+/// A point at a `place` [x, y, z] with the rows of its displacements along `axis_count` axes.
+fn shape_point(place: [f64; 3], rows: Vec<RowLike>, axis_count: usize) -> PyResult<ShapePoint> {
+    let row_count = rows.len();
+    let [x, y, z] = place;
+    let mut rows = rows.into_iter().map(|row| row.0);
+    let row_list = [rows.next(), rows.next(), rows.next()];
+    match row_list {
+        [Some(horizontal), Some(vertical), None] if axis_count == 2 => {
+            Ok(ShapePoint { position: [x, y], horizontal, vertical, ..ShapePoint::default() })
+        }
+        [Some(horizontal), Some(across), Some(vertical)] if row_count == axis_count => {
+            Ok(ShapePoint { position: [x, z], horizontal, vertical, away: y, across })
+        }
+        _ => Err(input_error(format!("a point has {row_count} rows, but must have {axis_count}"))),
+    }
 }
 
 #[pymethods]
@@ -130,52 +154,44 @@ impl PyDeformedShape {
     fn of_points(
         points: Points,
         rows: Vec<Vec<RowLike>>,
-        #[pyo3(from_py_with = whole)] cells: Vec<Vec<usize>>,
+        #[pyo3(from_py_with = whole_numbers)] cells: Vec<Vec<usize>>,
     ) -> PyResult<Self> {
-        let (axes, places) = points.places();
-        if rows.len() != places.len() {
-            let (found, count) = (rows.len(), places.len());
-            return Err(refuse(format!(
-                "rows are {found}, but must be {count}: those of a point each"
+        let axis_count = points.axis_count();
+        let places = points.in_plane();
+        let place_count = places.len();
+        if rows.len() != place_count {
+            let row_count = rows.len();
+            return Err(input_error(format!(
+                "rows are {row_count}, but must be {place_count}: those of a point each"
             )));
         }
-        let point = |([x, y, z], rows): ([f64; 3], Vec<RowLike>)| {
-            let count = rows.len();
-            let mut rows = rows.into_iter().map(|own| own.0);
-            let mut next = || rows.next().unwrap_or_default();
-            if count != axes {
-                return Err(refuse(format!("a point has {count} rows, but must have {axes}")));
-            }
-            let (horizontal, second) = (next(), next());
-            Ok(if axes == 2 {
-                let position = [x, y];
-                ShapePoint { position, horizontal, vertical: second, ..ShapePoint::default() }
-            } else {
-                let position = [x, z];
-                ShapePoint { position, horizontal, vertical: next(), away: y, across: second }
-            })
-        };
-        let points = places.into_iter().zip(rows).map(point).collect::<PyResult<_>>()?;
-        made((points, cells)).map(Self)
+        let mut points = Vec::with_capacity(place_count);
+        for (place, rows) in places.into_iter().zip(rows) {
+            points.push(shape_point(place, rows, axis_count)?);
+        }
+        new_shape((points, cells)).map(Self)
     }
 
     /// Places at rest: array of shape (points, 3), m: x, height and 0 in the plane; x, y and height in space.
     #[getter]
     fn points(&self) -> Rows {
-        let place = |own: &ShapePoint| self.axes([own.position[0], own.position[1], own.away]);
-        Rows(self.0.points().iter().map(place).collect())
+        let places = self.0.points().iter().map(|point| {
+            let [right, up] = point.position;
+            self.axes([right, up, point.away])
+        });
+        Rows(places.collect())
     }
 
     /// Outlines: list of the points of each line or polygon, by their numbers.
     #[getter]
     fn cells(&self) -> Vec<Vec<usize>> {
         // Of curved cells the corners come first.
-        let corners = |own: &Vec<usize>| match own.len() {
-            6 => own[..3].to_vec(),
-            8 | 9 => own[..4].to_vec(),
-            _ => own.clone(),
-        };
-        self.0.cells().iter().map(corners).collect()
+        let corners = self.0.cells().iter().map(|cell| match cell.len() {
+            6 => cell[..3].to_vec(),
+            8 | 9 => cell[..4].to_vec(),
+            _ => cell.clone(),
+        });
+        corners.collect()
     }
 
     /// Whether the points move in three directions.
@@ -190,7 +206,7 @@ impl PyDeformedShape {
     /// ``run.motion["displacement"]``, a static displacement or a vibration mode.
     fn displacements(&self, displacement: Numbers) -> PyResult<Rows> {
         let found = self.0.displacements(&displacement.0).or_raise()?;
-        Ok(Rows(found.into_iter().map(|own| self.axes(own)).collect()))
+        Ok(Rows(found.into_iter().map(|displacement| self.axes(displacement)).collect()))
     }
 
     /// Writes the shape with the displacements by ``displacement`` (array of shape (n,), m and rad) to the file at ``path``

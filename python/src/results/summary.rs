@@ -4,7 +4,7 @@ use basemat::results::{Quantity, ServiceCheck, Summary};
 use pyo3::prelude::*;
 
 use super::{PyExtremes, PyPeak};
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, input_error};
 
 /// The whole base or one foundation over a run: largest values with their times, uplift and sliding.
 ///
@@ -105,38 +105,40 @@ impl PySummary {
         self.0.sliding.path
     }
 
-    /// Least factor of safety against sliding, a `Peak`; None without a friction coefficient.
+    /// Lowest factor of safety against sliding, a `Peak`; None without a friction coefficient.
     #[getter]
     fn least_sliding_safety(&self) -> Option<PyPeak> {
-        let least = self.0.sliding_safety.lowest;
-        (!least.value.is_nan()).then_some(PyPeak(least))
+        let lowest = self.0.sliding_safety.lowest;
+        (!lowest.value.is_nan()).then_some(PyPeak(lowest))
     }
 
-    /// Least factor of safety against overturning, a `Peak`; in plan the lesser of "overturning_safety", over the
+    /// Lowest factor of safety against overturning, a `Peak`; in plan the lower of "overturning_safety", over the
     /// left or the right edge, and "overturning_safety_across", over the front or the back one. Pressure acts in the
     /// middle of elements: a base of few elements stands on its edge at a factor above 1, which a printed run names.
     #[getter]
     fn least_overturning_safety(&self) -> PyPeak {
-        let [along, across] = [self.0.overturning_safety, self.0.overturning_safety_across];
-        PyPeak(if across.lowest.value < along.lowest.value { across.lowest } else { along.lowest })
+        let along = self.0.overturning_safety.lowest;
+        let across = self.0.overturning_safety_across.lowest;
+        PyPeak(if across.value < along.value { across } else { along })
     }
 
     /// The `Extremes` of a ``quantity``, in its unit: the name of a scalar time series such as
     /// "base_shear" or "free_field_horizontal", in plan also "shear_across", "torque", "uplifted_area" and so on.
     fn extremes(&self, quantity: &str) -> PyResult<PyExtremes> {
         let in_plan = self.0.depth != [0.0; 2];
-        let all = || Quantity::recorded(in_plan).map(|own| own.to_string());
-        if !all().any(|own| own == quantity) {
-            let known = all().collect::<Vec<_>>().join(", ");
-            return Err(refuse(format!(
-                "there is no quantity '{quantity}' in this run, only {known}"
+        let names: Vec<_> =
+            Quantity::recorded(in_plan).map(|quantity| quantity.to_string()).collect();
+        if !names.iter().any(|name| name == quantity) {
+            let names = names.join(", ");
+            return Err(input_error(format!(
+                "there is no quantity '{quantity}' in this run, only {names}"
             )));
         }
         Ok(PyExtremes(self.0.extremes(quantity.parse().or_raise()?)))
     }
 }
 
-/// A limit of service, held against a run.
+/// Comparison of a run with a limit of service.
 #[pyclass(name = "ServiceCheck", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyServiceCheck(pub(super) ServiceCheck);
@@ -167,7 +169,7 @@ impl PyServiceCheck {
         self.0.first_excess
     }
 
-    /// Whether the limit was kept.
+    /// Whether the run stays within the limit.
     #[getter]
     fn is_met(&self) -> bool {
         self.0.is_met()

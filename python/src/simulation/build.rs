@@ -7,45 +7,47 @@ use basemat::coupled::{Checkpoint, Coordinates, Probe, SimulationBuilder};
 use basemat::results::Quantity;
 use pyo3::prelude::*;
 
-use super::watched::settled;
-use crate::error::{self, OrRaise, refuse};
+use super::run_reporter::step_result;
+use crate::error::{self, OrRaise, input_error};
 use crate::probe::PyProbe;
-use crate::ticker::{Watching, progress_function};
+use crate::ticker::{ProgressObserver, progress_function};
 
-/// Coordinates by their name, or the tolerance of reduced ones.
-pub(super) fn coordinates(given: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
-    match given.extract::<f64>() {
+/// Coordinates by their name, or reduced ones by their tolerance.
+pub(super) fn coordinates(argument: &Bound<'_, PyAny>) -> PyResult<Coordinates> {
+    match argument.extract::<f64>() {
         Ok(tolerance) => Ok(Coordinates::Reduced { tolerance }),
-        Err(_) => given.extract::<String>()?.parse().or_raise(),
+        Err(_) => argument.extract::<String>()?.parse().or_raise(),
     }
 }
 
-/// The probes of a structure of so many degrees of freedom, none of which has the name of another time series of a run.
+/// The probes of a structure with this number of degrees of freedom.
+///
+/// An error if one has the name of another time series of a run.
 pub(super) fn probes<'a, 'py: 'a>(
-    given: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
+    python_probes: impl Iterator<Item = &'a Bound<'py, PyProbe>>,
     dofs: usize,
 ) -> PyResult<Vec<Probe>> {
-    given
-        .map(|probe| {
-            let PyProbe(probe, order) = probe.get();
-            order.check(&format!("the probe '{}'", probe.name), dofs)?;
-            let name = probe.name.as_str();
-            if name == "time" || Quantity::ALL.iter().any(|own| own.to_string() == name) {
-                return Err(refuse(format!(
-                    "a probe is called '{name}', but that is another time series of a run"
-                )));
-            }
-            Ok(probe.clone())
-        })
-        .collect()
+    let mut probes = Vec::new();
+    for probe in python_probes {
+        let PyProbe(probe, weight_count) = probe.get();
+        weight_count.check(&format!("the probe '{}'", probe.name), dofs)?;
+        let name = probe.name.as_str();
+        if name == "time" || Quantity::ALL.iter().any(|quantity| quantity.to_string() == name) {
+            return Err(input_error(format!(
+                "a probe is called '{name}', but that is another time series of a run"
+            )));
+        }
+        probes.push(probe.clone());
+    }
+    Ok(probes)
 }
 
-/// Task that a line of progress counts before the steps.
-pub(super) const COEFFICIENTS: &str = "parts of the ground's coefficients";
+/// Name of the parts of the work that a line of progress counts before the steps.
+pub(super) const COEFFICIENT_PARTS: &str = "parts of the ground's coefficients";
 
 /// Locks the observer of a build; a panic leaves it whole.
-fn lock(watching: &Mutex<Watching>) -> MutexGuard<'_, Watching> {
-    watching.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock(observer: &Mutex<ProgressObserver>) -> MutexGuard<'_, ProgressObserver> {
+    observer.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Builds without the GIL.
@@ -54,29 +56,46 @@ pub(super) fn build(
     builder: SimulationBuilder,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Simulation> {
-    let progress = progress_function(progress, COEFFICIENTS)?;
+    let progress = progress_function(progress, COEFFICIENT_PARTS)?;
     py.detach(move || {
-        let watching = Arc::new(Mutex::new(Watching::new(progress)));
-        let own = Arc::clone(&watching);
-        let result = builder.observer(move |progress| lock(&own).see(progress)).build();
-        lock(&watching).end(result)
+        let observer = Arc::new(Mutex::new(ProgressObserver::new(progress)));
+        let shared = Arc::clone(&observer);
+        let result = builder.observer(move |progress| lock(&shared).update(progress)).build();
+        lock(&observer).end(result)
     })
 }
 
 /// The checkpoint at the start of a simulation, or why there is none.
 pub(super) fn start(simulation: &Simulation) -> PyResult<Checkpoint> {
-    settled(simulation.checkpoint())
+    step_result(simulation.checkpoint())
 }
 
 /// Number of steps that last so long, rounded up.
 pub(super) fn steps_for(simulation: &Simulation, duration: f64) -> PyResult<usize> {
     if !duration.is_finite() || duration < 0.0 {
-        return Err(refuse(format!("duration is {duration} s, but must be finite and 0 or more")));
+        return Err(input_error(format!(
+            "duration is {duration} s, but must be finite and 0 or more"
+        )));
     }
     Ok(simulation.steps_for(duration))
 }
 
-/// Steps asked for directly, by a duration, or to the `end` of the motion.
+/// Error unless the observer of a run is a function that is called every `observe_every` steps, one or more.
+pub(super) fn check_observer(
+    py: Python<'_>,
+    observe: Option<&Py<PyAny>>,
+    observe_every: usize,
+) -> PyResult<()> {
+    if observe_every == 0 {
+        return Err(input_error("observe_every is 0, but must be one or more"));
+    }
+    if observe.is_some_and(|observe| !observe.bind(py).is_callable()) {
+        return Err(input_error("observe must be a function of a state"));
+    }
+    Ok(())
+}
+
+/// Number of steps of a run: the argument `steps`, or those of a duration, or those to the `end` of the motion.
 pub(super) fn count(
     py: Python<'_>,
     simulation: &Simulation,
@@ -85,13 +104,14 @@ pub(super) fn count(
     duration: Option<f64>,
 ) -> PyResult<usize> {
     match (steps, duration, end) {
-        (Some(_), Some(_), _) => Err(refuse("give steps or a duration, not both")),
+        (Some(_), Some(_), _) => Err(input_error("give steps or a duration, not both")),
         (Some(steps), None, _) => Ok(steps),
         (None, Some(duration), _) => steps_for(simulation, duration),
         (None, None, Some(end)) => {
-            let (all, made) = (steps_for(simulation, end)?, simulation.state().step);
-            if made < all {
-                return Ok(all - made);
+            let all = steps_for(simulation, end)?;
+            let done = simulation.state().step;
+            if done < all {
+                return Ok(all - done);
             }
             let text = format!(
                 "the motion ended at {end} s, before these {all} steps: the ground does not \
@@ -102,7 +122,7 @@ pub(super) fn count(
             Ok(all)
         }
         (None, None, None) => {
-            Err(refuse("give steps or a duration: no record says how long to run"))
+            Err(input_error("give steps or a duration: no record says how long to run"))
         }
     }
 }

@@ -9,20 +9,21 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use super::build;
-use super::given::{Given, Groups, Made};
 use super::options::{
     Options, PyInitialConditions, PyResultOptions, PyServiceLimits, PySolverOptions, refuse_others,
 };
-use super::watched::{Watched, prepared, settled};
+use super::parts::{BuilderParts, OptionGroups, SimulationParts, cloned_or_default};
+use super::run_reporter::{RunReporter, prepare_next_step, step_result};
 use super::{PyCheckpoint, PyLoad, PyState, PySteps};
-use crate::array::{Array, whole};
+use crate::array::{Array, whole_numbers};
 use crate::dof_names::DofNames;
-use crate::error;
-use crate::error::{OrRaise, kept, locked, raise, refuse, take_raised};
+use crate::error::{
+    self, OrRaise, input_error, lock_error, take_exception, to_exception, user_code_error,
+};
 use crate::probe::PyProbe;
 use crate::results::{PyInteraction, PyRun};
-use crate::several::{Several, no_such};
-use crate::ticker::{progress_function, watched};
+use crate::several::{ListOf, type_error};
+use crate::ticker::{progress_function, with_progress};
 
 /// A structure on a ground, ready to march: from the static state under its weight, step by step.
 ///
@@ -59,14 +60,14 @@ pub(crate) struct PySimulation {
     duration: Option<f64>,
     /// Checkpoint of the simulation's start, or why it cannot go back there.
     start: PyResult<Checkpoint>,
-    /// Parts and settings, of which the same scene is made again.
-    given: Given,
+    /// Parts and settings, from which the same scene can be made again.
+    parts: SimulationParts,
 }
 
 impl PySimulation {
     /// The simulation, unless a run holds it.
     fn lock(&self) -> PyResult<MutexGuard<'_, Simulation>> {
-        self.simulation.try_lock().map_err(locked)
+        self.simulation.try_lock().map_err(lock_error)
     }
 }
 
@@ -93,7 +94,9 @@ impl PySimulation {
     /// Ends of the contact elements: list of (left, right), m.
     #[getter]
     fn elements(&self) -> PyResult<Vec<(f64, f64)>> {
-        Ok(self.lock()?.ground().elements().iter().map(|e| (e.left(), e.right())).collect())
+        let simulation = self.lock()?;
+        let elements = simulation.ground().elements().iter();
+        Ok(elements.map(|element| (element.left(), element.right())).collect())
     }
 
     /// Static displacement of the degrees of freedom: array of shape (n,), m and rad.
@@ -102,7 +105,7 @@ impl PySimulation {
         Ok(Array::from(self.lock()?.static_displacement()))
     }
 
-    /// Which history the ground keeps, in words; None for a ground without one.
+    /// The method by which the ground computes its history, in words; None for a ground without history.
     #[getter]
     fn history_choice(&self) -> PyResult<Option<String>> {
         Ok(self.lock()?.ground().description().history.map(|choice| choice.to_string()))
@@ -124,19 +127,19 @@ impl PySimulation {
     /// The law of the interface as it was given, or the list of laws.
     #[getter]
     fn interface(&self) -> &Py<PyAny> {
-        &self.given.interface
+        &self.parts.interface
     }
 
     /// The ground motion as it was given; None without one.
     #[getter]
     fn motion(&self) -> Option<&Py<PyAny>> {
-        self.given.motion.as_ref()
+        self.parts.motion.as_ref()
     }
 
     /// All arguments by their names, as they were given; those that were not are None, an empty list or False.
     #[getter]
     fn _arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.given.arguments(py)
+        self.parts.arguments(py)
     }
 
     /// The springs of the structure that are written in Python (`UserHysteresis`): list of the
@@ -154,7 +157,7 @@ impl PySimulation {
         Ok((conditioning.effective_stiffness, conditioning.ground, conditioning.delassus))
     }
 
-    // The text has no `others`: they are there to be refused with the name of their group.
+    // `others` are not in the text: each is an error that names the group of the option.
     #[new]
     #[pyo3(
         signature = (
@@ -173,8 +176,8 @@ impl PySimulation {
         ground: Bound<'_, PyAny>,
         interface: Bound<'_, PyAny>,
         motion: Option<Bound<'_, PyAny>>,
-        loads: Option<Several<'_, PyLoad>>,
-        probes: Option<Several<'_, PyProbe>>,
+        loads: Option<ListOf<'_, PyLoad>>,
+        probes: Option<ListOf<'_, PyProbe>>,
         initial: Option<Py<PyInitialConditions>>,
         solver: Option<Py<PySolverOptions>>,
         results: Option<Py<PyResultOptions>>,
@@ -184,31 +187,32 @@ impl PySimulation {
         others: Option<Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         refuse_others(others.as_ref())?;
-        take_raised();
+        take_exception();
         let needed = "a number of seconds: Simulation(time_step, structure, ground, interface)";
-        let time_step = time_step.extract().map_err(|_| no_such(&time_step, needed))?;
-        let given = Given {
+        let time_step = time_step.extract().map_err(|_| type_error(&time_step, needed))?;
+        let parts = SimulationParts {
             time_step,
             structure: structure.unbind(),
             ground: ground.unbind(),
             interface: interface.unbind(),
             motion: motion.map(Bound::unbind),
-            loads: loads.map(Several::unbound).unwrap_or_default(),
-            probes: probes.map(Several::unbound).unwrap_or_default(),
+            loads: loads.map(ListOf::unbound).unwrap_or_default(),
+            probes: probes.map(ListOf::unbound).unwrap_or_default(),
             options: Options {
-                initial: initial.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
-                solver: solver.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
-                results: results.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
-                limits: service_limits.as_ref().map(|own| own.get().clone()).unwrap_or_default(),
+                initial: cloned_or_default(initial.as_ref()),
+                solver: cloned_or_default(solver.as_ref()),
+                results: cloned_or_default(results.as_ref()),
+                limits: cloned_or_default(service_limits.as_ref()),
             },
-            groups: Groups { initial, solver, results, service_limits },
+            groups: OptionGroups { initial, solver, results, service_limits },
             fixed_base,
         };
-        let Made { builder, structure, ground, hysteresis, names, duration } = given.made(py)?;
+        let BuilderParts { builder, structure, ground, hysteresis, names, duration } =
+            parts.builder_parts(py)?;
         let simulation = build::build(py, builder, progress.as_ref())?;
         let start = build::start(&simulation);
         let simulation = Mutex::new(simulation);
-        Ok(Self { simulation, structure, ground, hysteresis, names, duration, start, given })
+        Ok(Self { simulation, structure, ground, hysteresis, names, duration, start, parts })
     }
 
     /// Makes ``steps`` steps, or the steps of a ``duration`` (s); without either, up to the end of the motion.
@@ -222,7 +226,7 @@ impl PySimulation {
     /// it ends the run, too, and so does Ctrl-C; a `BasematWarning` tells if the process ignores Ctrl-C. The simulation then
     /// stays at the last accepted step.
     ///
-    /// ``series``: whether time series are kept, True by default: the scalars of every ``every``th step (1 by default, as
+    /// ``series``: whether time series are recorded, True by default: the scalars of every ``every``th step (1 by default, as
     /// floor spectra need), the contact of every ``contact_every``th and the structure's motion of every
     /// ``motion_every``th (none unless given). All of them must fit into `memory_limit` before the first step; with
     /// ``observe``, which may end the run, only the values of the steps made.
@@ -236,26 +240,19 @@ impl PySimulation {
     fn run(
         &self,
         py: Python<'_>,
-        #[pyo3(from_py_with = whole)] steps: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] steps: Option<usize>,
         duration: Option<f64>,
         progress: Option<Bound<'_, PyAny>>,
         observe: Option<Py<PyAny>>,
-        #[pyo3(from_py_with = whole)] observe_every: usize,
+        #[pyo3(from_py_with = whole_numbers)] observe_every: usize,
         series: bool,
-        #[pyo3(from_py_with = whole)] every: usize,
-        #[pyo3(from_py_with = whole)] contact_every: Option<usize>,
-        #[pyo3(from_py_with = whole)] motion_every: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] every: usize,
+        #[pyo3(from_py_with = whole_numbers)] contact_every: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] motion_every: Option<usize>,
         warn: bool,
     ) -> PyResult<PyRun> {
         let steps = build::count(py, &*self.lock()?, self.duration, steps, duration)?;
-        if observe_every == 0 {
-            return Err(refuse("observe_every is 0, but must be one or more"));
-        }
-        if let Some(observe) = &observe
-            && !observe.bind(py).is_callable()
-        {
-            return Err(refuse("observe must be a function of a state"));
-        }
+        build::check_observer(py, observe.as_ref(), observe_every)?;
         let mut recorder = Recorder::new().every(every);
         if let Some(every) = contact_every {
             recorder = recorder.contact(every);
@@ -263,10 +260,10 @@ impl PySimulation {
         if let Some(every) = motion_every {
             recorder = recorder.motion(every);
         }
-        let line = progress.as_ref().filter(|own| !own.is_callable());
-        let coefficients = progress_function(line, build::COEFFICIENTS)?;
+        let line = progress.as_ref().filter(|progress| !progress.is_callable());
+        let coefficients = progress_function(line, build::COEFFICIENT_PARTS)?;
         let progress = progress_function(progress.as_ref(), "steps")?;
-        take_raised();
+        take_exception();
         let run = py.detach(|| {
             let mut simulation = self.lock()?;
             let mut time_series =
@@ -275,13 +272,14 @@ impl PySimulation {
                 // A run that its observer ends may take fewer steps than given.
                 time_series.reserve(steps).or_else(|error| match error {
                     basemat::Error::Memory(_) if observe.is_some() => Ok(()),
-                    _ => Err(raise(error)),
+                    _ => Err(to_exception(error)),
                 })?;
             }
-            watched(coefficients, |observer| simulation.prepare(steps, observer))?;
-            let mut watched = Watched::new(progress, steps, observe, observe_every, time_series);
-            let result = simulation.run(steps, |state| watched.see(state));
-            watched.end(result, self.names.as_ref())
+            with_progress(coefficients, |observer| simulation.prepare(steps, observer))?;
+            let mut reporter =
+                RunReporter::new(progress, steps, observe, observe_every, time_series);
+            let result = simulation.run(steps, |state| reporter.update(state));
+            reporter.end(result, self.names.as_ref())
         })?;
         if warn {
             run.warnings().into_iter().try_for_each(|text| error::warn(py, text))?;
@@ -292,11 +290,11 @@ impl PySimulation {
     /// Makes one step and returns the new state. Raises `StepError` if the step could not be
     /// solved; the simulation is then as it was before.
     fn step(&self, py: Python<'_>) -> PyResult<PyState> {
-        take_raised();
+        take_exception();
         py.detach(|| {
             let mut simulation = self.lock()?;
-            prepared(&mut simulation)?;
-            settled(simulation.step().cloned()).map(PyState)
+            prepare_next_step(&mut simulation)?;
+            step_result(simulation.step().cloned()).map(PyState)
         })
     }
 
@@ -305,12 +303,12 @@ impl PySimulation {
     #[pyo3(signature = (steps=None, *, duration=None))]
     fn steps(
         slf: Bound<'_, Self>,
-        #[pyo3(from_py_with = whole)] steps: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] steps: Option<usize>,
         duration: Option<f64>,
     ) -> PyResult<PySteps> {
-        let own = slf.get();
-        let left = build::count(slf.py(), &*own.lock()?, own.duration, steps, duration)?;
-        Ok(PySteps { simulation: slf.into_any().unbind(), left })
+        let this = slf.get();
+        let remaining = build::count(slf.py(), &*this.lock()?, this.duration, steps, duration)?;
+        Ok(PySteps { simulation: slf.into_any().unbind(), remaining })
     }
 
     /// Sets the force of the load number ``index`` (from 0, in the order of ``loads``) for all steps from now on.
@@ -320,7 +318,7 @@ impl PySimulation {
     /// `step`. A checkpoint holds it; `reset` returns to the functions.
     fn set_load(
         &self,
-        #[pyo3(from_py_with = whole)] index: usize,
+        #[pyo3(from_py_with = whole_numbers)] index: usize,
         value: Option<f64>,
     ) -> PyResult<()> {
         self.lock()?.set_load(index, value).or_raise()
@@ -331,18 +329,19 @@ impl PySimulation {
     /// first mode (ASCE 7, chapter 19). This simulation stays where it is.
     ///
     /// T and β belong to the mode that moves the most mass along an axis, with the contact nodes held; of a nonlinear
-    /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground, deflected in this mode and
-    /// let go. The soil is linear: give it the moduli of the design motion.
+    /// structure with its first tangent. For T̃ and β₀ the structure is bonded to its ground and released from a
+    /// deflection in this mode. The soil is linear: give it the moduli of the design motion.
     #[pyo3(signature = (duration=None))]
     fn interaction(&self, py: Python<'_>, duration: Option<f64>) -> PyResult<PyInteraction> {
         let needed = "give a duration: no record says how long to run";
-        let duration = duration.or(self.duration).ok_or_else(|| refuse(needed))?;
-        take_raised();
-        let scene = || {
-            let made = Python::attach(|py| self.given.made(py));
-            made.map(|made| made.builder).map_err(|error| kept("scene", error))
-        };
-        let found = py.detach(|| settled(basemat::coupled::interaction(duration, scene)))?;
+        let duration = duration.or(self.duration).ok_or_else(|| input_error(needed))?;
+        take_exception();
+        let found = py.detach(|| {
+            step_result(basemat::coupled::interaction(duration, || {
+                let parts = Python::attach(|py| self.parts.builder_parts(py));
+                parts.map(|parts| parts.builder).map_err(|error| user_code_error("scene", error))
+            }))
+        })?;
         Ok(PyInteraction { found, names: self.names.as_ref().map(DofNames::to_vec) })
     }
 
@@ -353,8 +352,8 @@ impl PySimulation {
 
     /// Saves what the steps so far have left behind as a `Checkpoint`, for `resume`.
     fn checkpoint(&self) -> PyResult<PyCheckpoint> {
-        take_raised();
-        settled(self.lock()?.checkpoint()).map(PyCheckpoint)
+        take_exception();
+        step_result(self.lock()?.checkpoint()).map(PyCheckpoint)
     }
 
     /// Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
@@ -366,10 +365,10 @@ impl PySimulation {
     ///         "gravity_stage" and "initial_motion"; none unless given.
     #[pyo3(signature = (checkpoint, changes=None))]
     fn resume(&self, checkpoint: &PyCheckpoint, changes: Option<Vec<String>>) -> PyResult<()> {
-        take_raised();
-        let words = changes.unwrap_or_default();
-        let changes: basemat::Result<Vec<Change>> = words.iter().map(|word| word.parse()).collect();
-        settled(self.lock()?.resume_changed(&checkpoint.0, &settled(changes)?))
+        take_exception();
+        let names = changes.unwrap_or_default();
+        let changes: basemat::Result<Vec<Change>> = names.iter().map(|name| name.parse()).collect();
+        step_result(self.lock()?.resume_changed(&checkpoint.0, &step_result(changes)?))
     }
 
     /// Goes back to the start: what follows has the bits that it had from there.
@@ -377,15 +376,18 @@ impl PySimulation {
     /// Needs what `checkpoint` needs: a structure of the user's that has ``commit`` also has
     /// ``save`` and ``restore``.
     fn reset(&self, py: Python<'_>) -> PyResult<()> {
-        take_raised();
+        take_exception();
         let start = self.start.as_ref().map_err(|reason| reason.clone_ref(py))?;
         // The simulation's own start, even if the user's loads and laws return other values by now.
-        settled(self.lock()?.resume_changed(start, &Change::ALL))
+        step_result(self.lock()?.resume_changed(start, &Change::ALL))
     }
 
     fn __repr__(&self) -> String {
         match self.lock() {
-            Ok(own) => format!("Simulation(step {}, {} s)", own.state().step, own.state().time),
+            Ok(simulation) => {
+                let state = simulation.state();
+                format!("Simulation(step {}, {} s)", state.step, state.time)
+            }
             Err(_) if self.simulation.is_poisoned() => "Simulation(unusable)".into(),
             Err(_) => "Simulation(running)".into(),
         }

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use basemat::coupled::Load;
 use pyo3::prelude::*;
 
-use crate::array::{Numbers, real};
-use crate::error::{OrRaise, asked, refuse};
+use crate::array::{Numbers, real_number};
+use crate::error::{OrRaise, call_user_code, input_error};
 use crate::motion::PyRecord;
 use crate::recipe::Make;
-use crate::row::{Order, RowLike};
+use crate::row::{RowLike, WeightCount};
 
 /// A force that acts on a structure from outside.
 ///
@@ -19,15 +19,15 @@ use crate::row::{Order, RowLike};
 #[pyclass(name = "Load", module = "basemat", frozen, dict)]
 pub(crate) struct PyLoad {
     pub(super) make: Make<Load>,
-    pub(super) order: Order,
+    pub(super) weight_count: WeightCount,
 }
 
 impl PyLoad {
     fn from_recipe(
-        order: Order,
+        weight_count: WeightCount,
         make: impl Fn() -> basemat::Result<Load> + Send + Sync + 'static,
     ) -> Self {
-        Self { make: Arc::new(make), order }
+        Self { make: Arc::new(make), weight_count }
     }
 }
 
@@ -36,14 +36,17 @@ impl PyLoad {
     #[new]
     fn new(row: RowLike, value: Bound<'_, PyAny>) -> PyResult<Self> {
         if !value.is_callable() {
-            return Err(refuse("the value of a load must be a function of time"));
+            return Err(input_error("the value of a load must be a function of time"));
         }
-        let (RowLike(row, order), value) = (row, Arc::new(value.unbind()));
-        Ok(Self::from_recipe(order, move || {
+        let (RowLike(row, weight_count), value) = (row, Arc::new(value.unbind()));
+        Ok(Self::from_recipe(weight_count, move || {
             let value = Arc::clone(&value);
             Ok(Load::new(row.clone(), move |time| {
-                asked(f64::NAN, |py| {
-                    real("the value of a load's function", value.call1(py, (time,))?.bind(py))
+                call_user_code(f64::NAN, |py| {
+                    real_number(
+                        "the value of a load's function",
+                        value.call1(py, (time,))?.bind(py),
+                    )
                 })
             }))
         }))
@@ -72,8 +75,8 @@ impl PyLoad {
     /// between its samples and zero beyond its ends.
     #[staticmethod]
     fn record(row: RowLike, record: &PyRecord, force: f64) -> Self {
-        let (RowLike(row, order), record) = (row, Arc::clone(&record.0));
-        Self::from_recipe(order, move || Ok(Load::record(row.clone(), &record, force)))
+        let (RowLike(row, weight_count), record) = (row, Arc::clone(&record.0));
+        Self::from_recipe(weight_count, move || Ok(Load::record(row.clone(), &record, force)))
     }
 
     /// Forces on the ``row`` from a table: ``forces`` (array of shape (m,), N/m) at ``times`` (array of

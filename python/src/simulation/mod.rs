@@ -4,12 +4,12 @@ mod build;
 mod class;
 mod face;
 mod foundation;
-mod given;
 mod load;
 mod options;
+mod parts;
+mod run_reporter;
 mod scheme;
 mod state;
-mod watched;
 
 pub(crate) use class::PySimulation;
 pub(crate) use face::PyFaceForces;

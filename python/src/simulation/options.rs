@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 
 use super::PyTimeScheme;
 use super::build::coordinates;
-use crate::array::{Numbers, whole};
+use crate::array::{Numbers, whole_numbers};
 use crate::error::OrRaise;
 
 /// Weight and motion at the start of a simulation.
@@ -21,7 +21,7 @@ use crate::error::OrRaise;
 ///         after it, slowly, and the interface law acts. "frictionless" (the default): neither friction
 ///         nor cohesion, and the base sticks from then on; "frictional": the interface law acts, in one step;
 ///         "wished_in_place": walls and base in the ground replace soil at rest, for comparisons; "unloaded": there is no
-///         static state, weight and loads act from t = 0 on, as for a block let go.
+///         static state, weight and loads act from t = 0 on, as for a block that is released.
 ///     displacement: of the n degrees of freedom at t = 0 against the static state, array of
 ///         shape (n,), m and rad; zero unless given. The base may move only if "unloaded".
 ///     velocity: the same for velocities, m/s and rad/s; zero unless given.
@@ -67,7 +67,7 @@ impl PyInitialConditions {
 ///     rotation_limit: rotation of the base, about a horizontal axis, at which a run ends, rad; 1 unless given. A further
 ///         run goes on; infinite: runs end by their steps alone.
 ///     flow_chart_iterations: searches contact modes by the flow chart of Patel and Spyrakos with at
-///         most so many iterations a step, for comparison with their paper; the robust search unless
+///         most this number of iterations a step, for comparison with their paper; the robust search unless
 ///         given.
 #[pyclass(name = "SolverOptions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
@@ -86,12 +86,12 @@ impl PySolverOptions {
     fn new(
         scheme: Option<&Bound<'_, PyTimeScheme>>,
         coordinates: Option<&Bound<'_, PyAny>>,
-        #[pyo3(from_py_with = whole)] expected_steps: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] expected_steps: Option<usize>,
         rotation_limit: Option<f64>,
-        #[pyo3(from_py_with = whole)] flow_chart_iterations: Option<usize>,
+        #[pyo3(from_py_with = whole_numbers)] flow_chart_iterations: Option<usize>,
     ) -> PyResult<Self> {
         Ok(Self {
-            scheme: scheme.map(|own| own.get().clone()),
+            scheme: scheme.map(|scheme| scheme.get().clone()),
             coordinates: coordinates.map(self::coordinates).transpose()?,
             expected_steps,
             rotation_limit,
@@ -105,7 +105,7 @@ impl PySolverOptions {
 /// Args:
 ///     moment_center: x of the point about which the base moment is taken, m; the middle of the base
 ///         unless given.
-///     energy_balance: whether energies are booked; True by default. Without them a step takes less
+///     energy_balance: whether energies are computed; True by default. Without them a step takes less
 ///         time, and `Run.energy_error` is NaN.
 ///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
 ///         interface law unless given.
@@ -160,11 +160,11 @@ pub(super) struct Options {
     pub(super) limits: PyServiceLimits,
 }
 
-/// Calls methods of a builder with the arguments that were given.
-macro_rules! with_given {
-    ($builder:ident, $($method:ident($given:expr)),+ $(,)?) => {
-        $(if let Some(given) = $given {
-            $builder = $builder.$method(given);
+/// Calls each method of a builder whose optional argument is there.
+macro_rules! with_options {
+    ($builder:ident, $($method:ident($option:expr)),+ $(,)?) => {
+        $(if let Some(argument) = $option {
+            $builder = $builder.$method(argument);
         })+
     };
 }
@@ -175,7 +175,7 @@ impl Options {
         let Self { initial, solver, results, limits } = self;
         let mut builder = builder.gravity_stage(initial.stage).serviceability(limits.0);
         let scheme = solver.scheme.as_ref().map(|scheme| (scheme.make)().or_raise());
-        with_given!(
+        with_options!(
             builder,
             gravity(initial.gravity),
             initial_displacement(initial.displacement.clone()),
@@ -196,7 +196,7 @@ impl Options {
 }
 
 /// Options of each group: argument of the simulation, class, and names of the options.
-const GROUPS: [(&str, &str, &[&str]); 4] = [
+const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
     (
         "initial",
         "InitialConditions",
@@ -219,7 +219,7 @@ const GROUPS: [(&str, &str, &[&str]); 4] = [
 pub(super) fn refuse_others(others: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
     let Some((name, _)) = others.and_then(|others| others.iter().next()) else { return Ok(()) };
     let name = name.to_string();
-    let group = GROUPS.iter().find(|(.., options)| options.contains(&&*name));
+    let group = OPTION_GROUPS.iter().find(|(.., options)| options.contains(&&*name));
     Err(PyTypeError::new_err(match group {
         Some((argument, class, _)) => {
             let option = name.strip_prefix("allowable_").unwrap_or(&name);

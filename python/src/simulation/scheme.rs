@@ -15,7 +15,7 @@ pub(crate) struct PyTimeScheme {
     pub(super) make: Recipe<dyn TimeScheme>,
 }
 
-fn scheme(
+fn new_scheme(
     scheme: basemat::Result<impl TimeScheme + Clone + Sync + 'static>,
 ) -> PyResult<PyTimeScheme> {
     let scheme = scheme.or_raise()?;
@@ -27,7 +27,7 @@ impl PyTimeScheme {
     /// The midpoint rule: conserves energy.
     #[staticmethod]
     fn midpoint() -> PyResult<Self> {
-        scheme(Ok(Midpoint))
+        new_scheme(Ok(Midpoint))
     }
 
     /// The midpoint rule that damps high frequencies: second order, makes no energy with the soil.
@@ -35,13 +35,13 @@ impl PyTimeScheme {
     #[pyo3(signature = (gamma=0.8))]
     #[staticmethod]
     fn dissipative_midpoint(gamma: f64) -> PyResult<Self> {
-        scheme(DissipativeMidpoint::new(gamma))
+        new_scheme(DissipativeMidpoint::new(gamma))
     }
 
     /// The θ rule; ``theta``: ½ (the midpoint rule) to 1. First order above ½.
     #[staticmethod]
     fn theta(theta: f64) -> PyResult<Self> {
-        scheme(Theta::new(theta))
+        new_scheme(Theta::new(theta))
     }
 
     /// Newmark's rule, for comparison with papers: its coupling with the soil may make energy.
@@ -49,13 +49,13 @@ impl PyTimeScheme {
     #[pyo3(signature = (gamma=0.5, beta=0.25))]
     #[staticmethod]
     fn newmark(gamma: f64, beta: f64) -> PyResult<Self> {
-        scheme(Newmark::new(gamma, beta))
+        new_scheme(Newmark::new(gamma, beta))
     }
 
     /// The rule of Hilber, Hughes and Taylor, for comparison with papers: its coupling with the soil may
     /// make energy. ``alpha``: −⅓ (most damping) to 0 (none).
     #[staticmethod]
     fn hht_alpha(alpha: f64) -> PyResult<Self> {
-        scheme(HhtAlpha::new(alpha))
+        new_scheme(HhtAlpha::new(alpha))
     }
 }

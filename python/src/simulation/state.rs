@@ -6,8 +6,8 @@ use pyo3::types::PyBytes;
 
 use super::{PyFaceForces, PyFoundation};
 use crate::array::{Array, Count};
-use crate::error::{OrRaise, refuse};
-use crate::names::{FACES, choice, mode_name};
+use crate::error::{OrRaise, input_error};
+use crate::names::{TRENCH_FACES, choice, mode_name};
 use crate::results::PyEnergyBalance;
 
 /// The simulation at the end of an accepted step.
@@ -186,8 +186,10 @@ impl PyState {
     /// Changes of mode in this step: list of tuples (element, mode before, mode now).
     #[getter]
     fn transitions(&self) -> Vec<(usize, &'static str, &'static str)> {
-        let changes = self.0.transitions.iter();
-        changes.map(|own| (own.element, mode_name(own.from), mode_name(own.to))).collect()
+        let transitions = self.0.transitions.iter();
+        transitions
+            .map(|change| (change.element, mode_name(change.from), mode_name(change.to)))
+            .collect()
     }
 
     /// Each foundation by itself: list of `FoundationState`, from left to right.
@@ -211,7 +213,7 @@ impl PyState {
     /// The `FaceForces` on a ``face`` of a structure in the ground: "left_wall", "base" or "right_wall"; zeros for a wall of
     /// a base without walls.
     fn face(&self, face: &str) -> PyResult<PyFaceForces> {
-        Ok(PyFaceForces(self.0.face(choice("face", face, &FACES)?)))
+        Ok(PyFaceForces(self.0.face(choice("face", face, &TRENCH_FACES)?)))
     }
 
     /// State variables of the law of an ``element`` (0: the leftmost): list of numbers, empty if it
@@ -220,7 +222,7 @@ impl PyState {
         let Count(element) = element;
         let elements = self.0.contact.len();
         if element >= elements {
-            return Err(refuse(format!("element is {element}, but must be below {elements}")));
+            return Err(input_error(format!("element is {element}, but must be below {elements}")));
         }
         Ok(self.0.state_variables(element).to_vec())
     }
@@ -237,7 +239,7 @@ impl PyState {
 pub(crate) struct PySteps {
     /// Simulation, which has a method `step`.
     pub(super) simulation: Py<PyAny>,
-    pub(super) left: usize,
+    pub(super) remaining: usize,
 }
 
 #[pymethods]
@@ -247,17 +249,17 @@ impl PySteps {
     }
 
     fn __next__(&mut self, py: Python<'_>) -> PyResult<Option<Py<PyAny>>> {
-        if self.left == 0 {
+        if self.remaining == 0 {
             return Ok(None);
         }
         py.check_signals()?;
         let state = self.simulation.call_method0(py, "step")?;
-        self.left -= 1;
+        self.remaining -= 1;
         Ok(Some(state))
     }
 
     fn __len__(&self) -> usize {
-        self.left
+        self.remaining
     }
 }
 
@@ -272,7 +274,7 @@ impl PyCheckpoint {
     #[new]
     fn new(data: &[u8]) -> PyResult<Self> {
         let read = postcard::from_bytes(data);
-        Ok(Self(read.map_err(|error| refuse(format!("bytes of a checkpoint: {error}")))?))
+        Ok(Self(read.map_err(|error| input_error(format!("bytes of a checkpoint: {error}")))?))
     }
 
     /// Steps made before the checkpoint.
@@ -284,7 +286,7 @@ impl PyCheckpoint {
     /// All of it as bytes, for a file.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = postcard::to_allocvec(&self.0);
-        let bytes = written.map_err(|error| refuse(format!("checkpoint: {error}")))?;
+        let bytes = written.map_err(|error| input_error(format!("checkpoint: {error}")))?;
         Ok(PyBytes::new(py, &bytes))
     }
 

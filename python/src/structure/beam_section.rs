@@ -3,7 +3,7 @@
 use basemat::fem::BeamSection;
 use pyo3::prelude::*;
 
-use crate::error::{OrRaise, WithGiven};
+use crate::error::{OrRaise, WithOption};
 
 /// Cross-section of beams in space: ``area`` (m²), ``second_moments`` I_y = ∫ z² dA and I_z = ∫ y² dA (two numbers,
 /// m⁴) and ``torsion_constant`` (m⁴).

@@ -5,8 +5,8 @@ use pyo3::prelude::*;
 
 use super::PyStructure;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, WithGiven};
-use crate::row::{PyDofCombination, rows};
+use crate::error::{OrRaise, WithOption};
+use crate::row::{PyDofCombination, python_rows};
 
 /// A rigid block on a flat base, with three degrees of freedom at the middle of its base: displacement to
 /// the right, displacement up, rotation: "x", "y", "rotation" for `dof`.
@@ -16,12 +16,12 @@ use crate::row::{PyDofCombination, rows};
 #[pyclass(name = "RigidBlock", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyRigidBlock(RigidBlock);
 
-extends!(PyRigidBlock, own => {
+extends!(PyRigidBlock, block => {
     let names = ["x", "y", "rotation"].map(String::from).to_vec();
-    PyStructure::copied(own.0.clone()).named(Some(DofNames::new(names, 3)?))
+    PyStructure::from_structure(block.0.clone()).with_dof_names(Some(DofNames::new(names, 3)?))
 });
 
-fn placed(
+fn positioned_block(
     block: basemat::Result<RigidBlock>,
     center: f64,
     p_delta: Option<f64>,
@@ -41,7 +41,7 @@ impl PyRigidBlock {
         center: f64,
         p_delta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        placed(RigidBlock::new(width, height, density), center, p_delta)?.initializer()
+        positioned_block(RigidBlock::new(width, height, density), center, p_delta)?.initializer()
     }
 
     /// Block of a ``width`` (m) and a ``mass`` (kg/m) with the ``rotary_inertia`` (kg m²/m) about its
@@ -58,7 +58,7 @@ impl PyRigidBlock {
         p_delta: Option<f64>,
     ) -> PyResult<Self> {
         let block = RigidBlock::from_mass(width, mass, rotary_inertia, center_height);
-        placed(block, center, p_delta)
+        positioned_block(block, center, p_delta)
     }
 
     /// Mass, kg/m.
@@ -75,13 +75,16 @@ impl PyRigidBlock {
 
     /// Number of the degree of freedom of the displacement to the right.
     #[classattr]
-    const HORIZONTAL: usize = RigidBlock::HORIZONTAL;
+    #[pyo3(name = "HORIZONTAL")]
+    const HORIZONTAL_DOF: usize = RigidBlock::HORIZONTAL;
     /// Number of the degree of freedom of the displacement up.
     #[classattr]
-    const VERTICAL: usize = RigidBlock::VERTICAL;
+    #[pyo3(name = "VERTICAL")]
+    const VERTICAL_DOF: usize = RigidBlock::VERTICAL;
     /// Number of the degree of freedom of the rotation.
     #[classattr]
-    const ROTATION: usize = RigidBlock::ROTATION;
+    #[pyo3(name = "ROTATION")]
+    const ROTATION_DOF: usize = RigidBlock::ROTATION;
 
     /// The `DofCombination` of the displacement to the right at a ``height`` (m) above the base.
     fn horizontal_at(&self, height: f64) -> PyDofCombination {
@@ -101,19 +104,19 @@ impl PyRigidBlock {
 pub(crate) struct PyRigidBody(pub(super) RigidBody);
 
 /// Names of the degrees of freedom of a rigid body.
-pub(super) const SIX: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+pub(super) const BODY_DOF_NAMES: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 
-extends!(PyRigidBody, own => {
-    let names = SIX.map(String::from).to_vec();
-    PyStructure::copied(own.0.clone()).named(Some(DofNames::new(names, 6)?))
+extends!(PyRigidBody, body => {
+    let names = BODY_DOF_NAMES.map(String::from).to_vec();
+    PyStructure::from_structure(body.0.clone()).with_dof_names(Some(DofNames::new(names, 6)?))
 });
 
-fn body(
-    made: basemat::Result<RigidBody>,
+fn positioned_body(
+    body: basemat::Result<RigidBody>,
     center: (f64, f64),
     p_delta: Option<f64>,
 ) -> PyResult<PyRigidBody> {
-    let body = made.and_then(|body| body.centered_at(center.into()));
+    let body = body.and_then(|body| body.centered_at(center.into()));
     body.with(p_delta, RigidBody::with_p_delta).or_raise().map(PyRigidBody)
 }
 
@@ -135,7 +138,7 @@ impl PyRigidBody {
         center: (f64, f64),
         p_delta: Option<f64>,
     ) -> PyResult<Self> {
-        body(RigidBody::cuboid([length, width, height], density), center, p_delta)
+        positioned_body(RigidBody::cuboid([length, width, height], density), center, p_delta)
     }
 
     /// Homogeneous cylinder that stands on its base: ``radius`` and ``height`` (m), and its ``density`` (kg/m³).
@@ -152,7 +155,7 @@ impl PyRigidBody {
         center: (f64, f64),
         p_delta: Option<f64>,
     ) -> PyResult<Self> {
-        body(RigidBody::cylinder(radius, height, density), center, p_delta)
+        positioned_body(RigidBody::cylinder(radius, height, density), center, p_delta)
     }
 
     /// Any rigid body on a convex base, by its mass and inertia.
@@ -174,7 +177,11 @@ impl PyRigidBody {
         center: (f64, f64),
         p_delta: Option<f64>,
     ) -> PyResult<Self> {
-        body(RigidBody::from_mass(outline, mass, inertia, gravity_center), center, p_delta)
+        positioned_body(
+            RigidBody::from_mass(outline, mass, inertia, gravity_center),
+            center,
+            p_delta,
+        )
     }
 
     /// Mass, kg.
@@ -186,6 +193,6 @@ impl PyRigidBody {
     /// The three `DofCombination` of the displacements along x, along y and up of the point at ``x``, ``y`` and ``z``
     /// from the middle of the base (m).
     fn displacement_at(&self, x: f64, y: f64, z: f64) -> [PyDofCombination; 3] {
-        rows(self.0.displacement_at([x, y, z]))
+        python_rows(self.0.displacement_at([x, y, z]))
     }
 }

@@ -10,15 +10,15 @@ use basemat::structure::{
 use pyo3::prelude::*;
 
 use super::PyStructure;
-use super::block::{PyRigidBody, SIX};
+use super::block::{BODY_DOF_NAMES, PyRigidBody};
 use super::hysteresis::LawLike;
 use crate::array::Count;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, WithGiven, refuse};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::names::choice;
 use crate::recipe::{Make, Recipe};
-use crate::row::{PyDofCombination, PySectionRows, rows, six};
-use crate::several::Several;
+use crate::row::{PyDofCombination, PySectionRows, python_rows, space_sections};
+use crate::several::ListOf;
 
 /// A storey of a `ShearBuilding`, per metre of thickness: ``height`` of its columns (m), ``mass``
 /// of the floor above (kg), lateral ``stiffness`` (N/m), ``rotary_inertia`` of the floor (kg m²; 0 by
@@ -36,25 +36,29 @@ impl PyStorey {
     }
 }
 
-type Laws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
+/// Recipes of laws by the number of their storey.
+type StoreyLaws = BTreeMap<usize, Recipe<dyn Hysteresis>>;
 
-/// Laws by storey, as Python gives them.
-type GivenLaws = Option<BTreeMap<i64, LawLike>>;
+/// Python's argument `laws`: a dict of laws by storey, or None.
+type LawsArgument = Option<BTreeMap<i64, LawLike>>;
 
-/// Recipes of laws by storey.
-fn recipes(laws: GivenLaws) -> PyResult<Laws> {
-    let own = |(storey, law): (i64, LawLike)| Ok((number(storey)?, law.0));
-    laws.into_iter().flatten().map(own).collect()
+/// Recipes of laws by the number of their storey.
+fn storey_laws(laws: LawsArgument) -> PyResult<StoreyLaws> {
+    let mut recipes = StoreyLaws::new();
+    for (storey, law) in laws.into_iter().flatten() {
+        recipes.insert(storey_number(storey)?, law.0);
+    }
+    Ok(recipes)
 }
 
 /// Number of the storey of a law.
-fn number(storey: i64) -> PyResult<usize> {
+fn storey_number(storey: i64) -> PyResult<usize> {
     usize::try_from(storey)
-        .map_err(|_| refuse(format!("laws: storey is {storey}, but must be 0 or more")))
+        .map_err(|_| input_error(format!("laws: storey is {storey}, but must be 0 or more")))
 }
 
-/// The building with its laws.
-fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearBuilding> {
+/// The building whose storeys follow these laws.
+fn with_laws(mut building: ShearBuilding, laws: &StoreyLaws) -> basemat::Result<ShearBuilding> {
     for (storey, law) in laws {
         building = building.with_law(*storey, law()?)?;
     }
@@ -75,16 +79,17 @@ fn following(mut building: ShearBuilding, laws: &Laws) -> basemat::Result<ShearB
 #[pyclass(name = "ShearBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyShearBuilding(Make<ShearBuilding>);
 
-extends!(PyShearBuilding, own => {
-    let (make, floors) = (Arc::clone(&own.0), own.made()?.dofs() - 3);
+extends!(PyShearBuilding, building => {
+    let make = Arc::clone(&building.0);
+    let floors = building.model()?.dofs() - 3;
     let base = ["base_x", "base_y", "base_rotation"].map(String::from);
     let names = base.into_iter().chain((0..floors).map(|storey| format!("floor_{storey}")));
     let names = DofNames::new(names.collect(), 3 + floors)?;
-    PyStructure::new(move || make()).named(Some(names))
+    PyStructure::new(move || make()).with_dof_names(Some(names))
 });
 
 impl PyShearBuilding {
-    pub(crate) fn made(&self) -> PyResult<ShearBuilding> {
+    pub(crate) fn model(&self) -> PyResult<ShearBuilding> {
         (self.0)().or_raise()
     }
 }
@@ -97,20 +102,20 @@ impl PyShearBuilding {
         width: f64,
         base_mass: f64,
         base_inertia: f64,
-        storeys: Several<'_, PyStorey>,
+        storeys: ListOf<'_, PyStorey>,
         damping: Option<f64>,
         center: f64,
         p_delta: Option<f64>,
-        laws: GivenLaws,
+        laws: LawsArgument,
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<Storey> = storeys.iter().map(|storey| storey.get().0).collect();
-        let laws = recipes(laws)?;
+        let laws = storey_laws(laws)?;
         let make = move || {
             let building = ShearBuilding::new(width, base_mass, base_inertia, &storeys)?
                 .centered_at(center)
                 .with(damping, ShearBuilding::with_stiffness_damping)
                 .with(p_delta, ShearBuilding::with_p_delta)?;
-            following(building, &laws)
+            with_laws(building, &laws)
         };
         Self(Arc::new(make)).initializer()
     }
@@ -130,46 +135,50 @@ impl PyShearBuilding {
         slab_mass: f64,
         slab_inertia: f64,
         damping: f64,
-        laws: GivenLaws,
+        laws: LawsArgument,
     ) -> PyResult<Self> {
         let level = IsolationLevel { height, slab_mass, slab_inertia, damping };
-        let (make, own, laws) = (building.get().0.clone(), law.0, recipes(laws)?);
-        Ok(Self(Arc::new(move || following(make()?.isolated(level, own()?)?, &laws))))
+        let make_building = building.get().0.clone();
+        let make_law = law.0;
+        let upper_laws = storey_laws(laws)?;
+        Ok(Self(Arc::new(move || {
+            with_laws(make_building()?.isolated(level, make_law()?)?, &upper_laws)
+        })))
     }
 
     /// Mass, kg/m.
     #[getter]
     fn total_mass(&self) -> PyResult<f64> {
-        Ok(self.made()?.total_mass())
+        Ok(self.model()?.total_mass())
     }
 
     /// First natural frequency on a fixed base without P–Δ, Hz.
     #[getter]
     fn fixed_base_frequency(&self) -> PyResult<f64> {
-        Ok(self.made()?.fixed_base_frequency())
+        Ok(self.model()?.fixed_base_frequency())
     }
 
     /// Number of the degree of freedom of the topmost floor.
     #[getter]
     fn roof(&self) -> PyResult<usize> {
-        Ok(self.made()?.roof())
+        Ok(self.model()?.roof())
     }
 
     /// Number of the degree of freedom of the floor above a ``storey`` (0: the lowest).
     fn floor(&self, storey: Count) -> PyResult<usize> {
-        self.made()?.floor(storey.0).or_raise()
+        self.model()?.floor(storey.0).or_raise()
     }
 
     /// The `DofCombination` of the drift of a ``storey`` (0: the lowest), m: its floors' relative
     /// displacement less what the base's rotation makes of it.
     fn drift(&self, storey: Count) -> PyResult<PyDofCombination> {
-        Ok(self.made()?.drift(storey.0).or_raise()?.into())
+        Ok(self.model()?.drift(storey.0).or_raise()?.into())
     }
 
     /// The `DofCombination` of the displacement of the floor above a ``storey`` (0: the lowest)
     /// less the motion of the base, its rotation included, m.
     fn total_drift(&self, storey: Count) -> PyResult<PyDofCombination> {
-        Ok(self.made()?.total_drift(storey.0).or_raise()?.into())
+        Ok(self.model()?.total_drift(storey.0).or_raise()?.into())
     }
 
     /// The `SectionRows` of the shear force (N/m) in the columns of a ``storey`` (0: the lowest).
@@ -177,7 +186,7 @@ impl PyShearBuilding {
     /// The upper part of the building exerts it on the lower part. In a storey that follows a law it is computed from the
     /// inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<PySectionRows> {
-        Ok(self.made()?.shear(storey.0).or_raise()?.into())
+        Ok(self.model()?.shear(storey.0).or_raise()?.into())
     }
 }
 
@@ -207,14 +216,14 @@ impl PyPlanStorey {
         stiffness_center: [f64; 2],
         damping: [f64; 3],
     ) -> Self {
-        let own = PlanStorey::new(height, mass, sides, stiffness);
-        let inertia = inertia.unwrap_or(own.inertia);
-        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..own })
+        let storey = PlanStorey::new(height, mass, sides, stiffness);
+        let inertia = inertia.unwrap_or(storey.inertia);
+        Self(PlanStorey { inertia, mass_center, stiffness_center, damping, ..storey })
     }
 }
 
 /// Directions of the laws of storeys in plan; none: a coupled law along x and y.
-const DIRECTIONS: [(&str, Option<usize>); 4] = [
+const LAW_DIRECTIONS: [(&str, Option<usize>); 4] = [
     ("x", Some(StoreyBuilding::ALONG)),
     ("y", Some(StoreyBuilding::ACROSS)),
     ("xy", None),
@@ -241,16 +250,18 @@ enum StoreyLaw {
 #[pyclass(name = "StoreyBuilding", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyStoreyBuilding(Make<StoreyBuilding>);
 
-extends!(PyStoreyBuilding, own => {
-    let (make, dofs) = (Arc::clone(&own.0), own.made()?.dofs());
-    let floor = |storey| ["x", "y", "rz"].map(|name| format!("floor_{storey}_{name}"));
-    let mat = SIX.map(String::from).into_iter();
-    let names = mat.chain((0..(dofs - 6) / 3).flat_map(floor)).collect();
-    PyStructure::new(move || make()).named(Some(DofNames::new(names, dofs)?))
+extends!(PyStoreyBuilding, building => {
+    let make = Arc::clone(&building.0);
+    let dofs = building.model()?.dofs();
+    let mut names = BODY_DOF_NAMES.map(String::from).to_vec();
+    for storey in 0..(dofs - 6) / 3 {
+        names.extend(["x", "y", "rz"].map(|name| format!("floor_{storey}_{name}")));
+    }
+    PyStructure::new(move || make()).with_dof_names(Some(DofNames::new(names, dofs)?))
 });
 
 impl PyStoreyBuilding {
-    pub(crate) fn made(&self) -> PyResult<StoreyBuilding> {
+    pub(crate) fn model(&self) -> PyResult<StoreyBuilding> {
         (self.0)().or_raise()
     }
 }
@@ -261,18 +272,18 @@ impl PyStoreyBuilding {
     #[new]
     fn new(
         mat: &PyRigidBody,
-        storeys: Several<'_, PyPlanStorey>,
+        storeys: ListOf<'_, PyPlanStorey>,
         p_delta: Option<f64>,
         laws: Option<BTreeMap<(i64, String), LawLike>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let storeys: Vec<PlanStorey> = storeys.iter().map(|storey| storey.get().0).collect();
         let mat = mat.0.clone();
         let laws = laws.into_iter().flatten().map(|((storey, direction), law)| {
-            let law = match choice("direction of a law", &direction, &DIRECTIONS)? {
+            let law = match choice("direction of a law", &direction, &LAW_DIRECTIONS)? {
                 Some(direction) => StoreyLaw::Uniaxial(direction, law.0),
                 None => StoreyLaw::Biaxial(law.coupled()?),
             };
-            Ok((number(storey)?, law))
+            Ok((storey_number(storey)?, law))
         });
         let laws: Vec<_> = laws.collect::<PyResult<_>>()?;
         let make = move || {
@@ -294,14 +305,14 @@ impl PyStoreyBuilding {
     /// Mass of mat and floors, kg.
     #[getter]
     fn total_mass(&self) -> PyResult<f64> {
-        Ok(self.made()?.total_mass())
+        Ok(self.model()?.total_mass())
     }
 
     /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) at a ``place`` (x and y from the middle of the mat, m; the middle by default).
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
     fn floor(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
-        Ok(rows(self.made()?.floor(storey.0, place).or_raise()?))
+        Ok(python_rows(self.model()?.floor(storey.0, place).or_raise()?))
     }
 
     /// The three `DofCombination` of the deformation of a ``storey`` (0: the lowest), drifts along x and y (m) and twist,
@@ -309,23 +320,23 @@ impl PyStoreyBuilding {
     #[pyo3(signature = (storey, place=None))]
     fn drift(&self, storey: Count, place: Option<[f64; 2]>) -> PyResult<[PyDofCombination; 3]> {
         let found = match place {
-            Some(place) => self.made()?.drift_at(storey.0, place),
-            None => self.made()?.drift(storey.0),
+            Some(place) => self.model()?.drift_at(storey.0, place),
+            None => self.model()?.drift(storey.0),
         };
-        Ok(rows(found.or_raise()?))
+        Ok(python_rows(found.or_raise()?))
     }
 
     /// The three `DofCombination` of the displacements along x and y and of the twist of the floor above a ``storey``
     /// (0: the lowest) less the rigid motion of the mat, at a ``place`` as for `floor`.
     #[pyo3(signature = (storey, place=[0.0; 2]), text_signature = "($self, storey, place=(0.0, 0.0))")]
     fn total_drift(&self, storey: Count, place: [f64; 2]) -> PyResult<[PyDofCombination; 3]> {
-        Ok(rows(self.made()?.total_drift(storey.0, place).or_raise()?))
+        Ok(python_rows(self.model()?.total_drift(storey.0, place).or_raise()?))
     }
 
     /// The three `SectionRows` of the forces along x and y (N) that the floor above a ``storey`` (0: the lowest) exerts on
     /// what is below, and of their torque about the centre of stiffness (N·m), from the inertia of the floors above.
     fn shear(&self, storey: Count) -> PyResult<[PySectionRows; 3]> {
-        Ok(self.made()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
+        Ok(self.model()?.shear(storey.0).or_raise()?.map(PySectionRows::from))
     }
 
     /// The six `SectionRows` of shear along x and along y (N), compression (N), moments about x and about y (N·m)
@@ -333,6 +344,6 @@ impl PyStoreyBuilding {
     /// inertia. Moments are about ``reference`` (x and y from the middle of the mat, m; the middle by default) at the foot.
     #[pyo3(signature = (storey, reference=[0.0; 2]), text_signature = "($self, storey, reference=(0.0, 0.0))")]
     fn section(&self, storey: Count, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
-        Ok(six(self.made()?.section(storey.0, reference).or_raise()?))
+        Ok(space_sections(self.model()?.section(storey.0, reference).or_raise()?))
     }
 }

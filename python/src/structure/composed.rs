@@ -7,13 +7,13 @@ use basemat::structure::{
 };
 use pyo3::prelude::*;
 
-use super::{PyStructure, recipe};
-use crate::array::{Array, Count, Numbers, whole};
+use super::{PyStructure, structure_recipe};
+use crate::array::{Array, Count, Numbers, whole_numbers};
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, WithGiven, refuse};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::recipe::{Make, Recipe, Shared};
 use crate::row::{PyDofCombination, RowLike};
-use crate::several::Pairs;
+use crate::several::PairList;
 
 /// Rayleigh damping: ``mass`` (1/s) times the mass matrix and ``stiffness`` (s) times the stiffness.
 #[pyclass(name = "RayleighDamping", module = "basemat", frozen, dict)]
@@ -67,19 +67,19 @@ impl PyReducedModel {
     fn new(
         structure: Bound<'_, PyAny>,
         modes: Count,
-        #[pyo3(from_py_with = whole)] keep: Option<Vec<usize>>,
+        #[pyo3(from_py_with = whole_numbers)] keep: Option<Vec<usize>>,
         damping_ratio: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
-        let full = recipe(&structure)?().or_raise()?;
+        let full = structure_recipe(&structure)?().or_raise()?;
         let reduction = CraigBampton::new(modes.0).keep(&keep.unwrap_or_default());
         let reduced = py.detach(move || {
             reduction.reduce(full).with(damping_ratio, ReducedModel::with_damping_ratio)
         });
         let reduced = Arc::new(reduced.or_raise()?);
-        let base = PyStructure::copied(Shared(Arc::clone(&reduced), None));
-        let own = Self { reduced, structure: structure.unbind() };
-        Ok(PyClassInitializer::from(base).add_subclass(own))
+        let base = PyStructure::from_structure(Shared(Arc::clone(&reduced), None));
+        let model = Self { reduced, structure: structure.unbind() };
+        Ok(PyClassInitializer::from(base).add_subclass(model))
     }
 
     /// Frequencies of the modes: array of shape (modes,), Hz.
@@ -102,7 +102,7 @@ impl PyReducedModel {
     }
 }
 
-/// Several structures on one ground, coupled through the soil: ``members`` is a list of pairs
+/// ListOf structures on one ground, coupled through the soil: ``members`` is a list of pairs
 /// ``(structure, shift)`` from left to right, each moved to the right by its shift (m); in plan in any order, apart from
 /// each other, along y where they are themselves (``center`` of `RigidBody.cuboid`).
 #[pyclass(name = "StructureGroup", module = "basemat", extends = PyStructure, frozen)]
@@ -117,29 +117,30 @@ pub(crate) struct PyStructureGroup {
 #[pymethods]
 impl PyStructureGroup {
     #[new]
-    fn new(members: Pairs<Bound<'_, PyAny>, f64>) -> PyResult<PyClassInitializer<Self>> {
-        let own = members.0.iter().map(|(structure, shift)| (structure.clone().unbind(), *shift));
-        let (own, given) = (own.collect(), members.0);
-        let members: Vec<(Recipe<dyn Structure>, f64)> = given
-            .iter()
-            .map(|(structure, shift)| Ok((recipe(structure)?, *shift)))
-            .collect::<PyResult<_>>()?;
-        if members.is_empty() {
-            return Err(refuse("a group needs at least one structure"));
+    fn new(members: PairList<Bound<'_, PyAny>, f64>) -> PyResult<PyClassInitializer<Self>> {
+        let members = members.0;
+        let mut recipes: Vec<(Recipe<dyn Structure>, f64)> = Vec::with_capacity(members.len());
+        for (structure, shift) in &members {
+            recipes.push((structure_recipe(structure)?, *shift));
         }
-        let dofs = members.iter().map(|(structure, _)| Ok(structure()?.dofs()));
+        if recipes.is_empty() {
+            return Err(input_error("a group needs at least one structure"));
+        }
+        let dofs = recipes.iter().map(|(structure, _)| Ok(structure()?.dofs()));
         let dofs = dofs.collect::<basemat::Result<_>>().or_raise()?;
         let make = Arc::new(move || {
             let mut group = StructureGroup::new();
-            for (structure, shift) in &members {
+            for (structure, shift) in &recipes {
                 group = group.with(structure()?, *shift)?;
             }
             Ok(group)
         });
         make().or_raise()?;
-        let again = Arc::clone(&make);
-        let base = PyStructure::new(move || again());
-        Ok(PyClassInitializer::from(base).add_subclass(Self { make, members: own, dofs }))
+        let make_structure = Arc::clone(&make);
+        let base = PyStructure::new(move || make_structure());
+        let members = members.into_iter().map(|(structure, shift)| (structure.unbind(), shift));
+        let group = Self { make, members: members.collect(), dofs };
+        Ok(PyClassInitializer::from(base).add_subclass(group))
     }
 
     /// A ``row`` of the structure ``member`` (0: the first) as a `DofCombination` of the group.
@@ -173,19 +174,19 @@ impl PyWithModalDamping {
         fixed_base: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
         let py = structure.py();
-        let (object, structure) = (structure.clone(), recipe(&structure)?);
-        let own = structure().or_raise()?;
-        let names = DofNames::from_structure(&object, own.dofs())?;
+        let make_structure = structure_recipe(&structure)?;
+        let undamped = make_structure().or_raise()?;
+        let names = DofNames::from_structure(&structure, undamped.dofs())?;
         let damping = ModalDamping::new(&ratios.0).or_raise()?;
-        let damped = move |structure| {
-            if fixed_base { damping.on_fixed_base(structure) } else { damping.on(structure) }
+        let add_damping = move |undamped| {
+            if fixed_base { damping.on_fixed_base(undamped) } else { damping.on(undamped) }
         };
         // Modes of a large structure take seconds.
-        let frequencies = py.detach(|| damped(own).map(|own| own.frequencies().to_vec()));
-        let frequencies = frequencies.or_raise()?;
-        let base = PyStructure::new(move || damped(structure()?)).named(names);
-        let own = Self { frequencies, structure: object.unbind() };
-        Ok(PyClassInitializer::from(base).add_subclass(own))
+        let damped = py.detach(|| add_damping(undamped)).or_raise()?;
+        let frequencies = damped.frequencies().to_vec();
+        let base = PyStructure::new(move || add_damping(make_structure()?)).with_dof_names(names);
+        let model = Self { frequencies, structure: structure.unbind() };
+        Ok(PyClassInitializer::from(base).add_subclass(model))
     }
 
     /// Frequencies of the modes that are not rigid: array of shape (modes,), Hz.
@@ -205,7 +206,6 @@ pub(crate) struct PyWithWalls {
     /// The structure without walls.
     pub(crate) structure: Py<PyAny>,
     /// Depth of the base, m.
-    #[pyo3(get)]
     pub(crate) depth: f64,
 }
 
@@ -213,11 +213,18 @@ pub(crate) struct PyWithWalls {
 impl PyWithWalls {
     #[new]
     fn new(structure: Bound<'_, PyAny>, depth: f64) -> PyResult<PyClassInitializer<Self>> {
-        let own = recipe(&structure)?;
-        let walls = WithWalls::new(own().or_raise()?, depth).or_raise()?;
-        let names = DofNames::from_structure(&structure, walls.dofs())?;
-        let base = PyStructure::new(move || WithWalls::new(own()?, depth)).named(names);
-        let own = Self { structure: structure.unbind(), depth };
-        Ok(PyClassInitializer::from(base).add_subclass(own))
+        let make_structure = structure_recipe(&structure)?;
+        let with_walls = WithWalls::new(make_structure().or_raise()?, depth).or_raise()?;
+        let names = DofNames::from_structure(&structure, with_walls.dofs())?;
+        let base = PyStructure::new(move || WithWalls::new(make_structure()?, depth))
+            .with_dof_names(names);
+        let model = Self { structure: structure.unbind(), depth };
+        Ok(PyClassInitializer::from(base).add_subclass(model))
+    }
+
+    /// Depth of the base, m.
+    #[getter]
+    fn depth(&self) -> f64 {
+        self.depth
     }
 }

@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 
 use crate::array::{Numbers, Points, Table};
-use crate::error::refuse;
-use crate::several::no_such;
+use crate::error::input_error;
+use crate::several::type_error;
 
 /// Number for all elements, or one each.
 pub(super) struct PerElement(Vec<f64>);
@@ -27,18 +27,18 @@ impl PerElement {
 ///
 /// A list of one entry holds for all elements. An error calls the list by its `name`.
 pub(super) fn one_of<'a, T>(
-    all: &'a [T],
+    entries: &'a [T],
     name: &str,
     index: usize,
     count: usize,
 ) -> PyResult<&'a T> {
-    match all {
-        [own] => Ok(own),
-        all if all.len() == count => Ok(&all[index]),
-        all => {
-            let found = all.len();
+    match entries {
+        [common] => Ok(common),
+        entries if entries.len() == count => Ok(&entries[index]),
+        entries => {
+            let found = entries.len();
             let needed = format!("must have one, or {count}: one for each element");
-            Err(refuse(format!("{name} has {found} entries, but {needed}")))
+            Err(input_error(format!("{name} has {found} entries, but {needed}")))
         }
     }
 }
@@ -52,10 +52,10 @@ extracts!(Vectors, object => match object.extract::<[f64; 3]>() {
 });
 
 /// Number of a node, which numpy may have as a float.
-fn node(value: f64) -> PyResult<usize> {
+fn node_number(value: f64) -> PyResult<usize> {
     if value < 0.0 || value.fract() != 0.0 {
         let needed = "must be a whole number of 0 or more";
-        return Err(refuse(format!("node is {value}, but {needed}")));
+        return Err(input_error(format!("node is {value}, but {needed}")));
     }
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
     Ok(value as usize)
@@ -63,26 +63,24 @@ fn node(value: f64) -> PyResult<usize> {
 
 /// Node numbers of elements: anything that numpy takes for an array of shape (elements, nodes each).
 pub(super) struct Connectivity {
-    /// Nodes of an element.
-    pub(super) each: usize,
+    /// Number of nodes of an element.
+    pub(super) nodes_each: usize,
     rows: Vec<Vec<usize>>,
 }
 
 extracts!(Connectivity, object => {
     // Read as floats: as integers, numpy would truncate fractions.
     let Table { columns, rows } = Table::read(&object, "(elements, nodes of each)")?;
-    let rows = rows.into_iter().map(|row| row.into_iter().map(node).collect());
-    Ok(Self { each: columns, rows: rows.collect::<PyResult<_>>()? })
+    let rows = rows.into_iter().map(|row| row.into_iter().map(node_number).collect());
+    Ok(Self { nodes_each: columns, rows: rows.collect::<PyResult<_>>()? })
 });
 
 impl Connectivity {
     pub(super) fn rows<const N: usize>(&self) -> PyResult<Vec<[usize; N]>> {
-        let nodes = |row: &Vec<usize>| {
-            <[usize; N]>::try_from(row.as_slice()).map_err(|_| {
-                refuse(format!("elements have {} nodes, but must have {N}", self.each))
-            })
-        };
-        self.rows.iter().map(nodes).collect()
+        let nodes = self.rows.iter().map(|row| <[usize; N]>::try_from(row.as_slice()));
+        nodes.collect::<Result<_, _>>().map_err(|_| {
+            input_error(format!("elements have {} nodes, but must have {N}", self.nodes_each))
+        })
     }
 }
 
@@ -94,14 +92,15 @@ extracts!(Cells, object => {
         return Ok(Self(object.extract::<Connectivity>()?.rows));
     }
     let needed = "a list of lists of node numbers, or an array of shape (elements, nodes of each)";
-    let cells = object.try_iter().map_err(|_| no_such(&object, needed))?;
-    let cell = |own: PyResult<Bound<'_, PyAny>>| {
-        let own = own?;
-        if let Ok(nodes) = own.extract::<Vec<usize>>() {
-            return Ok(nodes);
-        }
-        let Numbers(nodes) = own.extract()?;
-        nodes.into_iter().map(node).collect()
-    };
-    cells.map(cell).collect::<PyResult<_>>().map(Self)
+    let cells = object.try_iter().map_err(|_| type_error(&object, needed))?;
+    cells.map(|cell| cell_nodes(&cell?)).collect::<PyResult<_>>().map(Self)
 });
+
+/// Node numbers of one element.
+fn cell_nodes(cell: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
+    if let Ok(nodes) = cell.extract::<Vec<usize>>() {
+        return Ok(nodes);
+    }
+    let Numbers(nodes) = cell.extract()?;
+    nodes.into_iter().map(node_number).collect()
+}

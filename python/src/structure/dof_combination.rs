@@ -4,18 +4,18 @@ use basemat::structure::{Base, DofCombination, Structure};
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
-use super::recipe;
+use super::structure_recipe;
 use crate::array::{Array, Count, Numbers};
-use crate::error::{OrRaise, refuse};
-use crate::row::{PyDofCombination, RowLike, rows};
+use crate::error::{OrRaise, input_error};
+use crate::row::{PyDofCombination, RowLike, python_rows};
 
 impl PyDofCombination {
     /// The structure in the plane that this row is for.
     fn in_plane(&self, structure: &Bound<'_, PyAny>) -> PyResult<Box<dyn Structure>> {
-        let structure = recipe(structure)?().or_raise()?;
+        let structure = structure_recipe(structure)?().or_raise()?;
         if matches!(structure.base(), Base::Faces(_)) {
             let needed = "in plan subtract a row of DofCombination.of_base";
-            return Err(refuse(format!("the structure is none of the plane: {needed}")));
+            return Err(input_error(format!("the structure is none of the plane: {needed}")));
         }
         self.1.check("the row", structure.dofs())?;
         Ok(structure)
@@ -40,7 +40,7 @@ impl PyDofCombination {
         let Numbers(dofs) = dofs;
         self.1.check("the row", dofs.len())?;
         if let Some((index, _)) = self.0.iter().find(|(index, _)| *index >= dofs.len()) {
-            return Err(refuse(format!(
+            return Err(input_error(format!(
                 "degree of freedom {index} of a row, of {} given",
                 dofs.len()
             )));
@@ -59,7 +59,7 @@ impl PyDofCombination {
         weights.resize(dofs, 0.0);
         for &(index, weight) in &self.0 {
             *weights.get_mut(index).ok_or_else(|| {
-                refuse(format!("degree of freedom {index} of a row, of {dofs}"))
+                input_error(format!("degree of freedom {index} of a row, of {dofs}"))
             })? += weight;
         }
         Ok(weights.into())
@@ -69,8 +69,8 @@ impl PyDofCombination {
     /// ``structure`` carries with it as if it were rigid, at ``place`` (x, y, height; m) from the middle of the base.
     #[staticmethod]
     fn of_base(structure: Bound<'_, PyAny>, place: [f64; 3]) -> PyResult<[Self; 3]> {
-        let structure = recipe(&structure)?().or_raise()?;
-        Ok(rows(DofCombination::of_base(structure.as_ref(), place).or_raise()?))
+        let structure = structure_recipe(&structure)?().or_raise()?;
+        Ok(python_rows(DofCombination::of_base(structure.as_ref(), place).or_raise()?))
     }
 
     /// This displacement to the right, relative to the middle of the base of the ``structure``; in plan subtract a row of
@@ -88,11 +88,11 @@ impl PyDofCombination {
     }
 
     fn __add__(&self, other: RowLike) -> PyResult<Self> {
-        Ok(Self(self.0.clone() + other.0, self.1.and(other.1)?))
+        Ok(Self(self.0.clone() + other.0, self.1.common_with(other.1)?))
     }
 
     fn __sub__(&self, other: RowLike) -> PyResult<Self> {
-        Ok(Self(self.0.clone() - other.0, self.1.and(other.1)?))
+        Ok(Self(self.0.clone() - other.0, self.1.common_with(other.1)?))
     }
 
     fn __neg__(&self) -> Self {

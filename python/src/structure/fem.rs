@@ -14,10 +14,10 @@ use super::PyStructure;
 use super::composed::PyRayleighDamping;
 use super::material::{PyMaterial, formulation};
 use super::mesh::{PyMesh, direction};
-use crate::array::{Array, Count, whole};
-use crate::error::{OrRaise, WithGiven, refuse};
+use crate::array::{Array, Count, whole_numbers};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::recipe::Shared;
-use crate::row::{PyDofCombination, PySectionRows, six};
+use crate::row::{PyDofCombination, PySectionRows, space_sections};
 
 /// A finite-element structure.
 ///
@@ -43,7 +43,7 @@ enum Contact {
 
 extracts!(Contact, object => match object.extract() {
     Ok(lines) => Ok(Self::Lines(lines)),
-    Err(_) => Ok(Self::Nodes(whole(&object)?)),
+    Err(_) => Ok(Self::Nodes(whole_numbers(&object)?)),
 });
 
 #[pymethods]
@@ -56,17 +56,18 @@ impl PyFemModel {
         in_trench: bool,
         rayleigh: Option<&PyRayleighDamping>,
         mass: &str,
-        #[pyo3(from_py_with = whole)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
-        #[pyo3(from_py_with = whole)] diaphragms: Option<Vec<(usize, Vec<usize>)>>,
+        #[pyo3(from_py_with = whole_numbers)] rigid_links: Option<Vec<(usize, Vec<usize>)>>,
+        #[pyo3(from_py_with = whole_numbers)] diaphragms: Option<Vec<(usize, Vec<usize>)>>,
         p_delta: Option<f64>,
         active_damping: bool,
         active_stiffness: bool,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let (has_depth, mesh) = (mesh.has_depth(), mesh.0.clone());
+        let has_depth = mesh.has_depth();
+        let mesh = mesh.0.clone();
         let model = match contact {
             Some(Contact::Nodes(outline)) if in_trench => FemModel::in_trench(mesh, &outline),
             _ if in_trench => {
-                return Err(refuse("in a trench, contact is the list of the outline's nodes"));
+                return Err(input_error("in a trench, contact is the list of the outline's nodes"));
             }
             None => FemModel::on_base(mesh),
             // A single face may be given without a list.
@@ -92,7 +93,7 @@ impl PyFemModel {
             model = model.with_active_stiffness();
         }
         let model = Arc::new(model);
-        let base = PyStructure::copied(Shared(Arc::clone(&model), None));
+        let base = PyStructure::from_structure(Shared(Arc::clone(&model), None));
         Ok(PyClassInitializer::from(base).add_subclass(Self(model)))
     }
 
@@ -145,14 +146,14 @@ impl PyFemModel {
     /// acceleration of gravity to the vertical accelerations.
     #[pyo3(signature = (height, reference=[0.0; 2]), text_signature = "($self, height, reference=(0.0, 0.0))")]
     fn section_in_space(&self, height: f64, reference: [f64; 2]) -> PyResult<[PySectionRows; 6]> {
-        Ok(six(self.0.section_in_space(height, reference).or_raise()?))
+        Ok(space_sections(self.0.section_in_space(height, reference).or_raise()?))
     }
 
     /// The `DofCombination` of a uniform pressure on a line of ``nodes`` (list of numbers): as the
     /// row of a `Load`, whose forces are then pressures (Pa).
     fn pressure_row(
         &self,
-        #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
+        #[pyo3(from_py_with = whole_numbers)] nodes: Vec<usize>,
     ) -> PyResult<PyDofCombination> {
         Ok(self.0.pressure_row(&nodes).or_raise()?.into())
     }
@@ -161,7 +162,7 @@ impl PyFemModel {
     /// of ``nodes`` (list of numbers): as the row of a `Load` in N/m, in space in N.
     fn resultant_row(
         &self,
-        #[pyo3(from_py_with = whole)] nodes: Vec<usize>,
+        #[pyo3(from_py_with = whole_numbers)] nodes: Vec<usize>,
         direction: &str,
     ) -> PyResult<PyDofCombination> {
         Ok(self.0.resultant_row(&nodes, self::direction(direction)?).or_raise()?.into())
@@ -209,10 +210,10 @@ impl PyGmshMesh {
         &self,
         materials: BTreeMap<String, Bound<'_, PyMaterial>>,
         formulation: &str,
-        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
+        #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
     ) -> PyResult<PyMesh> {
         let materials: Vec<(&str, Material)> =
-            materials.iter().map(|(name, own)| (name.as_str(), own.get().0)).collect();
+            materials.iter().map(|(name, material)| (name.as_str(), material.get().0)).collect();
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(PyMesh(self.0.mesh_of(&materials, formulation).or_raise()?))
     }

@@ -10,9 +10,9 @@ use pyo3::prelude::*;
 use super::beam_section::PyBeamSection;
 use super::material::PyMaterial;
 use super::mesh::PyMesh;
-use crate::array::{Count, Rows, real};
+use crate::array::{Count, Rows, real_number};
 use crate::error::OrRaise;
-use crate::several::no_such;
+use crate::several::type_error;
 
 /// A mesh of lines, triangles, quadrilaterals and hexahedra in space, z up, from the file of Gmsh (formats
 /// 4.1 and 2.2, text or binary) at ``path``; nodes at the same place within ``merge_within`` (m) become one, none unless
@@ -20,10 +20,10 @@ use crate::several::no_such;
 #[pyclass(name = "GmshSpaceMesh", module = "basemat", frozen, dict)]
 pub(crate) struct PyGmshSpaceMesh(GmshSpaceMesh);
 
-/// Part of a group as Python gives it.
-struct Part(GmshPart);
+/// Python's description of the elements of a group.
+struct GroupPart(GmshPart);
 
-extracts!(Part, object => {
+extracts!(GroupPart, object => {
     if object.is_none() {
         return Ok(Self(GmshPart::LeftOut));
     }
@@ -33,24 +33,26 @@ extracts!(Part, object => {
     let entries = object.try_iter().and_then(Iterator::collect::<PyResult<Vec<_>>>);
     let part = match entries.unwrap_or_default().as_slice() {
         [material, thickness] => {
-            GmshPart::Shell(own::<PyMaterial>(material)?.get().0, real("thickness", thickness)?)
+            let material = cast_entry::<PyMaterial>(material)?;
+            GmshPart::Shell(material.get().0, real_number("thickness", thickness)?)
         }
         [material, section, orientation] => {
-            let (material, section) = (own::<PyMaterial>(material)?, own::<PyBeamSection>(section)?);
+            let material = cast_entry::<PyMaterial>(material)?;
+            let section = cast_entry::<PyBeamSection>(section)?;
             GmshPart::Beam(material.get().0, section.get().0, orientation.extract()?)
         }
         _ => {
             let needed = "a Material, (material, thickness), (material, section, orientation) or None";
-            return Err(no_such(&object, needed));
+            return Err(type_error(&object, needed));
         }
     };
     Ok(Self(part))
 });
 
-/// An entry of a part, of the class `T`.
-fn own<'a, 'py, T: PyClass>(entry: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, T>> {
+/// An entry of a part as an object of the class `T`.
+fn cast_entry<'a, 'py, T: PyClass>(entry: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, T>> {
     let name = T::type_object(entry.py()).name()?;
-    entry.cast::<T>().map_err(|_| no_such(entry, &format!("a {name}")))
+    entry.cast::<T>().map_err(|_| type_error(entry, &format!("a {name}")))
 }
 
 #[pymethods]
@@ -89,7 +91,7 @@ impl PyGmshSpaceMesh {
     /// ``(material, section, orientation)`` as in `Mesh.add_space_beams`; None leaves a group out. Lines and
     /// surfaces that are sides of other elements need no part. Triangles match the sides that they share with
     /// quadrilaterals. `Mesh.elements` leads from the nodes of `cells` to the numbers of elements.
-    fn mesh(&self, parts: BTreeMap<String, Part>) -> PyResult<PyMesh> {
+    fn mesh(&self, parts: BTreeMap<String, GroupPart>) -> PyResult<PyMesh> {
         let parts: Vec<(&str, GmshPart)> =
             parts.iter().map(|(name, part)| (name.as_str(), part.0)).collect();
         Ok(PyMesh(self.0.mesh(&parts).or_raise()?))

@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 
 use super::mesh::PyMesh;
 use crate::array::{Array, Count, Numbers, Pairs, Surface};
-use crate::error::refuse;
+use crate::error::input_error;
 
 /// Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`.
 #[pyclass(name = "Grid", module = "basemat", frozen)]
@@ -19,7 +19,10 @@ impl PyGrid {
         if index.0 < rows {
             return Ok(self.0.row(index.0).to_vec());
         }
-        Err(refuse(format!("index is {}, but must be below {rows}, the number of rows", index.0)))
+        Err(input_error(format!(
+            "index is {}, but must be below {rows}, the number of rows",
+            index.0
+        )))
     }
 
     /// Number of rows.
@@ -48,7 +51,7 @@ impl PyGrid {
         mut mesh: PyRefMut<'_, PyMesh>,
         heights: Numbers,
     ) -> PyResult<Vec<[usize; 8]>> {
-        mesh.changed(|mesh| self.0.extrude(mesh, &heights.0))
+        mesh.change(|mesh| self.0.extrude(mesh, &heights.0))
     }
 
     fn __repr__(&self) -> String {
@@ -61,8 +64,10 @@ impl PyMesh {
     /// Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`.
     fn add_grid(&mut self, points: Surface) -> PyResult<PyGrid> {
         let Surface { shape: [rows, columns], points } = points;
-        let point = |row, column| points[row * columns + column];
-        self.changed(|mesh| mesh.add_grid(rows, columns, point)).map(PyGrid)
+        let grid = self.change(|mesh| {
+            mesh.add_grid(rows, columns, |row, column| points[row * columns + column])
+        });
+        grid.map(PyGrid)
     }
 
     /// Adds the nodes of a surface of revolution; returns its `Grid`.
@@ -71,6 +76,6 @@ impl PyMesh {
     /// (rows, 2); a row on the axis is one node, a pole. ``sectors``: number of columns round the axis, from the direction of
     /// x towards y.
     fn revolve(&mut self, axis: [f64; 2], meridian: Pairs, sectors: Count) -> PyResult<PyGrid> {
-        self.changed(|mesh| mesh.revolve(axis, &meridian.0, sectors.0)).map(PyGrid)
+        self.change(|mesh| mesh.revolve(axis, &meridian.0, sectors.0)).map(PyGrid)
     }
 }

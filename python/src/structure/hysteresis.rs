@@ -9,12 +9,12 @@ use basemat::structure::{
 };
 use pyo3::prelude::*;
 
-use super::{PyStructure, recipe};
+use super::{PyStructure, structure_recipe};
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, refuse};
+use crate::error::{OrRaise, input_error};
 use crate::recipe::{Make, Recipe};
 use crate::row::RowLike;
-use crate::several::no_such;
+use crate::several::type_error;
 use crate::user;
 
 // Signatures show numbers only.
@@ -38,24 +38,24 @@ pub(super) struct LawLike(pub(super) Recipe<dyn Hysteresis>, Option<Make<Biaxial
 impl LawLike {
     pub(super) fn coupled(self) -> PyResult<Make<BiaxialSpring>> {
         let needed = "a hysteresis written in Python acts in one direction: give one for each";
-        self.1.ok_or_else(|| refuse(needed))
+        self.1.ok_or_else(|| input_error(needed))
     }
 }
 
 extracts!(LawLike, object => match object.cast::<PyHysteresis>() {
-    Ok(own) => Ok(Self(own.get().make.clone(), Some(own.get().coupled.clone()))),
+    Ok(law) => Ok(Self(law.get().make.clone(), Some(law.get().coupled.clone()))),
     Err(_) => Ok(Self(user::hysteresis(&object)?, None)),
 });
 
-/// The base of a law that can be copied.
-fn copied<L: Hysteresis + Clone + Sync + 'static>(
+/// The superclass object of a law that can be cloned.
+fn superclass<L: Hysteresis + Clone + Sync + 'static>(
     law: L,
     coupled: fn(&L) -> Result<BiaxialSpring>,
 ) -> PyHysteresis {
-    let own = law.clone();
+    let uniaxial = law.clone();
     PyHysteresis {
-        make: Arc::new(move || Ok(Box::new(law.clone()))),
-        coupled: Arc::new(move || coupled(&own)),
+        make: Arc::new(move || Ok(Box::new(uniaxial.clone()))),
+        coupled: Arc::new(move || coupled(&law)),
     }
 }
 
@@ -65,12 +65,12 @@ impl PyHysteresis {
     /// new spring is led along.
     fn path(&self, deformations: crate::array::Numbers) -> PyResult<Vec<f64>> {
         let mut spring = (self.make)().or_raise()?;
-        let force = |deformation: f64| {
-            let force = spring.response(deformation).force;
+        let mut forces = Vec::with_capacity(deformations.0.len());
+        for deformation in deformations.0 {
+            forces.push(spring.response(deformation).force);
             spring.commit(deformation);
-            force
-        };
-        Ok(deformations.0.into_iter().map(force).collect())
+        }
+        Ok(forces)
     }
 }
 
@@ -83,8 +83,8 @@ pub(crate) struct PyBilinear;
 impl PyBilinear {
     #[new]
     fn new(stiffness: f64, yield_force: f64, hardening: f64) -> PyResult<PyClassInitializer<Self>> {
-        let own = Bilinear::new(stiffness, yield_force, hardening).or_raise()?;
-        let base = copied(own, |law| Ok(law.coupled()));
+        let law = Bilinear::new(stiffness, yield_force, hardening).or_raise()?;
+        let base = superclass(law, |law| Ok(law.coupled()));
         Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }
@@ -106,13 +106,13 @@ impl PyBoucWen {
         exponent: Option<f64>,
         beta: Option<f64>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mut own = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
+        let mut law = BoucWen::new(stiffness, yield_force, hardening).or_raise()?;
         match (exponent, beta) {
             (None, None) => {}
-            (Some(exponent), Some(beta)) => own = own.with_shape(exponent, beta).or_raise()?,
-            _ => return Err(refuse("give both exponent and beta, or neither")),
+            (Some(exponent), Some(beta)) => law = law.with_shape(exponent, beta).or_raise()?,
+            _ => return Err(input_error("give both exponent and beta, or neither")),
         }
-        Ok(PyClassInitializer::from(copied(own, BoucWen::coupled)).add_subclass(Self))
+        Ok(PyClassInitializer::from(superclass(law, BoucWen::coupled)).add_subclass(Self))
     }
 }
 
@@ -121,7 +121,7 @@ impl PyBoucWen {
 #[pyclass(name = "FrictionPendulum", module = "basemat", extends = PyHysteresis, frozen)]
 pub(crate) struct PyFrictionPendulum(FrictionPendulum);
 
-extends!(PyFrictionPendulum, own => copied(own.0.clone(), |law| Ok(law.coupled())));
+extends!(PyFrictionPendulum, pendulum => superclass(pendulum.0.clone(), |law| Ok(law.coupled())));
 
 #[pymethods]
 impl PyFrictionPendulum {
@@ -133,9 +133,9 @@ impl PyFrictionPendulum {
         friction: f64,
         yield_displacement: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let own = FrictionPendulum::new(weight, radius, friction)
-            .and_then(|own| own.with_yield_displacement(yield_displacement));
-        Self(own.or_raise()?).initializer()
+        let pendulum = FrictionPendulum::new(weight, radius, friction)
+            .and_then(|pendulum| pendulum.with_yield_displacement(yield_displacement));
+        Self(pendulum.or_raise()?).initializer()
     }
 
     /// Period of sliding on the dish, s, under a ``gravity`` (m/s²; 9.80665 by default).
@@ -166,8 +166,8 @@ impl PyPendulumBearing {
         yield_displacement: f64,
     ) -> PyResult<Self> {
         FrictionPendulum::new(weight, radius, friction)
-            .and_then(|own| own.with_yield_displacement(yield_displacement))
-            .and_then(|own| own.with_vertical_stiffness(vertical_stiffness))
+            .and_then(|pendulum| pendulum.with_yield_displacement(yield_displacement))
+            .and_then(|pendulum| pendulum.with_vertical_stiffness(vertical_stiffness))
             .or_raise()
             .map(Self)
     }
@@ -200,8 +200,8 @@ impl PyLeadRubber {
         lead_area: f64,
         stiffness_ratio: f64,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let own = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
-        bearing(own, stiffness_ratio)?.initializer()
+        let bearing = LeadRubber::new(shear_modulus, rubber_area, rubber_thickness, lead_area);
+        with_stiffness_ratio(bearing, stiffness_ratio)?.initializer()
     }
 
     /// Bearing of a ``stiffness`` after yielding (N/m per metre) and a ``strength`` (N/m);
@@ -209,7 +209,7 @@ impl PyLeadRubber {
     #[pyo3(signature = (stiffness, strength, *, stiffness_ratio=10.0))]
     #[staticmethod]
     fn from_strength(stiffness: f64, strength: f64, stiffness_ratio: f64) -> PyResult<Self> {
-        bearing(LeadRubber::from_strength(stiffness, strength), stiffness_ratio)
+        with_stiffness_ratio(LeadRubber::from_strength(stiffness, strength), stiffness_ratio)
     }
 
     /// Strength: force at zero deformation, N/m.
@@ -225,15 +225,18 @@ impl PyLeadRubber {
     }
 }
 
-extends!(PyLeadRubber, own => copied(own.0.clone(), |law| Ok(law.coupled())));
+extends!(PyLeadRubber, bearing => superclass(bearing.0.clone(), |law| Ok(law.coupled())));
 
-fn bearing(own: basemat::Result<LeadRubber>, stiffness_ratio: f64) -> PyResult<PyLeadRubber> {
-    let own = own.and_then(|own| own.with_stiffness_ratio(stiffness_ratio));
-    own.or_raise().map(PyLeadRubber)
+fn with_stiffness_ratio(
+    bearing: basemat::Result<LeadRubber>,
+    stiffness_ratio: f64,
+) -> PyResult<PyLeadRubber> {
+    let bearing = bearing.and_then(|bearing| bearing.with_stiffness_ratio(stiffness_ratio));
+    bearing.or_raise().map(PyLeadRubber)
 }
 
-/// Springs of a list: rows of the deformations, one to three, and the law.
-struct Springs(Vec<(Vec<RowLike>, SpringLaw)>);
+/// Python's list of springs: rows of the deformations, one to three, and the law.
+struct SpringList(Vec<(Vec<RowLike>, SpringLaw)>);
 
 /// Law of one or two rows, or a bearing of three.
 enum SpringLaw {
@@ -241,31 +244,60 @@ enum SpringLaw {
     Bearing(PendulumBearing),
 }
 
-extracts!(Springs, object => {
+extracts!(SpringList, object => {
     let needed = "a list of (row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
-    let entries = object.try_iter().map_err(|_| no_such(&object, needed))?;
-    let spring = |entry: PyResult<Bound<'py, PyAny>>| {
-        let entry = entry?;
-        let count = entry.len().ok().filter(|count| [2, 3, 4].contains(count));
-        let needed = "(row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
-        let last = count.ok_or_else(|| no_such(&entry, needed))? - 1;
-        let rows = (0..last).map(|k| entry.get_item(k)?.extract::<RowLike>());
-        let law = entry.get_item(last)?;
-        let law = match law.cast::<PyPendulumBearing>() {
-            Ok(own) if last == 3 => SpringLaw::Bearing(own.get().0.clone()),
-            _ if last == 3 => return Err(no_such(&law, "a PendulumBearing for three rows")),
-            _ => SpringLaw::Law(law.extract()?),
-        };
-        Ok((rows.collect::<PyResult<_>>()?, law))
-    };
-    entries.map(spring).collect::<PyResult<_>>().map(Self)
+    let entries = object.try_iter().map_err(|_| type_error(&object, needed))?;
+    entries.map(|entry| spring_entry(&entry?)).collect::<PyResult<_>>().map(Self)
 });
 
-/// A row and a law along it, or two rows and a coupled law.
+/// The rows and the law of an entry of a list of springs.
+fn spring_entry(entry: &Bound<'_, PyAny>) -> PyResult<(Vec<RowLike>, SpringLaw)> {
+    let needed = "(row, law), (row_x, row_y, law) or (row_x, row_y, row_z, bearing)";
+    let length = entry.len().ok().filter(|length| [2, 3, 4].contains(length));
+    let row_count = length.ok_or_else(|| type_error(entry, needed))? - 1;
+    let law = entry.get_item(row_count)?;
+    let law = match law.cast::<PyPendulumBearing>() {
+        Ok(bearing) if row_count == 3 => SpringLaw::Bearing(bearing.get().0.clone()),
+        _ if row_count == 3 => return Err(type_error(&law, "a PendulumBearing for three rows")),
+        _ => SpringLaw::Law(law.extract()?),
+    };
+    let rows = (0..row_count).map(|index| entry.get_item(index)?.extract::<RowLike>());
+    Ok((rows.collect::<PyResult<_>>()?, law))
+}
+
+/// A spring of a structure: a law along one row, a coupled law of two rows, or a bearing of three.
 enum Spring {
     Uniaxial(DofCombination, Recipe<dyn Hysteresis>),
     Biaxial([DofCombination; 2], Make<BiaxialSpring>),
     Bearing([DofCombination; 3], PendulumBearing),
+}
+
+impl Spring {
+    /// The spring along these rows of a structure of `dofs` degrees of freedom.
+    fn new(rows: Vec<RowLike>, law: SpringLaw, dofs: usize) -> PyResult<Self> {
+        let mut combinations = Vec::with_capacity(rows.len());
+        for RowLike(row, weight_count) in rows {
+            weight_count.check("the row of a spring", dofs)?;
+            combinations.push(row);
+        }
+        match law {
+            SpringLaw::Bearing(law) => Ok(Self::Bearing(exactly(combinations)?, law)),
+            SpringLaw::Law(law) if combinations.len() == 2 => {
+                Ok(Self::Biaxial(exactly(combinations)?, law.coupled()?))
+            }
+            SpringLaw::Law(law) => {
+                let [row] = exactly(combinations)?;
+                Ok(Self::Uniaxial(row, law.0))
+            }
+        }
+    }
+}
+
+/// The rows as an array of `N`.
+fn exactly<const N: usize>(rows: Vec<DofCombination>) -> PyResult<[DofCombination; N]> {
+    let found = rows.len();
+    rows.try_into()
+        .map_err(|_| input_error(format!("a spring has {found} rows, but must have {N}")))
 }
 
 /// A ``structure`` with hysteretic ``springs``: a list of pairs ``(row, law)``, of a row of degrees of
@@ -283,40 +315,29 @@ pub(crate) struct PyWithSprings(
 #[pymethods]
 impl PyWithSprings {
     #[new]
-    fn new(structure: Bound<'_, PyAny>, springs: Springs) -> PyResult<PyClassInitializer<Self>> {
-        let (object, structure) = (structure.clone(), recipe(&structure)?);
-        let dofs = structure().or_raise()?.dofs();
-        let names = DofNames::from_structure(&object, dofs)?;
-        let spring = |(rows, law): (Vec<RowLike>, SpringLaw)| {
-            let count = rows.len();
-            let row = |RowLike(row, order): RowLike| {
-                order.check("the row of a spring", dofs)?;
-                Ok(row)
-            };
-            let mut rows = rows.into_iter().map(row).collect::<PyResult<Vec<_>>>()?.into_iter();
-            let mut next = || rows.next().unwrap_or_default();
-            Ok(match law {
-                SpringLaw::Bearing(law) => Spring::Bearing([next(), next(), next()], law),
-                SpringLaw::Law(law) if count == 2 => {
-                    Spring::Biaxial([next(), next()], law.coupled()?)
-                }
-                SpringLaw::Law(law) => Spring::Uniaxial(next(), law.0),
-            })
-        };
-        let springs: Vec<_> = springs.0.into_iter().map(spring).collect::<PyResult<_>>()?;
+    fn new(structure: Bound<'_, PyAny>, springs: SpringList) -> PyResult<PyClassInitializer<Self>> {
+        let make_structure = structure_recipe(&structure)?;
+        let dofs = make_structure().or_raise()?.dofs();
+        let names = DofNames::from_structure(&structure, dofs)?;
+        let springs = springs.0.into_iter().map(|(rows, law)| Spring::new(rows, law, dofs));
+        let springs: Vec<Spring> = springs.collect::<PyResult<_>>()?;
         let make = move || {
-            let mut own = WithSprings::new(structure()?);
+            let mut with_springs = WithSprings::new(make_structure()?);
             for spring in &springs {
-                own = match spring {
-                    Spring::Uniaxial(row, law) => own.spring(row, law()?)?,
-                    Spring::Biaxial(rows, law) => own.biaxial_spring(rows.each_ref(), law()?)?,
-                    Spring::Bearing(rows, law) => own.pendulum(rows.each_ref(), law.clone())?,
+                with_springs = match spring {
+                    Spring::Uniaxial(row, law) => with_springs.spring(row, law()?)?,
+                    Spring::Biaxial(rows, law) => {
+                        with_springs.biaxial_spring(rows.each_ref(), law()?)?
+                    }
+                    Spring::Bearing(rows, law) => {
+                        with_springs.pendulum(rows.each_ref(), law.clone())?
+                    }
                 };
             }
-            Ok(own)
+            Ok(with_springs)
         };
         make().or_raise()?;
-        let base = PyStructure::new(make).named(names);
-        Ok(PyClassInitializer::from(base).add_subclass(Self(object.unbind())))
+        let base = PyStructure::new(make).with_dof_names(names);
+        Ok(PyClassInitializer::from(base).add_subclass(Self(structure.unbind())))
     }
 }

@@ -8,8 +8,8 @@ use super::connectivity::{Cells, Connectivity, PerElement, Vectors, one_of};
 use super::material::PyMaterial;
 use super::mesh::{PyMesh, direction};
 use crate::array::Points;
-use crate::error::{OrRaise, WithGiven, refuse};
-use crate::several::Several;
+use crate::error::{OrRaise, WithOption, input_error};
+use crate::several::ListOf;
 
 #[pymethods]
 impl PyMesh {
@@ -33,15 +33,16 @@ impl PyMesh {
     fn add_shells(
         &mut self,
         nodes: Cells,
-        material: Several<'_, PyMaterial>,
+        material: ListOf<'_, PyMaterial>,
         thickness: PerElement,
     ) -> PyResult<Vec<usize>> {
         let count = nodes.0.len();
-        let shell = |(k, own): (usize, &Vec<usize>)| {
-            let material = one_of(&material, "material", k, count)?.get().0;
-            Shell::new(own, material, thickness.at("thickness", k, count)?).or_raise()
-        };
-        let mut shells = nodes.0.iter().enumerate().map(shell).collect::<PyResult<Vec<_>>>()?;
+        let mut shells = Vec::with_capacity(count);
+        for (index, shell_nodes) in nodes.0.iter().enumerate() {
+            let shell_material = one_of(&material, "material", index, count)?.get().0;
+            let shell_thickness = thickness.at("thickness", index, count)?;
+            shells.push(Shell::new(shell_nodes, shell_material, shell_thickness).or_raise()?);
+        }
         Shell::match_sides(&mut shells);
         self.add_all(shells.into_iter().map(Ok))
     }
@@ -49,8 +50,8 @@ impl PyMesh {
     /// Adds bricks of a ``material`` (`Material`) on ``nodes``, array of shape (bricks, 8): the lower face
     /// counter-clockwise seen from above, then the nodes above these.
     fn add_bricks(&mut self, nodes: Connectivity, material: &PyMaterial) -> PyResult<Vec<usize>> {
-        let all = nodes.rows::<8>()?.into_iter();
-        self.add_all(all.map(|own| Ok(Hex8::new(own, material.0))))
+        let bricks = nodes.rows::<8>()?.into_iter();
+        self.add_all(bricks.map(|nodes| Ok(Hex8::new(nodes, material.0))))
     }
 
     /// Adds beams in space on ``nodes`` (array of shape (beams, 2)), of a ``material`` (`Material`) and a
@@ -81,12 +82,16 @@ impl PyMesh {
             let directions = names.iter().map(|name| direction(name));
             released.push((end, directions.collect::<PyResult<Vec<_>>>()?));
         }
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let orientation = *one_of(&orientation.0, "orientation", k, ends.len())?;
-            let force = compression.as_ref().map(|own| own.at("compression", k, ends.len()));
-            let mut beam = SpaceBeam::new(*own, material.0, section.0, orientation)
+        let count = ends.len();
+        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
+            let beam_orientation = *one_of(&orientation.0, "orientation", index, count)?;
+            let force = match &compression {
+                Some(force) => Some(force.at("compression", index, count)?),
+                None => None,
+            };
+            let mut beam = SpaceBeam::new(nodes, material.0, section.0, beam_orientation)
                 .with(offsets, SpaceBeam::with_offsets)
-                .with(force.transpose()?, SpaceBeam::with_compression);
+                .with(force, SpaceBeam::with_compression);
             for (end, directions) in &released {
                 beam = beam.and_then(|beam| beam.with_releases(*end, directions));
             }
@@ -100,5 +105,5 @@ impl PyMesh {
 fn two_arms(points: Points) -> PyResult<[[f64; 3]; 2]> {
     let arms = points.in_space()?;
     let found = arms.len();
-    arms.try_into().map_err(|_| refuse(format!("offsets has {found} rows, but must have 2")))
+    arms.try_into().map_err(|_| input_error(format!("offsets has {found} rows, but must have 2")))
 }

@@ -3,22 +3,22 @@
 use basemat::fem::{Layer, Material, QuadFormulation};
 use pyo3::prelude::*;
 
-use crate::array::whole;
-use crate::error::{OrRaise, refuse};
+use crate::array::whole_numbers;
+use crate::error::{OrRaise, input_error};
 use crate::names::choice;
 
 /// Integration of four-node quadrilaterals by its name.
 pub(super) fn formulation(name: &str, percent: usize) -> PyResult<QuadFormulation> {
     let percent = u8::try_from(percent).map_err(|_| {
-        refuse(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
+        input_error(format!("hourglass_percent is {percent}, but must be {} or less", u8::MAX))
     })?;
-    let all = [
+    let choices = [
         ("full", QuadFormulation::Full),
         ("incompatible_modes", QuadFormulation::IncompatibleModes),
         ("one_point", QuadFormulation::OnePoint),
         ("hourglass", QuadFormulation::Hourglass { percent }),
     ];
-    choice("formulation", name, &all)
+    choice("formulation", name, &choices)
 }
 
 /// Elastic material in plane strain: Young's modulus ``young_modulus`` (Pa), Poisson's ratio ``poisson``,
@@ -49,10 +49,10 @@ impl PyLayer {
     #[new]
     fn new(
         height: f64,
-        #[pyo3(from_py_with = whole)] rows: usize,
+        #[pyo3(from_py_with = whole_numbers)] rows: usize,
         material: &PyMaterial,
         formulation: &str,
-        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
+        #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
     ) -> PyResult<Self> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
         Ok(Self(Layer { height, rows, material: material.0, formulation }))

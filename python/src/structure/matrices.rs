@@ -10,7 +10,7 @@ use super::composed::PyRayleighDamping;
 use crate::array::Matrix;
 use crate::base_node::BaseLike;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, WithGiven, refuse};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::recipe::Shared;
 
 /// A structure given by its mass, stiffness and damping matrices, dense or of ``scipy.sparse``.
@@ -21,7 +21,7 @@ use crate::recipe::Shared;
 /// in plan, where matrices refer to the whole body. ``damping`` (n × n, N s/m per
 /// metre; none unless given) must be symmetric and positive semi-definite unless ``active_damping``
 /// (False by default), and ``stiffness`` symmetric unless ``active_stiffness`` (False by default); ``rayleigh``: `RayleighDamping` instead, none unless given. ``dof_names``:
-/// list of n names, each another one, for `dof`, frames and errors; none unless given.
+/// list of n different names, for `dof`, frames and errors; none unless given.
 #[pyclass(name = "MatrixModel", module = "basemat", extends = PyStructure, frozen)]
 pub(crate) struct PyMatrixModel;
 
@@ -42,19 +42,20 @@ impl PyMatrixModel {
         let dofs = mass.0.order();
         let names = dof_names.map(|names| DofNames::new(names, dofs)).transpose()?;
         if damping.is_some() && rayleigh.is_some() {
-            return Err(refuse("give a damping matrix or Rayleigh damping, not both"));
+            return Err(input_error("give a damping matrix or Rayleigh damping, not both"));
         }
-        let damped = if active_damping {
+        let with_damping = if active_damping {
             MatrixModel::with_active_damping
         } else {
             MatrixModel::with_damping
         };
         let model = MatrixModel::new(mass.0, stiffness.0, base.of_structure(dofs)?)
             .map(|model| if active_stiffness { model.with_active_stiffness() } else { model })
-            .with(damping, |model, matrix| damped(model, matrix.0))
+            .with(damping, |model, matrix| with_damping(model, matrix.0))
             .with(rayleigh, |model, damping| Ok(model.with_rayleigh(damping.0)))
             .or_raise()?;
-        let own = PyStructure::copied(Shared(Arc::new(model), names.clone())).named(names);
-        Ok(PyClassInitializer::from(own).add_subclass(Self))
+        let base = PyStructure::from_structure(Shared(Arc::new(model), names.clone()))
+            .with_dof_names(names);
+        Ok(PyClassInitializer::from(base).add_subclass(Self))
     }
 }

@@ -7,14 +7,14 @@ use pyo3::prelude::*;
 
 use super::connectivity::{Connectivity, PerElement};
 use super::material::{PyLayer, PyMaterial, formulation};
-use crate::array::{Count, Numbers, Pairs, Points, Rows, whole};
-use crate::error::{OrRaise, WithGiven, refuse};
+use crate::array::{Count, Numbers, Pairs, Points, Rows, whole_numbers};
+use crate::error::{OrRaise, WithOption, input_error};
 use crate::names::choice;
-use crate::several::Several;
+use crate::several::ListOf;
 
 /// A direction by its name: "x", "y" or "rotation" in the plane, one of six in space.
 pub(super) fn direction(name: &str) -> PyResult<Direction> {
-    let all = [
+    let choices = [
         ("x", Direction::X),
         ("y", Direction::Y),
         ("rotation", Direction::Rotation),
@@ -23,7 +23,7 @@ pub(super) fn direction(name: &str) -> PyResult<Direction> {
         ("rotation_y", Direction::RotationY),
         ("rotation_z", Direction::RotationZ),
     ];
-    choice("direction", name, &all)
+    choice("direction", name, &choices)
 }
 
 /// Nodes and finite elements in the plane; ``nodes``: array of shape (nodes, 2), m; none unless given.
@@ -45,8 +45,8 @@ impl PyMesh {
         self.0.directions().contains(&Direction::Z)
     }
 
-    /// Changes a copy of the mesh, which replaces it unless there is an error.
-    pub(super) fn changed<T>(
+    /// Changes the mesh, or leaves it as it is if there is an error.
+    pub(super) fn change<T>(
         &mut self,
         change: impl FnOnce(&mut Mesh) -> basemat::Result<T>,
     ) -> PyResult<T> {
@@ -64,9 +64,9 @@ impl PyMesh {
         let elements = elements.collect::<PyResult<Vec<_>>>()?;
         if elements.len() < 2 {
             // A single element needs no copy of the mesh.
-            return elements.into_iter().map(|own| self.0.add(own).or_raise()).collect();
+            return elements.into_iter().map(|element| self.0.add(element).or_raise()).collect();
         }
-        self.changed(|mesh| elements.into_iter().map(|own| mesh.add(own)).collect())
+        self.change(|mesh| elements.into_iter().map(|element| mesh.add(element)).collect())
     }
 
     /// Adds links between nodes in a direction.
@@ -80,11 +80,11 @@ impl PyMesh {
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
         let axial = axial[usize::from(self.has_depth())];
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let value = values.at(name, k, ends.len())?;
+        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
+            let value = values.at(name, index, ends.len())?;
             match direction {
-                "axial" => axial(*own, value).or_raise(),
-                _ => along(*own, self::direction(direction)?, value).or_raise(),
+                "axial" => axial(nodes, value).or_raise(),
+                _ => along(nodes, self::direction(direction)?, value).or_raise(),
             }
         }))
     }
@@ -102,8 +102,8 @@ extracts!(RotaryInertia, object => match object.extract() {
 });
 
 /// The layers of a block.
-fn layers(given: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
-    given.iter().map(|layer| layer.get().0).collect()
+fn layers(layers: &[Bound<'_, PyLayer>]) -> Vec<Layer> {
+    layers.iter().map(|layer| layer.get().0).collect()
 }
 
 #[pymethods]
@@ -125,7 +125,7 @@ impl PyMesh {
         left: f64,
         right: f64,
         columns: Count,
-        layers: Several<'_, PyLayer>,
+        layers: ListOf<'_, PyLayer>,
     ) -> PyResult<Self> {
         Mesh::layered_block(left..right, columns.0, &self::layers(&layers)).or_raise().map(Self)
     }
@@ -133,7 +133,7 @@ impl PyMesh {
     /// Block with columns between the lines of ``grid`` (array of shape (columns + 1,), x in m, ascending):
     /// ``layers`` is a list of `Layer` from y = 0 upwards.
     #[staticmethod]
-    fn graded_block(grid: Numbers, layers: Several<'_, PyLayer>) -> PyResult<Self> {
+    fn graded_block(grid: Numbers, layers: ListOf<'_, PyLayer>) -> PyResult<Self> {
         Mesh::graded_block(&grid.0, &self::layers(&layers)).or_raise().map(Self)
     }
 
@@ -162,7 +162,7 @@ impl PyMesh {
     /// Adds nodes at ``points`` (array of shape (n, 2), in space (n, 3), m); returns the list of their numbers.
     fn add_nodes(&mut self, points: Points) -> PyResult<Vec<usize>> {
         let points = if self.has_depth() { points.in_space()? } else { points.in_plane() };
-        self.changed(|mesh| points.into_iter().map(|point| mesh.add_node_at(point)).collect())
+        self.change(|mesh| points.into_iter().map(|point| mesh.add_node_at(point)).collect())
     }
 
     /// Adds beams on ``nodes`` (array of shape (beams, 2)): ``young_modulus`` (Pa), ``area`` (m²) and
@@ -183,16 +183,23 @@ impl PyMesh {
         compression: Option<PerElement>,
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let at = |name, values: &PerElement| values.at(name, k, ends.len());
-            let [modulus, area] = [at("young_modulus", &young_modulus)?, at("area", &area)?];
-            let [moment, density] =
-                [at("second_moment", &second_moment)?, at("density", &density)?];
-            let stiffness = shear_stiffness.as_ref().map(|own| at("shear_stiffness", own));
-            let force = compression.as_ref().map(|own| at("compression", own));
-            let beam = Beam::new(*own, modulus, area, moment, density)
-                .with(stiffness.transpose()?, Beam::with_shear_stiffness)
-                .with(force.transpose()?, Beam::with_compression)
+        let count = ends.len();
+        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
+            let beam_modulus = young_modulus.at("young_modulus", index, count)?;
+            let beam_area = area.at("area", index, count)?;
+            let beam_moment = second_moment.at("second_moment", index, count)?;
+            let beam_density = density.at("density", index, count)?;
+            let stiffness = match &shear_stiffness {
+                Some(stiffness) => Some(stiffness.at("shear_stiffness", index, count)?),
+                None => None,
+            };
+            let force = match &compression {
+                Some(force) => Some(force.at("compression", index, count)?),
+                None => None,
+            };
+            let beam = Beam::new(nodes, beam_modulus, beam_area, beam_moment, beam_density)
+                .with(stiffness, Beam::with_shear_stiffness)
+                .with(force, Beam::with_compression)
                 .or_raise()?;
             Ok(if rotary_inertia { beam.with_rotary_inertia() } else { beam })
         }))
@@ -208,11 +215,12 @@ impl PyMesh {
         density: PerElement,
     ) -> PyResult<Vec<usize>> {
         let ends = nodes.rows::<2>()?;
+        let count = ends.len();
         let new = if self.has_depth() { Truss::in_space } else { Truss::new };
-        self.add_all(ends.iter().enumerate().map(|(k, own)| {
-            let at = |name, values: &PerElement| values.at(name, k, ends.len());
-            let [modulus, area] = [at("young_modulus", &young_modulus)?, at("area", &area)?];
-            new(*own, modulus, area, at("density", &density)?).or_raise()
+        self.add_all(ends.iter().enumerate().map(|(index, &nodes)| {
+            let truss_modulus = young_modulus.at("young_modulus", index, count)?;
+            let truss_area = area.at("area", index, count)?;
+            new(nodes, truss_modulus, truss_area, density.at("density", index, count)?).or_raise()
         }))
     }
 
@@ -249,7 +257,8 @@ impl PyMesh {
         mass: f64,
         rotary_inertia: Option<RotaryInertia>,
     ) -> PyResult<usize> {
-        let (node, has_depth) = (node.0, self.has_depth());
+        let node = node.0;
+        let has_depth = self.has_depth();
         let element = match rotary_inertia {
             None if has_depth => LumpedMass::in_space(node, mass, [0.0; 3]),
             None => LumpedMass::new(node, mass),
@@ -262,7 +271,7 @@ impl PyMesh {
             Some(_) => {
                 let needed =
                     if has_depth { "three numbers in space" } else { "one number in the plane" };
-                return Err(refuse(format!("rotary_inertia must be {needed}")));
+                return Err(input_error(format!("rotary_inertia must be {needed}")));
             }
         };
         self.0.add(element.or_raise()?).or_raise()
@@ -278,15 +287,15 @@ impl PyMesh {
         nodes: Connectivity,
         material: &PyMaterial,
         formulation: &str,
-        #[pyo3(from_py_with = whole)] hourglass_percent: usize,
+        #[pyo3(from_py_with = whole_numbers)] hourglass_percent: usize,
     ) -> PyResult<Vec<usize>> {
         let formulation = self::formulation(formulation, hourglass_percent)?;
-        if nodes.each == 8 {
-            let all = nodes.rows::<8>()?.into_iter();
-            return self.add_all(all.map(|own| Ok(Quad8::new(own, material.0))));
+        if nodes.nodes_each == 8 {
+            let quads = nodes.rows::<8>()?.into_iter();
+            return self.add_all(quads.map(|nodes| Ok(Quad8::new(nodes, material.0))));
         }
-        let all = nodes.rows::<4>()?.into_iter();
-        self.add_all(all.map(|own| Ok(Quad4::new(own, material.0, formulation))))
+        let quads = nodes.rows::<4>()?.into_iter();
+        self.add_all(quads.map(|nodes| Ok(Quad4::new(nodes, material.0, formulation))))
     }
 
     /// Numbers of the nodes of each element, in the order of the elements' numbers: a list of lists.

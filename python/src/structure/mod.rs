@@ -36,4 +36,4 @@ pub(crate) use material::{PyLayer, PyMaterial};
 pub(crate) use matrices::PyMatrixModel;
 pub(crate) use mesh::PyMesh;
 pub(crate) use shells::{PyShellResultants, PyShellRows};
-pub(crate) use superclass::{PyStructure, made, recipe};
+pub(crate) use superclass::{PyStructure, new_structure, structure_recipe};

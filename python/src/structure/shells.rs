@@ -8,8 +8,8 @@ use basemat::structure::ShellRows;
 use pyo3::prelude::*;
 
 use super::PyFemModel;
-use crate::array::{Array, Count, Numbers, Rows, whole};
-use crate::error::{OrRaise, asked, heard, refuse, returned};
+use crate::array::{Array, Count, Numbers, Rows, whole_numbers};
+use crate::error::{OrRaise, call_user_code, extract_returned, input_error, raise_user_exceptions};
 use crate::row::PySectionRows;
 
 /// Forces and moments of a shell at a point, per metre of width, in its `axes`: from
@@ -98,26 +98,34 @@ impl PyShellRows {
 
     /// The `ShellResultants` for all n degrees of freedom, ``displacement``: array of shape (n,), m and rad.
     fn value(&self, displacement: Numbers) -> PyResult<PyShellResultants> {
-        let Numbers(own) = displacement;
-        let all = self.0.membrane.iter().chain(&self.0.moments).chain(&self.0.shears);
-        let last = all.flat_map(|rows| rows.displacement.iter()).map(|(dof, _)| *dof).max();
-        match last {
-            Some(dof) if dof >= own.len() => {
-                let found = own.len();
-                Err(refuse(format!("displacement has {found} entries, but must have over {dof}")))
+        let Numbers(dofs) = displacement;
+        let resultants = self.0.membrane.iter().chain(&self.0.moments).chain(&self.0.shears);
+        let rows = resultants.flat_map(|resultant| resultant.displacement.iter());
+        let last_dof = rows.map(|(dof, _)| *dof).max();
+        match last_dof {
+            Some(dof) if dof >= dofs.len() => {
+                let found = dofs.len();
+                Err(input_error(format!(
+                    "displacement has {found} entries, but must have over {dof}"
+                )))
             }
-            _ => Ok(PyShellResultants(self.0.value(&own))),
+            _ => Ok(PyShellResultants(self.0.value(&dofs))),
         }
     }
 }
 
 /// Unit vectors as rows.
-fn unit_vectors(own: &[[f64; 3]; 3]) -> Rows {
-    Rows(own.iter().map(|axis| axis.to_vec()).collect())
+fn unit_vectors(axes: &[[f64; 3]; 3]) -> Rows {
+    Rows(axes.iter().map(|axis| axis.to_vec()).collect())
 }
 
 /// Directions [along, outward] of the axes of shells.
 type Directions = [[f64; 3]; 2];
+
+/// Axes that a function of Python returns for a place; NaN if it raises.
+fn axes_at(function: &Bound<'_, PyAny>, [x, y, z]: [f64; 3]) -> Directions {
+    call_user_code([[f64::NAN; 3]; 2], |_| extract_returned("axes", &function.call1((x, y, z))?))
+}
 
 #[pymethods]
 impl PyFemModel {
@@ -141,21 +149,24 @@ impl PyFemModel {
     /// part of the first in the plane of a shell, and the normal n is on the side of the second.
     fn shell_rows(
         &self,
-        #[pyo3(from_py_with = whole)] elements: Vec<usize>,
+        #[pyo3(from_py_with = whole_numbers)] elements: Vec<usize>,
         axes: &Bound<'_, PyAny>,
     ) -> PyResult<Vec<PyShellRows>> {
-        let fixed: Option<Directions> =
-            if axes.is_callable() { None } else { Some(axes.extract()?) };
-        let known: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
-        let called = |[x, y, z]: [f64; 3]| {
-            asked([[f64::NAN; 3]; 2], |_| returned("axes", &axes.call1((x, y, z))?))
+        let found = if axes.is_callable() {
+            // The axes at each place: the function is called once for a node that several shells share.
+            let axes_by_place: RefCell<HashMap<[u64; 3], Directions>> = RefCell::default();
+            raise_user_exceptions(|| {
+                let rows = self.0.shell_rows(&elements, |place: [f64; 3]| {
+                    let mut axes_by_place = axes_by_place.borrow_mut();
+                    let entry = axes_by_place.entry(place.map(f64::to_bits));
+                    *entry.or_insert_with(|| axes_at(axes, place))
+                });
+                rows.or_raise()
+            })?
+        } else {
+            let directions: Directions = axes.extract()?;
+            self.0.shell_rows(&elements, |_| directions).or_raise()?
         };
-        let directions = |place: [f64; 3]| {
-            let bits = place.map(f64::to_bits);
-            let of_place = || *known.borrow_mut().entry(bits).or_insert_with(|| called(place));
-            fixed.unwrap_or_else(of_place)
-        };
-        let found = heard(|| self.0.shell_rows(&elements, directions).or_raise())?;
         Ok(found.into_iter().map(PyShellRows).collect())
     }
 }

@@ -1,4 +1,4 @@
-//! The superclass of structures, and structures in any form that Python may give them.
+//! The superclass of structures, structures of this package, and structures written in Python.
 
 use std::sync::Arc;
 
@@ -6,12 +6,12 @@ use basemat::structure::{DofCombination, Structure, Triplets};
 use numpy::{PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::base_node::shown;
+use crate::base_node::python_base;
 use crate::dof_names::DofNames;
-use crate::error::{OrRaise, kept, refuse};
+use crate::error::{OrRaise, input_error, user_code_error};
 use crate::recipe::Recipe;
 use crate::row::PyDofCombination;
-use crate::several::no_class;
+use crate::several::reject_class;
 use crate::user::UserStructure;
 
 /// A structure with n degrees of freedom (m, rad), free of supports: the ground holds it up. It is a
@@ -23,12 +23,12 @@ pub(crate) struct PyStructure {
 }
 
 impl PyStructure {
-    /// A structure that can be copied.
-    pub(crate) fn copied(structure: impl Structure + Clone + Sync + 'static) -> Self {
+    /// The superclass object of a structure that can be cloned.
+    pub(crate) fn from_structure(structure: impl Structure + Clone + Sync + 'static) -> Self {
         Self::new(move || Ok(structure.clone()))
     }
 
-    /// A structure from what makes it.
+    /// The superclass object of a structure that `make` makes for each simulation.
     pub(crate) fn new<S: Structure + 'static>(
         make: impl Fn() -> basemat::Result<S> + Send + Sync + 'static,
     ) -> Self {
@@ -36,49 +36,51 @@ impl PyStructure {
     }
 
     /// Replaces the names of the structure's degrees of freedom.
-    pub(crate) fn named(self, names: Option<DofNames>) -> Self {
+    pub(crate) fn with_dof_names(self, names: Option<DofNames>) -> Self {
         Self { names, ..self }
     }
 }
 
 /// The recipe of a structure of this package, or of one written in Python.
-pub(crate) fn recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure>> {
-    if let Ok(own) = object.cast::<PyStructure>() {
-        return Ok(own.get().make.clone());
+pub(crate) fn structure_recipe(object: &Bound<'_, PyAny>) -> PyResult<Recipe<dyn Structure>> {
+    if let Ok(structure) = object.cast::<PyStructure>() {
+        return Ok(structure.get().make.clone());
     }
-    no_class(object)?;
+    reject_class(object)?;
     if has_base(object)? {
         let object = object.clone().unbind();
         return Ok(Arc::new(move || {
             let made = Python::attach(|py| UserStructure::new(object.bind(py)));
-            Ok(Box::new(made.map_err(|error| kept("structure", error))?))
+            Ok(Box::new(made.map_err(|error| user_code_error("structure", error))?))
         }));
     }
-    Err(refuse(format!("{} is no structure: it has no method `base`", object.get_type().name()?)))
+    Err(input_error(format!(
+        "{} is no structure: it has no method `base`",
+        object.get_type().name()?
+    )))
 }
 
-/// Whether this may be a structure.
+/// Whether an object has the method `base`, as structures have.
 fn has_base(object: &Bound<'_, PyAny>) -> PyResult<bool> {
     Ok(object.getattr_opt("base")?.is_some_and(|base| base.is_callable()))
 }
 
-/// A structure for one simulation, and the object that has its internal variables: a copy if it is a
-/// nonlinear one of the user's.
-pub(crate) fn made<'py>(
+/// A structure for one simulation, and its object of Python: a copy if the structure is nonlinear and written in Python.
+pub(crate) fn new_structure<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Structure>, Bound<'py, PyAny>)> {
-    no_class(object)?;
+    reject_class(object)?;
     if object.cast::<PyStructure>().is_err() && has_base(object)? {
-        let own = UserStructure::new(object)?;
-        let copy = own.object(object.py());
-        return Ok((Box::new(own), copy));
+        let structure = UserStructure::new(object)?;
+        let copy = structure.object(object.py());
+        return Ok((Box::new(structure), copy));
     }
-    let make = recipe(object)?;
+    let make = structure_recipe(object)?;
     Ok((object.py().detach(|| make()).or_raise()?, object.clone()))
 }
 
-/// Most degrees of freedom of a structure whose matrices are written out: an array takes 3.2 GB.
-const MOST_DOFS: usize = 20_000;
+/// Largest number of degrees of freedom of a structure whose matrices become arrays: one takes 3.2 GB.
+const MAX_ARRAY_DOFS: usize = 20_000;
 
 /// An n × n array of what `fill` adds up.
 fn array<'py>(
@@ -87,9 +89,9 @@ fn array<'py>(
     fill: impl FnOnce(&dyn Structure, &mut Triplets) -> basemat::Result<()>,
 ) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let order = structure.dofs();
-    if order > MOST_DOFS {
-        return Err(refuse(format!(
-            "the structure has {order} degrees of freedom, but its matrices are arrays up to {MOST_DOFS}"
+    if order > MAX_ARRAY_DOFS {
+        return Err(input_error(format!(
+            "the structure has {order} degrees of freedom, but its matrices are arrays up to {MAX_ARRAY_DOFS}"
         )));
     }
     let mut entries = Triplets::new(order);
@@ -104,7 +106,7 @@ fn array<'py>(
             match view.get_mut([row, column]) {
                 Some(entry) => *entry += value,
                 None => {
-                    return Err(refuse(format!(
+                    return Err(input_error(format!(
                         "entry ({row}, {column}) of a matrix of order {order}"
                     )));
                 }
@@ -131,7 +133,7 @@ impl PyStructure {
     /// The `DofCombination` of the degree of freedom called ``name``, one of `dof_names`.
     fn dof(&self, name: &str) -> PyResult<PyDofCombination> {
         let names = self.names.as_ref().ok_or_else(|| {
-            refuse(format!(
+            input_error(format!(
                 "there is no degree of freedom '{name}': the structure has no dof_names"
             ))
         })?;
@@ -141,7 +143,7 @@ impl PyStructure {
     /// Base of the structure: a list for each foundation, of its `BaseNode` from left to right; in plan
     /// `BaseFaces`.
     fn base(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        shown(py, (self.make)().or_raise()?.base())
+        python_base(py, (self.make)().or_raise()?.base())
     }
 
     /// Mass matrix (n × n array, kg/m); this and the others of up to 20 000 degrees of freedom.

@@ -6,15 +6,16 @@ use basemat::{Error, Observer, Result};
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use super::object::{UserObject, copied};
+use super::object::{UserObject, deep_copy};
 use crate::array::{Array, Numbers, Table};
-use crate::error::{keep, quietly, refuse, returned};
+use crate::error::{discard_exceptions, extract_returned, input_error, store_exception};
 
 /// Name of this kind of part in errors.
-const PART: &str = "ground";
+const PART_NAME: &str = "ground";
 
-/// A Python object with `elements`, `static_compliance()`, `step_compliance(time_step)` and `advance(traction)`, and as it
-/// may be `save()`, `restore(values)` and `shear_wave_speed`.
+/// A Python object with `elements`, `static_compliance()`, `step_compliance(time_step)` and `advance(traction)`.
+///
+/// Optional are `save()`, `restore(values)` and `shear_wave_speed`.
 pub(crate) struct UserGround {
     object: UserObject,
     elements: Vec<ContactElement>,
@@ -34,23 +35,23 @@ impl UserGround {
     ///
     /// `contact_elements` reads its `elements`.
     pub(crate) fn new(
-        given: &Bound<'_, PyAny>,
+        ground: &Bound<'_, PyAny>,
         contact_elements: fn(&Bound<'_, PyAny>) -> PyResult<Vec<ContactElement>>,
     ) -> PyResult<Self> {
-        let given = copied(given)?;
-        let elements = given.getattr("elements")?;
+        let copy = deep_copy(ground)?;
+        let elements = copy.getattr("elements")?;
         let elements = if elements.is_callable() { elements.call0()? } else { elements };
         let elements = contact_elements(&elements).map_err(|reason| {
-            refuse(format!("elements of the ground: {}", reason.value(given.py())))
+            input_error(format!("elements of the ground: {}", reason.value(copy.py())))
         })?;
-        let size = elements.iter().map(|own| own.directions().len()).sum();
-        let speed = given.getattr_opt("shear_wave_speed")?.filter(|speed| !speed.is_none());
+        let size = elements.iter().map(|element| element.directions().len()).sum();
+        let speed = copy.getattr_opt("shear_wave_speed")?.filter(|speed| !speed.is_none());
         let name = "shear_wave_speed of the ground";
         Ok(Self {
-            object: UserObject::new(&given, PART, &["save"])?,
+            object: UserObject::new(&copy, PART_NAME, &["save"])?,
             elements,
             size,
-            shear_wave_speed: speed.map(|speed| returned(name, &speed)).transpose()?,
+            shear_wave_speed: speed.map(|speed| extract_returned(name, &speed)).transpose()?,
             step: Vec::new(),
             time_step: None,
             history: Some(vec![0.0; size]),
@@ -64,12 +65,14 @@ impl UserGround {
 
     /// Square matrix that a method returns, row by row.
     fn matrix(&self, method: &str, arguments: impl for<'py> PyCallArgs<'py>) -> Result<Vec<f64>> {
-        self.object.attempt(|py| {
+        self.object.try_call(|py| {
             let found = self.object.bind(py).call_method1(method, arguments)?;
             let Table { columns, rows } = Table::read(&found, "(n, n)")?;
-            let own = [format!("({}, {columns})", rows.len()), format!("({0}, {0})", self.size)];
-            let values = rows.concat();
-            self.object.shaped(method, "an array", values, own).and_then(|own| finite(method, own))
+            let shape = format!("({}, {columns})", rows.len());
+            let needed = format!("({0}, {0})", self.size);
+            let values =
+                self.object.checked_shape(method, "an array", rows.concat(), [shape, needed])?;
+            finite(method, values)
         })
     }
 
@@ -77,10 +80,8 @@ impl UserGround {
     fn advanced(&self, traction: &[f64]) -> PyResult<Vec<f64>> {
         Python::attach(|py| {
             let Numbers(values) = self.object.call(py, "advance", (Array::from(traction),))?;
-            let own = [values.len(), self.size].map(|count| format!("({count},)"));
-            self.object
-                .shaped("advance", "an array", values, own)
-                .and_then(|own| finite("advance", own))
+            let shapes = [values.len(), self.size].map(|count| format!("({count},)"));
+            finite("advance", self.object.checked_shape("advance", "an array", values, shapes)?)
         })
     }
 }
@@ -89,7 +90,7 @@ impl UserGround {
 fn finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
     match values.iter().find(|value| !value.is_finite()) {
         None => Ok(values),
-        Some(value) => Err(refuse(format!(
+        Some(value) => Err(input_error(format!(
             "{method} of the ground returned the number {value}, but all must be finite"
         ))),
     }
@@ -98,7 +99,7 @@ fn finite(method: &str, values: Vec<f64>) -> PyResult<Vec<f64>> {
 /// `values` into a slice of the core, if it is as long.
 fn copy(values: &[f64], to: &mut [f64]) -> Result<()> {
     if values.len() != to.len() {
-        return Err(Error::part(PART, format!("{} numbers for {}", values.len(), to.len())));
+        return Err(Error::part(PART_NAME, format!("{} numbers for {}", values.len(), to.len())));
     }
     to.copy_from_slice(values);
     Ok(())
@@ -119,7 +120,7 @@ impl Ground for UserGround {
             self.step = self.matrix("step_compliance", (time_step,))?;
         } else {
             // A trial of `build` with a shorter step, which the ground need not have: its exception is not the run's.
-            self.step = quietly(|| self.matrix("step_compliance", (time_step,)))?;
+            self.step = discard_exceptions(|| self.matrix("step_compliance", (time_step,)))?;
         }
         self.history = Some(vec![0.0; self.size]);
         Ok(())
@@ -131,12 +132,12 @@ impl Ground for UserGround {
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         let lost = "`advance` failed after the last step: resume an earlier checkpoint";
-        copy(self.history.as_ref().ok_or_else(|| Error::part(PART, lost))?, displacement)
+        copy(self.history.as_ref().ok_or_else(|| Error::part(PART_NAME, lost))?, displacement)
     }
 
     fn commit(&mut self, traction: &[f64]) {
         // The step is already accepted: an exception ends the run after it.
-        self.history = self.advanced(traction).map_err(keep).ok();
+        self.history = self.advanced(traction).map_err(store_exception).ok();
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
@@ -150,17 +151,18 @@ impl Ground for UserGround {
 
     fn save(&self) -> Result<Vec<f64>> {
         let Some(history) = self.history.as_ref().filter(|_| self.object.has("save")) else {
-            return Err(CheckpointError::Unsupported { part: PART }.into());
+            return Err(CheckpointError::Unsupported { part: PART_NAME }.into());
         };
-        Ok([&history[..], &self.object.saved()?].concat())
+        Ok([&history[..], &self.object.saved_variables()?].concat())
     }
 
     fn restore(&mut self, _steps: usize, values: &[f64]) -> Result<()> {
-        let Some((history, own)) = values.split_at_checked(self.size) else {
+        let Some((history, variables)) = values.split_at_checked(self.size) else {
             return Err(CheckpointError::Corrupt { quantity: "state of the ground" }.into());
         };
-        let own = (Array::from(own),);
-        self.object.attempt(|py| self.object.bind(py).call_method1("restore", own).map(|_| ()))?;
+        let arguments = (Array::from(variables),);
+        self.object
+            .try_call(|py| self.object.bind(py).call_method1("restore", arguments).map(|_| ()))?;
         self.history = Some(history.to_vec());
         Ok(())
     }

@@ -7,15 +7,15 @@ use basemat::interface::{
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use super::object::{UserObject, ask};
+use super::object::{UserObject, call_unless_raised};
 use super::{PyContactState, PyLimits, PyPreviousContact};
 use crate::array::{Count, Numbers};
-use crate::error::{has_raised, refuse, returned};
+use crate::error::{extract_returned, has_stored_exception, input_error};
 use crate::names::{mode, mode_name};
 
 /// One linear condition on an element at the end of a step:
 /// ``gap`` · g + ``slip`` · s + ``pressure`` · p + ``shear`` · τ = ``value``, with its gap g and slip s (m),
-/// pressure p and shear traction τ (Pa); what is not given is 0.
+/// pressure p and shear traction τ (Pa). Each coefficient is 0 by default.
 #[pyclass(name = "Condition", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
 pub(crate) struct PyCondition(pub(crate) Condition);
@@ -83,7 +83,7 @@ impl PyCondition {
     }
 }
 
-/// Differences below which a law should see equality: ``length`` of gaps and slips (m), ``traction`` of
+/// Differences below which a law should treat numbers as equal: ``length`` of gaps and slips (m), ``traction`` of
 /// pressure and shear (Pa).
 #[pyclass(name = "Tolerance", module = "basemat", frozen)]
 #[derive(serde::Serialize, serde::Deserialize)]
@@ -109,12 +109,13 @@ impl PyTolerance {
     }
 }
 
-/// A Python object with `modes`, `conditions(mode, start)` and
-/// `next_mode(mode, start, trial, tolerance)`, or for grounds in plan `limits(start)`, and as it may be
-/// `compliance(mode, start)`, `state_variables`, `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient`,
-/// `check(gravity, time_step)`.
+/// A Python object with `limits(start)`.
 ///
-/// After an exception every number that the core asks for is NaN, which ends the step.
+/// In the plane modes and conditions follow from the limits, unless the object has `modes`, `conditions(mode, start)` and
+/// `next_mode(mode, start, trial, tolerance)`. Optional are `compliance(mode, start)`, `state_variables`,
+/// `initial_state_variables(start)`, `commit(start, end, mode)`, `friction_coefficient` and `check(gravity, time_step)`.
+///
+/// After an exception the methods return NaN, which ends the step.
 #[derive(Clone)]
 pub(crate) struct UserLaw {
     object: UserObject,
@@ -123,11 +124,25 @@ pub(crate) struct UserLaw {
     friction_coefficient: Option<f64>,
 }
 
-/// Methods that may be missing.
-const OPTIONAL: [&str; 6] =
+/// The limits of a law; modes and conditions in the plane follow from them, by the defaults of the trait.
+struct LimitsOf<'a>(&'a UserLaw);
+
+impl InterfaceLaw for LimitsOf<'_> {
+    fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
+        self.0.limits(start)
+    }
+
+    fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
+        self.0.compliance(mode, start)
+    }
+}
+
+/// Methods that a law may lack.
+const OPTIONAL_METHODS: [&str; 6] =
     ["conditions", "limits", "compliance", "initial_state_variables", "commit", "check"];
+
 /// A condition that ends the step.
-const NOTHING: Condition = Condition {
+const UNDEFINED_CONDITION: Condition = Condition {
     gap: f64::NAN,
     slip: f64::NAN,
     pressure: f64::NAN,
@@ -137,34 +152,36 @@ const NOTHING: Condition = Condition {
 
 impl UserLaw {
     pub(crate) fn new(law: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let object = UserObject::new(law, "interface law", &OPTIONAL)?;
-        let names = match law.getattr_opt("modes")? {
-            Some(modes) => returned("modes of the interface law", &modes)?,
-            None if object.has("conditions") => return Err(refuse("the law has no `modes`")),
-            // A law without `conditions` and `modes` is for grounds in plan only.
-            None => ["stick", "slip", "open"].map(String::from).to_vec(),
-        };
-        let optional = |name: &str| -> PyResult<Option<Bound<'_, PyAny>>> {
-            Ok(law.getattr_opt(name)?.filter(|value| !value.is_none()))
-        };
-        let state_variables = match optional("state_variables")? {
-            Some(count) => returned::<Count>("state_variables of the interface law", &count)?.0,
+        let object = UserObject::new(law, "interface law", &OPTIONAL_METHODS)?;
+        let state_variables = match attribute(law, "state_variables")? {
+            Some(count) => {
+                extract_returned::<Count>("state_variables of the interface law", &count)?.0
+            }
             None => 0,
+        };
+        let friction_coefficient = match attribute(law, "friction_coefficient")? {
+            Some(value) => {
+                Some(extract_returned("friction_coefficient of the interface law", &value)?)
+            }
+            None => None,
         };
         for method in ["initial_state_variables", "commit"] {
             if state_variables == 0 && object.has(method) {
                 let text = "but no `state_variables`, the count of numbers that it returns";
-                return Err(refuse(format!("the law has `{method}`, {text}")));
+                return Err(input_error(format!("the law has `{method}`, {text}")));
             }
         }
-        Ok(Self {
-            modes: names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?,
-            state_variables,
-            friction_coefficient: optional("friction_coefficient")?
-                .map(|value| returned("friction_coefficient of the interface law", &value))
-                .transpose()?,
-            object,
-        })
+        let mut user_law =
+            Self { object, modes: Vec::new(), state_variables, friction_coefficient };
+        user_law.modes = if user_law.object.has("conditions") {
+            let names =
+                law.getattr_opt("modes")?.ok_or_else(|| input_error("the law has no `modes`"))?;
+            let names: Vec<String> = extract_returned("modes of the interface law", &names)?;
+            names.iter().map(|name| mode(name)).collect::<PyResult<_>>()?
+        } else {
+            LimitsOf(&user_law).modes().to_vec()
+        };
+        Ok(user_law)
     }
 
     /// Replaces the state variables by what a method returns, if it is as long.
@@ -175,19 +192,24 @@ impl UserLaw {
         state_variables: &mut [f64],
     ) {
         let count = state_variables.len();
-        let found = ask(None, |py| {
+        let found = call_unless_raised(None, |py| {
             let Numbers(values) = self.object.call(py, method, arguments(py)?)?;
             if values.len() == count {
                 return Ok(Some(values));
             }
             let text = format!("the law remembers {count} numbers, but returned {}", values.len());
-            Err(refuse(text))
+            Err(input_error(text))
         });
         match found {
             Some(values) => state_variables.copy_from_slice(&values),
             None => state_variables.fill(f64::NAN),
         }
     }
+}
+
+/// An attribute of an object, unless it is missing or None.
+fn attribute<'py>(object: &Bound<'py, PyAny>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    Ok(object.getattr_opt(name)?.filter(|value| !value.is_none()))
 }
 
 impl InterfaceLaw for UserLaw {
@@ -197,14 +219,13 @@ impl InterfaceLaw for UserLaw {
 
     fn conditions(&self, mode: Mode, start: &PreviousContact<'_>) -> [Condition; 2] {
         if !self.object.has("conditions") {
-            // Such a law acts in plan only, where this is never called.
-            return [NOTHING; 2];
+            return LimitsOf(self).conditions(mode, start);
         }
-        ask([NOTHING; 2], |py| {
+        call_unless_raised([UNDEFINED_CONDITION; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
-            let [first, second]: [Bound<'_, PyCondition>; 2] =
+            let conditions: [Bound<'_, PyCondition>; 2] =
                 self.object.call(py, "conditions", arguments)?;
-            Ok([first.get().0, second.get().0])
+            Ok(conditions.map(|condition| condition.get().0))
         })
     }
 
@@ -216,22 +237,23 @@ impl InterfaceLaw for UserLaw {
         tolerance: Tolerance,
     ) -> Mode {
         if !self.object.has("conditions") {
-            return mode;
+            return LimitsOf(self).next_mode(mode, start, trial, tolerance);
         }
-        ask(mode, |py| {
-            let (name, start) = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
-            let arguments = (name, start, PyContactState(*trial), PyTolerance(tolerance));
+        call_unless_raised(mode, |py| {
+            let start = PyPreviousContact::from_core(py, start)?;
+            let arguments =
+                (mode_name(mode), start, PyContactState(*trial), PyTolerance(tolerance));
             let next: String = self.object.call(py, "next_mode", arguments)?;
             crate::names::mode(&next)
         })
     }
 
-    /// Asked before a step is accepted, so that an exception of `next_mode` ends it.
+    /// Called before a step is accepted, so that an exception of `next_mode` ends it.
     fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
         if !self.object.has("compliance") {
-            return if has_raised() { [f64::NAN; 2] } else { [0.0; 2] };
+            return if has_stored_exception() { [f64::NAN; 2] } else { [0.0; 2] };
         }
-        ask([f64::NAN; 2], |py| {
+        call_unless_raised([f64::NAN; 2], |py| {
             let arguments = (mode_name(mode), PyPreviousContact::from_core(py, start)?);
             self.object.call(py, "compliance", arguments)
         })
@@ -243,8 +265,11 @@ impl InterfaceLaw for UserLaw {
 
     fn initial_state_variables(&self, start: &PreviousContact<'_>, state_variables: &mut [f64]) {
         if self.object.has("initial_state_variables") {
-            let arguments = |py: Python<'_>| Ok((PyPreviousContact::from_core(py, start)?,));
-            self.update_state_variables("initial_state_variables", arguments, state_variables);
+            self.update_state_variables(
+                "initial_state_variables",
+                |py| Ok((PyPreviousContact::from_core(py, start)?,)),
+                state_variables,
+            );
         }
     }
 
@@ -256,20 +281,20 @@ impl InterfaceLaw for UserLaw {
         state_variables: &mut [f64],
     ) {
         if self.object.has("commit") {
-            let arguments = |py: Python<'_>| {
-                Ok((
-                    PyPreviousContact::from_core(py, start)?,
-                    PyContactState(*end),
-                    mode_name(mode),
-                ))
-            };
-            self.update_state_variables("commit", arguments, state_variables);
+            self.update_state_variables(
+                "commit",
+                |py| {
+                    let start = PyPreviousContact::from_core(py, start)?;
+                    Ok((start, PyContactState(*end), mode_name(mode)))
+                },
+                state_variables,
+            );
         }
     }
 
     fn limits(&self, start: &PreviousContact<'_>) -> Result<Limits> {
         if !self.object.has("limits") {
-            // No exception of user code: the core also asks laws of the plane, which may have none.
+            // No exception of user code: the core also calls this for laws of the plane, which may have none.
             let name = Python::attach(|py| {
                 let name = self.object.bind(py).get_type().name();
                 name.map_or_else(|_| "interface law".into(), |name| name.to_string())
@@ -277,7 +302,7 @@ impl InterfaceLaw for UserLaw {
             let reason = "it has no method `limits`, to act on a ground in plan";
             return Err(basemat::Error::part(name, reason));
         }
-        self.object.attempt(|py| {
+        self.object.try_call(|py| {
             let start = (PyPreviousContact::from_core(py, start)?,);
             let found: Bound<'_, PyLimits> = self.object.call(py, "limits", start)?;
             Ok(found.get().0)
@@ -293,6 +318,6 @@ impl InterfaceLaw for UserLaw {
             return Ok(());
         }
         let numbers = (scene.gravity, scene.time_step);
-        self.object.attempt(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
+        self.object.try_call(|py| self.object.bind(py).call_method1("check", numbers).map(|_| ()))
     }
 }

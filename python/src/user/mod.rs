@@ -8,7 +8,7 @@ mod previous_contact;
 mod structure;
 
 pub(crate) use ground::UserGround;
-pub(crate) use hysteresis::{hysteresis, made_springs};
+pub(crate) use hysteresis::{hysteresis, take_made_springs};
 pub(crate) use law::{PyCondition, PyTolerance, UserLaw};
 pub(crate) use previous_contact::{PyContactState, PyLimits, PyPreviousContact};
 pub(crate) use structure::UserStructure;

@@ -1,4 +1,4 @@
-//! An object of the user's that the core calls.
+//! An object of Python whose methods the core calls.
 
 use std::sync::Arc;
 
@@ -8,7 +8,9 @@ use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
 use crate::array::Numbers;
-use crate::error::{asked, has_raised, kept, refuse, returned};
+use crate::error::{
+    call_user_code, extract_returned, has_stored_exception, input_error, user_code_error,
+};
 
 /// An object with the methods of a part, some of which may be missing.
 #[derive(Clone)]
@@ -59,11 +61,13 @@ impl UserObject {
         T: for<'a> FromPyObject<'a, 'py>,
     {
         let found = self.bind(py).call_method1(method, arguments)?;
-        found.extract().or_else(|_| returned(&format!("{method} of the {}", self.part), &found))
+        found
+            .extract()
+            .or_else(|_| extract_returned(&format!("{method} of the {}", self.part), &found))
     }
 
     /// Value returned by a method, if its shape is the one that is needed.
-    pub(super) fn shaped<T>(
+    pub(super) fn checked_shape<T>(
         &self,
         method: &str,
         kind: &str,
@@ -74,21 +78,26 @@ impl UserObject {
             return Ok(value);
         }
         let text = format!("returned {kind} of shape {shape}, but must return one of {needed}");
-        Err(refuse(format!("{method} of the {} {text}", self.part)))
+        Err(input_error(format!("{method} of the {} {text}", self.part)))
     }
 
     /// Stored and dissipated energy by the method `energy`, if there is one.
-    pub(super) fn energy(&self, of: impl for<'py> PyCallArgs<'py>) -> Option<InternalEnergy> {
-        let (stored, dissipated) = self
-            .has("energy")
-            .then(|| ask((f64::NAN, f64::NAN), |py| self.call(py, "energy", of)))?;
-        Some(InternalEnergy { stored, dissipated })
+    pub(super) fn energy(
+        &self,
+        deformation: impl for<'py> PyCallArgs<'py>,
+    ) -> Option<InternalEnergy> {
+        if !self.has("energy") {
+            return None;
+        }
+        let energies =
+            call_unless_raised((f64::NAN, f64::NAN), |py| self.call(py, "energy", deformation));
+        Some(InternalEnergy { stored: energies.0, dissipated: energies.1 })
     }
 
     /// Internal variables by the method `save`; an error for an object that has some and no such method.
-    pub(super) fn saved(&self) -> basemat::Result<Vec<f64>> {
+    pub(super) fn saved_variables(&self) -> basemat::Result<Vec<f64>> {
         if self.has("save") {
-            return self.attempt(|py| Ok(self.call::<Numbers>(py, "save", ())?.0));
+            return self.try_call(|py| Ok(self.call::<Numbers>(py, "save", ())?.0));
         }
         if self.has("commit") {
             return Err(CheckpointError::Unsupported { part: self.part }.into());
@@ -96,21 +105,24 @@ impl UserObject {
         Ok(Vec::new())
     }
 
-    /// The result of `ask`, or an error of the core.
-    pub(super) fn attempt<T>(
+    /// The result of user code, or an error of the core if it raises.
+    pub(super) fn try_call<T>(
         &self,
-        ask: impl FnOnce(Python<'_>) -> PyResult<T>,
+        call: impl FnOnce(Python<'_>) -> PyResult<T>,
     ) -> basemat::Result<T> {
-        Python::attach(ask).map_err(|error| kept(self.part, error))
+        Python::attach(call).map_err(|error| user_code_error(self.part, error))
     }
 }
 
-/// Result of user code, or `otherwise` (which ends the step) if it raises, or something has raised before.
-pub(super) fn ask<T>(otherwise: T, ask: impl FnOnce(Python<'_>) -> PyResult<T>) -> T {
-    if has_raised() { otherwise } else { asked(otherwise, ask) }
+/// Result of user code, or `fallback` (which ends the step) if it raises or an exception is already stored.
+pub(super) fn call_unless_raised<T>(
+    fallback: T,
+    call: impl FnOnce(Python<'_>) -> PyResult<T>,
+) -> T {
+    if has_stored_exception() { fallback } else { call_user_code(fallback, call) }
 }
 
-/// A deep copy, with internal variables of its own.
-pub(super) fn copied<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+/// A deep copy, with separate internal variables.
+pub(super) fn deep_copy<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     object.py().import("copy")?.call_method1("deepcopy", (object,))
 }

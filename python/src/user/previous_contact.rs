@@ -1,5 +1,4 @@
-//! An element's contact, its contact at the end of the step before, and limits of its tractions in plan, as laws written in
-//! Python see them.
+//! Arguments and results of laws written in Python: contact of an element, previous contact, limits of its tractions.
 
 use basemat::interface::{ContactState, Limits, PreviousContact};
 use pyo3::prelude::*;
@@ -72,26 +71,24 @@ impl PyContactState {
 #[pyclass(name = "PreviousContact", module = "basemat", frozen, extends = PyContactState)]
 pub(crate) struct PyPreviousContact {
     /// Previous contact, without the law's state variables.
-    own: PreviousContact<'static>,
+    previous: PreviousContact<'static>,
     state_variables: Vec<f64>,
 }
 
 impl PyPreviousContact {
     pub(crate) fn from_core(py: Python<'_>, start: &PreviousContact<'_>) -> PyResult<Py<Self>> {
-        let mut own = PreviousContact::new(start.state, start.mode, start.time_step);
-        own.has_opened = start.has_opened;
-        own.slip_rate = start.slip_rate;
-        own.static_pressure = start.static_pressure;
+        let mut previous = PreviousContact::new(start.state, start.mode, start.time_step);
+        previous.has_opened = start.has_opened;
+        previous.slip_rate = start.slip_rate;
+        previous.static_pressure = start.static_pressure;
+        let state_variables = start.state_variables.to_vec();
         let base = PyClassInitializer::from(PyContactState(start.state));
-        Py::new(
-            py,
-            base.add_subclass(Self { own, state_variables: start.state_variables.to_vec() }),
-        )
+        Py::new(py, base.add_subclass(Self { previous, state_variables }))
     }
 
     /// Previous contact as a law of the core takes it.
     pub(crate) fn core(&self) -> PreviousContact<'_> {
-        let mut start = self.own;
+        let mut start = self.previous;
         start.state_variables = &self.state_variables;
         start
     }
@@ -108,41 +105,41 @@ impl PyPreviousContact {
         slip_rate: f64,
         state_variables: Option<Numbers>,
     ) -> PyResult<PyClassInitializer<Self>> {
-        let mut own = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
-        own.slip_rate = slip_rate;
+        let mut previous = PreviousContact::new(state.0, crate::names::mode(mode)?, time_step);
+        previous.slip_rate = slip_rate;
         let state_variables = state_variables.map_or_else(Vec::new, |numbers| numbers.0);
         let base = PyClassInitializer::from(PyContactState(state.0));
-        Ok(base.add_subclass(Self { own, state_variables }))
+        Ok(base.add_subclass(Self { previous, state_variables }))
     }
 
     /// Mode of the step before, as in `basemat.MODES`.
     #[getter]
     fn mode(&self) -> &'static str {
-        mode_name(self.own.mode)
+        mode_name(self.previous.mode)
     }
 
     /// Whether the element has been open.
     #[getter]
     fn has_opened(&self) -> bool {
-        self.own.has_opened
+        self.previous.has_opened
     }
 
     /// Slip rate of the step before, m/s; its magnitude in plan.
     #[getter]
     fn slip_rate(&self) -> f64 {
-        self.own.slip_rate
+        self.previous.slip_rate
     }
 
     /// Pressure of the static state, Pa.
     #[getter]
     fn static_pressure(&self) -> f64 {
-        self.own.static_pressure
+        self.previous.static_pressure
     }
 
     /// Time step, s.
     #[getter]
     fn time_step(&self) -> f64 {
-        self.own.time_step
+        self.previous.time_step
     }
 
     /// State variables of the law: list of numbers.
@@ -152,8 +149,7 @@ impl PyPreviousContact {
     }
 }
 
-/// Limits of an element's tractions on a ground in plan, in the step after a `PreviousContact`: what
-/// `UserPlanLaw.limits` returns.
+/// Limits of an element's tractions in the step after a `PreviousContact`: what `UserPlanLaw.limits` returns.
 ///
 /// Pressure p (Pa) is between −``tension`` (0 by default) and ``pressure_cap`` (``math.inf``, none, by default); the shear
 /// traction is at most ``friction`` (0 by default; ``math.inf`` where nothing slides) · max(p + ``attraction``, 0) +
@@ -180,9 +176,15 @@ impl PyLimits {
         gap_offset: f64,
         bonded: bool,
     ) -> Self {
-        let mut own = Limits { friction, attraction, shear_strength, ..Limits::default() };
-        (own.tension, own.pressure_cap, own.gap_offset) = (tension, pressure_cap, gap_offset);
-        Self(Limits { bonded, ..own })
+        Self(Limits {
+            friction,
+            attraction,
+            shear_strength,
+            tension,
+            pressure_cap,
+            gap_offset,
+            bonded,
+        })
     }
 
     /// Friction coefficient; infinite where nothing slides.
@@ -197,7 +199,7 @@ impl PyLimits {
         self.0.attraction
     }
 
-    /// Shear traction that is borne beside friction, Pa.
+    /// Shear strength in addition to friction, Pa.
     #[getter]
     fn shear_strength(&self) -> f64 {
         self.0.shear_strength
@@ -209,7 +211,7 @@ impl PyLimits {
         self.0.tension
     }
 
-    /// Greatest pressure, Pa.
+    /// Largest pressure, Pa.
     #[getter]
     fn pressure_cap(&self) -> f64 {
         self.0.pressure_cap

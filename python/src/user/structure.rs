@@ -5,16 +5,16 @@ use basemat::structure::{Base, InternalEnergy, NonlinearForce, Structure, Triple
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 
-use super::object::{UserObject, copied};
+use super::object::{UserObject, deep_copy};
 use crate::array::{Array, Count, Matrix, Numbers};
 use crate::base_node::BaseLike;
 use crate::dof_names::DofNames;
-use crate::error::{keep, returned};
+use crate::error::{extract_returned, store_exception};
 
 /// Name of this kind of part in errors.
-const PART: &str = "structure";
-/// Methods that may be missing.
-const OPTIONAL: [&str; 5] = ["damping", "load", "energy", "commit", "save"];
+const PART_NAME: &str = "structure";
+/// Methods that a structure may lack.
+const OPTIONAL_METHODS: [&str; 5] = ["damping", "load", "energy", "commit", "save"];
 
 /// A Python object with `dofs`, `base()`, `mass()` and `stiffness()`; a structure that is nonlinear also has `force(u)`
 /// and `tangent(u)`.
@@ -31,31 +31,27 @@ pub(crate) struct UserStructure {
 impl UserStructure {
     /// The structure of one simulation. A nonlinear one is a deep copy of the object, so that
     /// simulations do not share its internal variables.
-    pub(crate) fn new(given: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let py = given.py();
-        let nonlinear = given.hasattr("force")?;
-        let given = if nonlinear { copied(given)? } else { given.clone() };
-        let object = UserObject::new(&given, PART, &OPTIONAL)?;
-        let dofs = given.getattr("dofs")?;
+    pub(crate) fn new(structure: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let py = structure.py();
+        let nonlinear = structure.hasattr("force")?;
+        let copy = if nonlinear { deep_copy(structure)? } else { structure.clone() };
+        let object = UserObject::new(&copy, PART_NAME, &OPTIONAL_METHODS)?;
+        let dofs = copy.getattr("dofs")?;
         let dofs = if dofs.is_callable() { dofs.call0()? } else { dofs };
-        let Count(dofs) = returned("dofs of the structure", &dofs)?;
+        let Count(dofs) = extract_returned("dofs of the structure", &dofs)?;
         let base: BaseLike = object.call(py, "base", ())?;
-        let flag = |name: &str| -> PyResult<bool> {
-            let flag = given.getattr_opt(name)?;
-            flag.map_or(Ok(false), |flag| flag.is_truthy())
-        };
         Ok(Self {
             dofs,
-            names: DofNames::from_structure(&given, dofs)?,
+            names: DofNames::from_structure(&copy, dofs)?,
             base: base.of_structure(dofs)?,
-            active_damping: flag("active_damping")?,
-            active_stiffness: flag("active_stiffness")?,
+            active_damping: is_set(&copy, "active_damping")?,
+            active_stiffness: is_set(&copy, "active_stiffness")?,
             nonlinear,
             object,
         })
     }
 
-    /// The object that is asked.
+    /// The object whose methods are called.
     pub(crate) fn object<'py>(&self, py: Python<'py>) -> Bound<'py, PyAny> {
         self.object.bind(py).clone()
     }
@@ -67,10 +63,10 @@ impl UserStructure {
         arguments: impl for<'py> PyCallArgs<'py>,
         matrix: &mut Triplets,
     ) -> Result<()> {
-        let found = self.object.attempt(|py| {
+        let found = self.object.try_call(|py| {
             let Matrix(found) = self.object.call(py, method, arguments)?;
-            let own = [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
-            self.object.shaped(method, "a matrix", found, own)
+            let shapes = [found.order(), self.dofs].map(|order| format!("({order}, {order})"));
+            self.object.checked_shape(method, "a matrix", found, shapes)
         });
         for &(row, column, value) in found?.entries() {
             matrix.add(row, column, value);
@@ -85,14 +81,19 @@ impl UserStructure {
         arguments: impl for<'py> PyCallArgs<'py>,
         sum: &mut [f64],
     ) -> Result<()> {
-        let found = self.object.attempt(|py| {
+        let found = self.object.try_call(|py| {
             let Numbers(found) = self.object.call(py, method, arguments)?;
-            let own = [found.len(), sum.len()].map(|count| format!("({count},)"));
-            self.object.shaped(method, "an array", found, own)
+            let shapes = [found.len(), sum.len()].map(|count| format!("({count},)"));
+            self.object.checked_shape(method, "an array", found, shapes)
         });
         sum.iter_mut().zip(found?).for_each(|(sum, value)| *sum += value);
         Ok(())
     }
+}
+
+/// Whether an object has a flag that is true.
+fn is_set(object: &Bound<'_, PyAny>, flag: &str) -> PyResult<bool> {
+    object.getattr_opt(flag)?.map_or(Ok(false), |value| value.is_truthy())
 }
 
 impl Structure for UserStructure {
@@ -147,7 +148,7 @@ impl Structure for UserStructure {
     }
 }
 
-/// `force(u)` and `tangent(u)`, and as it may be `energy(u)`, `commit(u)`, `save()`, `restore(values)`.
+/// `force(u)` and `tangent(u)`; optional are `energy(u)`, `commit(u)`, `save()` and `restore(values)`.
 impl NonlinearForce for UserStructure {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         self.add_vector("force", (Array::from(displacement),), force)
@@ -168,12 +169,12 @@ impl NonlinearForce for UserStructure {
                 self.object.bind(py).call_method1("commit", argument).map(|_| ())
             });
             // The step is already accepted: the exception ends the run after it.
-            done.unwrap_or_else(keep);
+            done.unwrap_or_else(store_exception);
         }
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        self.object.saved()
+        self.object.saved_variables()
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
@@ -181,6 +182,7 @@ impl NonlinearForce for UserStructure {
             return Ok(());
         }
         let argument = (Array::from(values),);
-        self.object.attempt(|py| self.object.bind(py).call_method1("restore", argument).map(|_| ()))
+        self.object
+            .try_call(|py| self.object.bind(py).call_method1("restore", argument).map(|_| ()))
     }
 }

@@ -1,4 +1,4 @@
-//! Grounds in any form that Python may give them.
+//! Grounds of this package, and grounds written in Python.
 
 use basemat::bem::{ContactElement, Ground, Strip};
 use pyo3::prelude::*;
@@ -6,23 +6,23 @@ use pyo3::prelude::*;
 use super::strip::Elements;
 use super::{PyGround, PyTrenchElements};
 use crate::error::OrRaise;
-use crate::several::{no_class, no_such};
+use crate::several::{reject_class, type_error};
 use crate::user::UserGround;
 
-/// A ground for one simulation, and the object that it was made of: a copy if the user wrote it in Python.
-pub(crate) fn made<'py>(
+/// A ground for one simulation, and its object of Python: a copy if the ground is written in Python.
+pub(crate) fn new_ground<'py>(
     object: &Bound<'py, PyAny>,
 ) -> PyResult<(Box<dyn Ground>, Bound<'py, PyAny>)> {
-    if let Ok(own) = object.cast::<PyGround>() {
-        return Ok(((own.get().make)().or_raise()?, object.clone()));
+    if let Ok(ground) = object.cast::<PyGround>() {
+        return Ok(((ground.get().make)().or_raise()?, object.clone()));
     }
     if !object.hasattr("step_compliance")? {
-        return Err(no_such(object, "a Ground, or an object with the methods of UserGround"));
+        return Err(type_error(object, "a Ground, or an object with the methods of UserGround"));
     }
-    no_class(object)?;
-    let own = UserGround::new(object, contact_elements)?;
-    let copy = own.object(object.py());
-    Ok((Box::new(own), copy))
+    reject_class(object)?;
+    let ground = UserGround::new(object, contact_elements)?;
+    let copy = ground.object(object.py());
+    Ok((Box::new(ground), copy))
 }
 
 /// Contact elements of strips, of a plan or of a trench.
@@ -31,7 +31,7 @@ fn contact_elements(object: &Bound<'_, PyAny>) -> PyResult<Vec<ContactElement>> 
         return Ok(trench.get().0.elements());
     }
     let needed = "a Strip, a list of them, a Plan, or TrenchElements";
-    match object.extract().map_err(|_: PyErr| no_such(object, needed))? {
+    match object.extract().map_err(|_: PyErr| type_error(object, needed))? {
         Elements::Strips(strips) => Ok(strips.iter().flat_map(Strip::elements).collect()),
         Elements::Plan(plan) => Ok(plan.elements()),
     }

@@ -1,8 +1,10 @@
-//! Parts and settings of a simulation as Python gave them, of which it can be made more than once.
+//! Parts and settings of a simulation, from which it can be built more than once.
 
 use basemat::coupled::SimulationBuilder;
 use basemat::{Result, Simulation};
+use pyo3::PyClass;
 use pyo3::prelude::*;
+use pyo3::pyclass::boolean_struct::True;
 use pyo3::types::PyDict;
 
 use super::options::{
@@ -18,7 +20,7 @@ use crate::recipe::Recipe;
 use crate::{interface, motion, structure, user};
 
 /// Parts and settings of a simulation.
-pub(super) struct Given {
+pub(super) struct SimulationParts {
     pub(super) time_step: f64,
     pub(super) structure: Py<PyAny>,
     pub(super) ground: Py<PyAny>,
@@ -28,20 +30,20 @@ pub(super) struct Given {
     pub(super) loads: Vec<Py<PyLoad>>,
     pub(super) options: Options,
     /// The groups that `options` were read from.
-    pub(super) groups: Groups,
+    pub(super) groups: OptionGroups,
     pub(super) fixed_base: bool,
 }
 
-/// Groups of options as Python gave them.
-pub(super) struct Groups {
+/// Python's objects of the groups of options.
+pub(super) struct OptionGroups {
     pub(super) initial: Option<Py<PyInitialConditions>>,
     pub(super) solver: Option<Py<PySolverOptions>>,
     pub(super) results: Option<Py<PyResultOptions>>,
     pub(super) service_limits: Option<Py<PyServiceLimits>>,
 }
 
-/// A builder, and what a simulation keeps of its parts.
-pub(super) struct Made {
+/// A builder, and the objects of Python that a simulation keeps.
+pub(super) struct BuilderParts {
     pub(super) builder: SimulationBuilder,
     pub(super) structure: Py<PyAny>,
     pub(super) ground: Py<PyAny>,
@@ -52,12 +54,20 @@ pub(super) struct Made {
     pub(super) duration: Option<f64>,
 }
 
+/// The value of a group of options, or its default.
+pub(super) fn cloned_or_default<T>(group: Option<&Py<T>>) -> T
+where
+    T: PyClass<Frozen = True> + Sync + Clone + Default,
+{
+    group.map(|group| group.get().clone()).unwrap_or_default()
+}
+
 /// A part for one simulation.
-fn made<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
+fn make_part<T: ?Sized>(recipe: &Recipe<T>) -> PyResult<Box<T>> {
     recipe().or_raise()
 }
 
-impl Given {
+impl SimulationParts {
     /// All arguments of the simulation by their names.
     pub(super) fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let arguments = PyDict::new(py);
@@ -76,17 +86,16 @@ impl Given {
         Ok(arguments)
     }
 
-    /// A builder of parts of its own.
-    pub(super) fn made(&self, py: Python<'_>) -> PyResult<Made> {
-        let (ground, own_ground) = ground::made(self.ground.bind(py))?;
-        let in_plan = ground.elements().first().is_some_and(|own| own.directions().len() == 3);
-        let laws = interface::recipes(self.interface.bind(py), in_plan)?;
+    /// A builder with new parts.
+    pub(super) fn builder_parts(&self, py: Python<'_>) -> PyResult<BuilderParts> {
+        let (ground, ground_object) = ground::new_ground(self.ground.bind(py))?;
+        let laws = interface::law_recipes(self.interface.bind(py))?;
         let laws = laws.iter().map(|make| make()).collect::<Result<_>>().or_raise()?;
-        user::made_springs();
-        let (structure, object) = structure::made(self.structure.bind(py))?;
-        let hysteresis = user::made_springs();
+        user::take_made_springs();
+        let (structure, structure_object) = structure::new_structure(self.structure.bind(py))?;
+        let hysteresis = user::take_made_springs();
         let dofs = structure.dofs();
-        let names = DofNames::from_structure(&object, dofs)?;
+        let names = DofNames::from_structure(&structure_object, dofs)?;
         let probes: Vec<_> = self.probes.iter().map(|probe| probe.bind(py).clone()).collect();
         let mut builder = Simulation::builder(self.time_step)
             .structure(structure)
@@ -96,19 +105,25 @@ impl Given {
         builder = self.options.set(builder)?;
         for load in &self.loads {
             let load = load.bind(py).get();
-            load.order.check("a load", dofs)?;
+            load.weight_count.check("a load", dofs)?;
             builder = builder.load((load.make)().or_raise()?);
         }
         let motion = self.motion.as_ref().map(|motion| motion.bind(py));
         if let Some(motion) = motion {
-            builder = builder.motion(made(&motion::given(motion)?.get().make)?);
+            builder = builder.motion(make_part(&motion::free_field_object(motion)?.get().make)?);
         }
         if self.fixed_base {
             builder = builder.on_fixed_base();
         }
         let motion = motion.and_then(|motion| motion.cast::<PyFreeField>().ok());
         let duration = motion.and_then(|motion| motion.get().duration);
-        let (structure, ground) = (object.unbind(), own_ground.unbind());
-        Ok(Made { builder, structure, ground, hysteresis, names, duration })
+        Ok(BuilderParts {
+            builder,
+            structure: structure_object.unbind(),
+            ground: ground_object.unbind(),
+            hysteresis,
+            names,
+            duration,
+        })
     }
 }

@@ -1,0 +1,109 @@
+//! What happens in Python after each step of a run: progress, the observer, time series.
+
+use std::ops::ControlFlow;
+
+use basemat::Simulation;
+use basemat::coupled::State;
+use basemat::results::Run;
+use basemat::results::TimeSeries;
+use pyo3::prelude::*;
+
+use super::PyState;
+use crate::dof_names::DofNames;
+use crate::error::{OrRaise, extract_returned, has_stored_exception, take_exception, to_exception};
+use crate::results::PyRun;
+use crate::ticker::{Ticker, with_progress};
+
+/// Records the steps of a run, reports its progress and calls the user's observer.
+pub(super) struct RunReporter {
+    ticker: Ticker,
+    steps: usize,
+    observe: Option<Py<PyAny>>,
+    observe_every: usize,
+    time_series: Option<TimeSeries>,
+    steps_done: usize,
+    /// The exception that stopped the run.
+    exception: Option<PyErr>,
+}
+
+impl RunReporter {
+    pub(super) fn new(
+        progress: Option<Py<PyAny>>,
+        steps: usize,
+        observe: Option<Py<PyAny>>,
+        observe_every: usize,
+        time_series: Option<TimeSeries>,
+    ) -> Self {
+        let ticker = Ticker::new(progress);
+        Self { ticker, steps, observe, observe_every, time_series, steps_done: 0, exception: None }
+    }
+
+    /// Records and reports the state at the end of a step; `Break` ends the run.
+    pub(super) fn update(&mut self, state: &State) -> ControlFlow<()> {
+        self.steps_done += 1;
+        let recorded =
+            self.time_series.as_mut().map_or(Ok(()), |series| series.record(state).or_raise());
+        match recorded.and_then(|()| self.call_observer(state)) {
+            Ok(flow) => flow,
+            Err(error) => {
+                self.exception = Some(error);
+                ControlFlow::Break(())
+            }
+        }
+    }
+
+    /// Calls the ticker and the observer, unless user code has raised while the step was committed.
+    fn call_observer(&mut self, state: &State) -> PyResult<ControlFlow<()>> {
+        if has_stored_exception() {
+            return Ok(ControlFlow::Break(()));
+        }
+        self.ticker.tick(self.steps_done, self.steps)?;
+        let is_due = self.steps_done.is_multiple_of(self.observe_every);
+        let Some(observe) = self.observe.as_ref().filter(|_| is_due) else {
+            return Ok(ControlFlow::Continue(()));
+        };
+        let ends_run = Python::attach(|py| {
+            let found = observe.call1(py, (PyState(state.clone()),))?;
+            extract_returned::<Option<bool>>("observe", found.bind(py))
+        })?;
+        Ok(if ends_run == Some(true) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    }
+
+    /// The run, or the exception that ended it.
+    pub(super) fn end(
+        mut self,
+        result: basemat::Result<Run>,
+        names: Option<&DofNames>,
+    ) -> PyResult<PyRun> {
+        let exception = take_exception().or(self.exception.take());
+        let last_report =
+            Python::attach(|py| self.ticker.call_python(py, self.steps_done, self.steps));
+        if let Some(exception) = exception {
+            return Err(exception);
+        }
+        let run = result.map_err(to_exception)?;
+        last_report?;
+        Ok(PyRun::new(run, self.time_series, names.map(DofNames::to_vec)))
+    }
+}
+
+/// Lets the ground compute its weights for the next steps, at powers of two of steps; Ctrl-C may interrupt it.
+pub(super) fn prepare_next_step(simulation: &mut Simulation) -> PyResult<()> {
+    let done = simulation.state().step;
+    if !done.is_power_of_two() {
+        return Ok(());
+    }
+    with_progress(None, |observer| match simulation.prepare(1, observer) {
+        // A step that does not fit into the memory says so itself.
+        Err(basemat::Error::Memory(_)) => Ok(()),
+        outcome => outcome,
+    })
+}
+
+/// Result of a call of the core, or the exception that user code raised in it.
+pub(super) fn step_result<T>(result: basemat::Result<T>) -> PyResult<T> {
+    match take_exception() {
+        Some(exception) => Err(exception),
+        None => result.or_raise(),
+    }
+}
