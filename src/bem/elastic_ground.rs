@@ -317,9 +317,11 @@ impl Ground for ElasticGround {
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         let Some(plan) = &self.source.plan else { return self.ground.finer_compliance() };
-        let (source, plan) = (&self.source, plan.quartered());
+        let source = &self.source;
+        let plan = plan.quartered();
         let mut matrix = vec![0.0; (4 * SPACE * self.elements().len()).pow(2)];
-        let (profile, tolerance) = (&source.profile, source.tolerance);
+        let profile = &source.profile;
+        let tolerance = source.tolerance;
         let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);
         match plan.unions(profile, tolerance)? {
             Some(unions) => unions.reduce(&mut matrix, 1.0, find)?,

@@ -43,7 +43,8 @@ impl ElasticSource {
     /// Convolution weights of cells in plan.
     pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
-        let (profile, file) = (self.profile.clone(), self.file.clone());
+        let profile = self.profile.clone();
+        let file = self.file.clone();
         LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
     }
 
@@ -54,7 +55,8 @@ impl ElasticSource {
         time_step: f64,
         stages: Stages,
     ) -> Result<StripWeights> {
-        let (profile, file) = (self.profile.clone(), self.file.clone());
+        let profile = self.profile.clone();
+        let file = self.file.clone();
         StripWeights::under_strips(profile, elements, stages, self.sizes(time_step), file)
     }
 

@@ -85,7 +85,8 @@ impl InfluenceKernel {
         let mut moments = [0.0; TERMS];
         let rule = gauss::largest();
         for i in 1..overlap.nodes.len() {
-            let (low, high) = (overlap.nodes[i - 1], overlap.nodes[i]);
+            let low = overlap.nodes[i - 1];
+            let high = overlap.nodes[i];
             let slope = (overlap.even[i] - overlap.even[i - 1]) / (high - low);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 let inside = 0.5 * (high - low) * (1.0 + node);
@@ -130,8 +131,10 @@ pub(super) struct PairInfluence<'a> {
 impl PairInfluence<'_> {
     /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
     fn at(&self, lag: usize) -> Surface {
-        let (step, far) = (self.kernel.step, self.overlap.farthest());
-        let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
+        let step = self.kernel.step;
+        let far = self.overlap.farthest();
+        let begin = (lag - 1) as f64 * step;
+        let end = lag as f64 * step;
         if begin >= LATE * self.kernel.branches.arrival * far {
             self.late(begin, end)
         } else {
@@ -186,7 +189,8 @@ impl PairInfluence<'_> {
         let mut sum = [zz[0] * first, xx[0] * first];
         // ∫ t^(−2k−1) dt = t₀^(−2k) (1 − r)(1 + r + … + r^(k−1))/(2k), r = (t₀/t₁)².
         let mut scale = reach * kernel.step * (begin + end) / (end * end);
-        let (mut series, mut power) = (1.0, ratio);
+        let mut series = 1.0;
+        let mut power = ratio;
         let small = 1e-17 * first;
         for k in 1..TERMS {
             let term = scale * series / (2 * k) as f64;
@@ -204,8 +208,10 @@ impl PairInfluence<'_> {
     }
 
     fn early(&self, begin: f64, end: f64) -> Surface {
-        let (branches, overlap) = (&self.kernel.branches, &self.overlap);
-        let (near, far) = (overlap.nearest(), overlap.farthest());
+        let branches = &self.kernel.branches;
+        let overlap = &self.overlap;
+        let near = overlap.nearest();
+        let far = overlap.farthest();
         let latest = if near > 0.0 { end / near } else { f64::INFINITY };
         let earliest = (begin / far).max(branches.first);
         if latest <= earliest {
@@ -225,9 +231,11 @@ impl PairInfluence<'_> {
         breaks[..count].sort_unstable_by(f64::total_cmp);
         breaks[count] = latest;
         let couples = self.couples(begin);
-        let (mut even, mut odd) = ([0.0; 2], [0.0; 2]);
+        let mut even = [0.0; 2];
+        let mut odd = [0.0; 2];
         for piece in breaks[..=count].windows(2) {
-            let (from, to) = (piece[0], piece[1]);
+            let from = piece[0];
+            let to = piece[1];
             if to <= from {
                 continue;
             }

@@ -72,7 +72,8 @@ fn tail(
     // Rayleigh wave.
     let h = std::f64::consts::PI.powi(2) / (3.0 - tolerance.ln());
     let InfluenceKernel { late: terms, step, .. } = kernel;
-    let (unit, half) = (kernel.unit(), 0.5 * classes.span());
+    let unit = kernel.unit();
+    let half = 0.5 * classes.span();
     let begin = window * step;
     let fastest = (1.5 * (5.0 - tolerance.ln()) / begin).ln();
     let slowest = (DROPPED * tolerance / (horizon * step)).ln();
@@ -149,7 +150,8 @@ impl Pole {
             // Higher degrees at slow poles are rounding.
             let noise = 1e-15 * table[0].abs();
             for (place, value) in table.iter_mut().enumerate() {
-                let (i, j) = (place / DEGREES, place % DEGREES);
+                let i = place / DEGREES;
+                let j = place % DEGREES;
                 if value.abs() < noise * ((2 * i + 1) * (2 * j + 1)) as f64 {
                     *value = 0.0;
                 }
@@ -192,8 +194,10 @@ fn legendre(x: f64, values: &mut [f64]) {
 /// Means over the elements of the Legendre polynomials of degree 0, 1, … below `degrees`, on [−1, 1] stretched over the
 /// patch.
 fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
-    let (first, last) = (elements[0].left(), elements[elements.len() - 1].right());
-    let (half, middle) = (0.5 * (last - first), 0.5 * (first + last));
+    let first = elements[0].left();
+    let last = elements[elements.len() - 1].right();
+    let half = 0.5 * (last - first);
+    let middle = 0.5 * (first + last);
     let mut means = vec![vec![0.0; elements.len()]; degrees];
     let mut values = vec![0.0; degrees];
     // A Gauss rule over each element is exact, and does not cancel on short ones.

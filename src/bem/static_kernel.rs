@@ -54,10 +54,13 @@ impl StaticKernel {
         source: ContactElement,
     ) -> Result<Surface> {
         let overlap = Overlap::new(receiver, source)?;
-        let (mut even, mut odd) = (0.0, 0.0);
+        let mut even = 0.0;
+        let mut odd = 0.0;
         for i in 1..overlap.nodes.len() {
-            let (low, high) = (overlap.nodes[i - 1], overlap.nodes[i]);
-            let (w0, w1) = (overlap.even[i - 1], overlap.even[i]);
+            let low = overlap.nodes[i - 1];
+            let high = overlap.nodes[i];
+            let w0 = overlap.even[i - 1];
+            let w1 = overlap.even[i];
             even += self.segment([low, high], [w0, w1]);
             odd += 0.5 * (high - low) * (overlap.odd[i - 1] + overlap.odd[i]);
         }
@@ -103,7 +106,8 @@ impl StaticKernel {
             let log = (x / self.reference).ln();
             [x * (log - 1.0), 0.5 * x * x * (log - 0.5)]
         };
-        let (one, two) = (primitive(low), primitive(high));
+        let one = primitive(low);
+        let two = primitive(high);
         (w0 - slope * low) * (two[0] - one[0]) + slope * (two[1] - one[1])
     }
 }

@@ -120,7 +120,8 @@ impl Strip {
         at_least("list of foundations", lines.len(), 1)?;
         let strip = |nodes: &Vec<BaseNode>| {
             check_line(nodes)?;
-            let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
+            let first = nodes[0].x;
+            let last = nodes[nodes.len() - 1].x;
             from_the_left(first, last)?;
             let segments = BaseNode::segments(nodes);
             Self::new(first..last, if count == 0 { 0 } else { count.max(segments) }, grading)
@@ -196,9 +197,12 @@ fn checked(element: ContactElement) -> Result<ContactElement> {
 
 impl Overlap {
     pub(crate) fn new(receiver: ContactElement, source: ContactElement) -> Result<Self> {
-        let (p, q) = (checked(receiver)?, checked(source)?);
-        let (first, last) = (p.left() - q.right(), p.right() - q.left());
-        let (one, two) = (p.left() - q.left(), p.right() - q.right());
+        let p = checked(receiver)?;
+        let q = checked(source)?;
+        let first = p.left() - q.right();
+        let last = p.right() - q.left();
+        let one = p.left() - q.left();
+        let two = p.right() - q.right();
         let plateau = p.length().min(q.length());
         let width = |x: f64| (x - first).min(last - x).min(plateau).max(0.0);
         let scale =
@@ -212,7 +216,8 @@ impl Overlap {
         // Nodes that differ only by rounding of the coordinates are one node.
         nodes.dedup_by(|next, kept| *next - *kept <= close);
         let fold = |sign: f64| nodes.iter().map(|&x| width(x) + sign * width(-x)).collect();
-        let (even, odd): (Vec<f64>, Vec<f64>) = (fold(1.0), fold(-1.0));
+        let even: Vec<f64> = fold(1.0);
+        let odd: Vec<f64> = fold(-1.0);
         let one_sided = odd.iter().any(|w| w.abs() > close);
         Ok(Self { nodes, even, odd, length: p.length(), one_sided })
     }
@@ -249,7 +254,8 @@ impl Overlap {
             low: [0.0; 3],
             high: [0.0; 3],
         };
-        let (low, high) = (self.segment(step[0] * middle), self.segment(step[1] * middle));
+        let low = self.segment(step[0] * middle);
+        let high = self.segment(step[1] * middle);
         if let (Ok(i), Ok(j)) = (low, high)
             && i == j
         {

@@ -130,7 +130,9 @@ impl Branches {
         let shifted =
             |z: Complex, sign: f64, offset: f64| at(z.scale(sign) + Complex::real(offset));
         let one_pressure = if near.is_some() { at(two) } else { at(one) };
-        let (zp, zs, h) = (r.z.sqrt(), r.excess.sqrt(), r.h);
+        let zp = r.z.sqrt();
+        let zs = r.excess.sqrt();
+        let h = r.h;
         let regular = [
             [[0.0, first], one_pressure, at(two), [-zp, 0.0]],
             [[0.0, 1.0], shifted(one, 1.0, -h), shifted(two, 1.0, -h), [-zs, 0.0]],
@@ -185,11 +187,13 @@ impl Branches {
         sum: &mut [f64; 2],
     ) {
         let [begin, end] = self.range(part);
-        let (from, to) = (from.max(begin), to.min(end));
+        let from = from.max(begin);
+        let to = to.min(end);
         if from >= to {
             return;
         }
-        let (one, two) = (self.variable(part, from), self.variable(part, to));
+        let one = self.variable(part, from);
+        let two = self.variable(part, to);
         self.piece(part, [one.min(two), one.max(two)], a, sum, 0);
     }
 
@@ -230,7 +234,8 @@ impl Branches {
             None => gauss::largest(),
         };
         let Singular { residue, near, .. } = singular;
-        let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let center = 0.5 * (low + high);
+        let half = 0.5 * (high - low);
         for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
             let s = center + half * node;
             let weight = weight * half;
@@ -297,7 +302,8 @@ impl Branches {
     /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.
     fn smooth(&self, part: Branch, s: f64, pole: Option<f64>) -> [f64; 3] {
         let r = &self.rayleigh;
-        let (square, sixteen) = (s * s, 16.0 * r.h);
+        let square = s * s;
+        let sixteen = 16.0 * r.h;
         match part {
             Branch::Pressure | Branch::Shear => {
                 let (z, y) = if part == Branch::Pressure {
@@ -323,10 +329,13 @@ impl Branches {
                 [value, 0.0, 1.0 / (z + r.a2).sqrt()]
             }
             Branch::Tail => {
-                let (ka, kb) = (1.0 - r.a2 * square, 1.0 - square);
+                let ka = 1.0 - r.a2 * square;
+                let kb = 1.0 - square;
                 let pair = (ka + r.sum * square) * ka + r.product * square * square;
                 let common = 1.0 / (sixteen * (1.0 - r.square * square) * pair);
-                let (sa, sb, k2) = (ka.sqrt(), kb.sqrt(), (2.0 - square).powi(2));
+                let sa = ka.sqrt();
+                let sb = kb.sqrt();
+                let k2 = (2.0 - square).powi(2);
                 [common * (k2 * sa + 4.0 * ka * sb), common * (4.0 * kb * sa + k2 * sb), s]
             }
         }

@@ -85,7 +85,8 @@ impl HalfPlane {
         let excess = (tau - 1.0) * (tau + 1.0);
         let arrival = self.branches.arrival;
         let p = -16.0 * r.h * (tau - arrival) * (tau + arrival) * r.pair(z);
-        let (sa, k) = (z.sqrt(), 1.0 - 2.0 * y);
+        let sa = z.sqrt();
+        let k = 1.0 - 2.0 * y;
         if excess < 0.0 {
             return Surface {
                 zz: -sa * k * k / p,
@@ -152,7 +153,9 @@ impl HalfPlane {
             return Surface::default();
         }
         let tau = path / r;
-        let (f, q, w) = (self.heaviside(tau), self.first_tail(tau), self.second_tail(tau));
+        let f = self.heaviside(tau);
+        let q = self.first_tail(tau);
+        let w = self.second_tail(tau);
         let join = |f: f64, q: f64, w: f64| r * (0.5 * r * f + path * q) - 0.5 * path * path * w;
         Surface {
             zz: join(f.zz, q.zz, w.zz),
@@ -186,7 +189,8 @@ impl HalfPlane {
         if path <= gap * self.branches.first {
             return Ok(Surface::default());
         }
-        let (p, q) = (receiver, source);
+        let p = receiver;
+        let q = source;
         let mut sum = Surface::default();
         for (x, sign) in [
             (p.right() - q.left(), 1.0),
@@ -241,14 +245,17 @@ impl HalfPlane {
         let k = Complex::real(r.g) - z.scale(2.0);
         let k2 = k * k;
         let shear = z - Complex::real(r.h);
-        let (four_z, four_s) = ((y * z).scale(4.0), (y * shear).scale(4.0));
+        let four_z = (y * z).scale(4.0);
+        let four_s = (y * shear).scale(4.0);
         for (speed, root, zz, xx) in [(r.a2.sqrt(), z, k2, four_s), (1.0, shear, four_z, k2)] {
             if tau <= speed {
                 continue;
             }
             let s = ((tau - speed) * (tau + speed)).sqrt();
-            let (w0, v0) = ((root / y).sqrt(), root.sqrt());
-            let (mut near, mut path) = (Complex::real(0.0), Complex::real(0.0));
+            let w0 = (root / y).sqrt();
+            let v0 = root.sqrt();
+            let mut near = Complex::real(0.0);
+            let mut path = Complex::real(0.0);
             if root.abs() > 0.0 {
                 near = w0 * (Complex::real(s / tau) / w0).atanh();
                 path = v0 * (Complex::real(s) / v0).atanh();
@@ -317,7 +324,8 @@ impl FundamentalSolution for HalfPlane {
             LoadHistory::Impulse => (self.impulse(tau), unit * speed / r),
             LoadHistory::Step => (self.heaviside(tau), unit),
             LoadHistory::Ramp => {
-                let (f, moment) = (self.heaviside(tau), self.even(tau)[0]);
+                let f = self.heaviside(tau);
+                let moment = self.even(tau)[0];
                 let value = Surface {
                     zz: tau * f.zz - moment[0],
                     xx: tau * f.xx - moment[1],

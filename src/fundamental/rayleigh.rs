@@ -57,7 +57,8 @@ impl Rayleigh {
         let value = |w: f64| ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3];
         let slope = |w: f64| (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2];
         // P(1) = 1 > 0 and P → −∞: bisect, then polish.
-        let (mut low, mut high) = (0.0, 4.0);
+        let mut low = 0.0;
+        let mut high = 4.0;
         for _ in 0..30 {
             let middle = 0.5 * (low + high);
             if value(middle) > 0.0 {
@@ -107,8 +108,10 @@ impl Rayleigh {
 
     /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − `τ_R`).
     pub(crate) fn pulse(&self) -> f64 {
-        let (y, tau) = (self.square, self.arrival());
-        let (sa, sb) = (self.z.sqrt(), self.excess.sqrt());
+        let y = self.square;
+        let tau = self.arrival();
+        let sa = self.z.sqrt();
+        let sb = self.excess.sqrt();
         let k = 1.0 - 2.0 * y;
         let slope = -8.0 * tau * (k + sa * sb) - 4.0 * y * tau * (sb / sa + sa / sb);
         std::f64::consts::PI * tau * (k + 2.0 * sa * sb) / slope
@@ -143,7 +146,8 @@ pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; TERMS]; 2] {
         }
         series
     };
-    let (sa, sb) = (root(a2), root(1.0));
+    let sa = root(a2);
+    let sb = root(1.0);
     let mut result = [[0.0; TERMS]; 2];
     let p = [-16.0 * rayleigh.h, 24.0 - 16.0 * a2, -8.0, 1.0];
     for k in 0..TERMS {
@@ -178,7 +182,8 @@ mod tests {
         let quarter = Rayleigh::new(soil(0.25));
         assert!((quarter.square - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         let (first, second) = quarter.shifted_roots(quarter.discriminant(), 0.0);
-        let [first, second] = [first, second].map(|root| quarter.a2 + root.re);
+        let first = quarter.a2 + first.re;
+        let second = quarter.a2 + second.re;
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
         let speed = soil(0.0).rayleigh_wave_speed();

@@ -75,7 +75,8 @@ impl ContactElement {
 
     /// Lower and upper end along z, m; equal unless the element is of a wall.
     pub const fn heights(&self) -> [f64; 2] {
-        let [first, last] = [self.corners[0][2], self.corners[1][2]];
+        let first = self.corners[0][2];
+        let last = self.corners[1][2];
         // A zero without sign.
         [first.min(last) + 0.0, first.max(last) + 0.0]
     }
@@ -226,7 +227,8 @@ impl ContactElement {
 impl ContactElement {
     /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
     pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {
-        let [x, z] = [0, 1].map(|k| to[k] - from[k]);
+        let x = to[0] - from[0];
+        let z = to[1] - from[1];
         let [x, z] = [x, z].map(|part| part / x.hypot(z));
         let corners = [[from[0], METRE[0], from[1]], [to[0], METRE[1], to[1]]];
         let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];

@@ -76,7 +76,9 @@ impl Lattice {
         let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
         let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
         let [xx, yy, zx, zy] = if exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
-        let (xy, zx, zy) = ((3, right * away), (zx, right), (zy, away));
+        let xy = (3, right * away);
+        let zx = (zx, right);
+        let zy = (zy, away);
         let back = |(series, factor): (usize, f64)| (series, -factor);
         let terms = [[(0, 1.0), zx, zy], [back(zx), (xx, 1.0), xy], [back(zy), xy, (yy, 1.0)]];
         (class, terms)
@@ -174,7 +176,8 @@ mod tests {
     fn elements_find_their_cells() {
         let cells = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [1, 3]];
         let element = |[i, j]: [usize; 2]| {
-            let [x, y] = [i as f64, j as f64];
+            let x = i as f64;
+            let y = j as f64;
             ContactElement::in_plan(
                 [1.0 + 0.3 * x, 1.3 + 0.3 * x],
                 [-2.0 + 0.7 * y, -1.3 + 0.7 * y],
@@ -184,7 +187,8 @@ mod tests {
         assert_eq!(lattice_cells(&elements), Some(cells.to_vec()));
         let with = |other| lattice_cells(&[&elements[..], &[other]].concat());
         // Another size, another place, far away.
-        let [wide, beside] = [2.0, 1.0].map(|width| 1.9 + 0.3 * width);
+        let wide = 1.9 + 0.3 * 2.0;
+        let beside = 1.9 + 0.3 * 1.0;
         assert_eq!(with(ContactElement::in_plan([1.9, wide], [-2.0, -1.3])), None);
         assert_eq!(with(ContactElement::in_plan([1.95, beside + 0.05], [-2.0, -1.3])), None);
         assert_eq!(with(element([9, 9])), None);

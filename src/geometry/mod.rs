@@ -128,8 +128,10 @@ const ROUNDING: f64 = 1e-9;
 /// Number of intervals in a row: the fewest that lead from the first end to the last.
 pub(crate) fn in_a_row(mut ends: Vec<[f64; 2]>) -> usize {
     ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let (mut count, mut end, mut reach, mut rounding) =
-        (0, f64::NEG_INFINITY, f64::NEG_INFINITY, 0.0);
+    let mut count = 0;
+    let mut end = f64::NEG_INFINITY;
+    let mut reach = f64::NEG_INFINITY;
+    let mut rounding = 0.0;
     for [low, high] in ends {
         rounding = ROUNDING * (high - low);
         if low > end + rounding {

@@ -23,7 +23,9 @@ impl Bottom {
     pub(super) fn new(s: Complex64, last: f64, speed: f64, depth: f64, degree: usize) -> Self {
         let wave = speed / s.norm();
         let turn = Complex64::from_polar(1.0, -TURN * s.arg());
-        let (mut heights, mut sum, mut next) = (vec![], 0.0, 2.0 * last);
+        let mut heights = vec![];
+        let mut sum = 0.0;
+        let mut next = 2.0 * last;
         while sum < depth * wave {
             let height = next.min(LONGEST * wave);
             heights.push(turn * height);

@@ -116,7 +116,8 @@ impl Model<'_> {
         let mut groups = vec![];
         let mut begin = 0;
         while begin < real.len() {
-            let (mut end, mut length) = (begin + 1, real[begin].length);
+            let mut end = begin + 1;
+            let mut length = real[begin].length;
             while end < real.len()
                 && real[end].soil == real[begin].soil
                 && length + real[end].length <= grid.joined
@@ -133,7 +134,8 @@ impl Model<'_> {
 
     fn load_wall(&self, side: &mut Side) {
         let weights = Polynomials::lagrange(self.degree).means();
-        let (mut node, base) = (0, self.grid.base.len());
+        let mut node = 0;
+        let base = self.grid.base.len();
         for (interval, element) in &self.grid.wall {
             for (j, weight) in weights.iter().enumerate().filter(|(j, _)| node + j < side.nodes) {
                 for component in 0..2 {
@@ -166,7 +168,8 @@ impl Side {
         loads: usize,
         joined: Option<&[(usize, usize, f64)]>,
     ) -> Result<Self> {
-        let (own, order) = (self.nodes, 2 * nodes + loads);
+        let own = self.nodes;
+        let order = 2 * nodes + loads;
         let mut rest = column.mean(1.0);
         let across = column.mean(-1.0);
         let mut pivot = self.matrix.part(0..2 * own, 0..2 * own);

@@ -39,7 +39,9 @@ fn beside_wall(soil: &TrenchSoil) -> Vec<Vec<SoilPiece>> {
         None => soil.profile().soils_to().collect(),
     };
     let beside = |ends: &[f64]| {
-        let (mut above, mut top, mut pieces) = (0.0, 0.0, vec![]);
+        let mut above = 0.0;
+        let mut top = 0.0;
+        let mut pieces = vec![];
         for (place, (soil, bottom)) in layers.iter().enumerate() {
             let bottom = bottom.min(ends[1]);
             let from = ends[0].clamp(top, bottom.max(top));
@@ -113,7 +115,8 @@ pub(super) fn depth_below_middle(soil: &TrenchSoil, ratio: Option<f64>) -> Vec<f
 
 /// Mean of a quantity above zero that is linear between two ends.
 fn mean_above_zero([one, other]: [f64; 2]) -> f64 {
-    let (low, high) = (one.min(other), one.max(other));
+    let low = one.min(other);
+    let high = one.max(other);
     if low >= 0.0 {
         0.5 * (low + high)
     } else if high <= 0.0 {

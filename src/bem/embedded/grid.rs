@@ -67,7 +67,8 @@ impl Grid {
         let deepest = interfaces.fold(0.0, f64::max);
         let bottom = if rigid { deepest } else { deepest.max(depth + 0.5 * half) };
         let mut next = lengths(wall).last().copied().unwrap_or(outermost);
-        let (mut below, mut begin) = (vec![], depth);
+        let mut below = vec![];
+        let mut begin = depth;
         while begin < bottom {
             let soil = soil_below(layers, begin);
             let Layer { bottom: interface, longest } = layers[soil];

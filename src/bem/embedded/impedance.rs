@@ -145,7 +145,8 @@ impl TrenchSoil {
         let faces = Faces::new(self);
         let field = self.free_field(s)?;
         let motions = faces.motions();
-        let [shear, pressure] = [0, 1].map(|wave| faces.free_field(&field, wave));
+        let shear = faces.free_field(&field, 0);
+        let pressure = faces.free_field(&field, 1);
         let (stiff, forces) = reduced(antisymmetric, &motions, &shear)?;
         let (vertical, lift) = reduced(symmetric, &motions, &pressure)?;
         let coupling = (stiff[0][2] + stiff[2][0]) * 0.5;
@@ -179,7 +180,8 @@ impl<'a> Faces<'a> {
     /// Resultants of unit tractions about the middle of the base: three for each row.
     fn motions(&self) -> Vec<[f64; MOTIONS]> {
         let Self { base, wall } = self;
-        let (half, depth) = (base[base.len() - 1], wall[wall.len() - 1]);
+        let half = base[base.len() - 1];
+        let depth = wall[wall.len() - 1];
         let rows = |length: f64, x: f64, above: f64| {
             [[length, 0.0, length * above], [0.0, length, length * x]]
         };

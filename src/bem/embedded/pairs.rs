@@ -29,7 +29,8 @@ impl TrenchPairs {
     /// outline, in the compliances of a half, and the signs of their displacements.
     fn rows(&self, element: usize) -> [(usize, f64); 2] {
         let elements = self.soil.elements();
-        let (base, wall) = (elements.base().len() - 1, elements.wall().len() - 1);
+        let base = elements.base().len() - 1;
+        let wall = elements.wall().len() - 1;
         if element < base {
             return [(2 * element + 1, 1.0), (2 * element, 1.0)];
         }
@@ -56,8 +57,8 @@ impl TrenchPairs {
                     let half = 0.5 * sign * turn;
                     // A mirror changes the sign of tangential components.
                     let mirror = if b == 0 { half } else { -half };
-                    let [sum, difference] =
-                        [(parts[0] + parts[1]) * half, (parts[0] - parts[1]) * mirror];
+                    let sum = (parts[0] + parts[1]) * half;
+                    let difference = (parts[0] - parts[1]) * mirror;
                     same[kind] = Complex::new(sum.re, sum.im);
                     across[kind] = Complex::new(difference.re, difference.im);
                 }

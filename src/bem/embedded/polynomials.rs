@@ -114,7 +114,8 @@ pub(super) fn nodes(degree: usize) -> Vec<f64> {
             return x;
         }
         for _ in 0..20 {
-            let (mut before, mut value) = (1.0, x);
+            let mut before = 1.0;
+            let mut value = x;
             for k in 2..=degree {
                 (before, value) = (value, next_legendre(k, x, [before, value]));
             }

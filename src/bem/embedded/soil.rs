@@ -132,7 +132,8 @@ impl TrenchSoil {
 
     /// Elastic constants at `s`, with the inertia at the Laplace variable `own`.
     fn moduli(&self, s: Complex, own: Complex) -> Result<Vec<Moduli>> {
-        let (mut shear, mut fill) = (vec![], vec![]);
+        let mut shear = vec![];
+        let mut fill = vec![];
         self.profile.moduli(s, &mut shear)?;
         if let Some((_, alone)) = &self.backfill {
             alone.moduli(s, &mut fill)?;

@@ -47,7 +47,8 @@ impl TrenchSource {
         let (most, high) = SHORT;
         let is_short = slowest * time_step <= most * trench.trench().half_width();
         let pairs = TrenchPairs::new(self.soil.clone(), if is_short { high } else { DEGREE });
-        let (profile, stages) = (self.soil.profile().clone(), self.stages(time_step));
+        let profile = self.soil.profile().clone();
+        let stages = self.stages(time_step);
         let own = own_classes(&classes);
         let quadrature = Quadrature::over(profile, pairs, own, stages, [time_step, TOLERANCE]);
         let mesh = [trench.base(), trench.wall()].concat();

@@ -114,7 +114,8 @@ impl Parity {
         coupling: &mut Block,
     ) {
         for (component, means) in self.means.iter().enumerate() {
-            let (side, load) = (component * nodes, 2 * nodes + first + component);
+            let side = component * nodes;
+            let load = 2 * nodes + first + component;
             sides[(side, load)] -= means[0] * width;
             sides[(load, side)] -= means[0] * width;
             let begin = component * (self.counts[0] - 1);
@@ -136,7 +137,9 @@ struct Down {
 impl Down {
     fn new(degree: usize) -> Self {
         let own = Polynomials::lagrange(degree);
-        let (stiffness, mass, slopes) = (own.stiffnesses(), own.masses(&own), own.slopes_by(&own));
+        let stiffness = own.stiffnesses();
+        let mass = own.masses(&own);
+        let slopes = own.slopes_by(&own);
         Self { degree, stiffness, mass, slopes }
     }
 }
@@ -284,9 +287,11 @@ impl Element<'_> {
     fn stiffness(&self, [c, a, b]: [usize; 3], [other, e, f]: [usize; 3]) -> Complex64 {
         let Self { parity, down, width, height, moduli } = self;
         let Moduli { shear, lame, inertia } = *moduli;
-        let (own, z) = (lame + shear * 2.0, down);
+        let own = lame + shear * 2.0;
+        let z = down;
         let value = if c == other {
-            let (s, m) = (parity.stiffness[c].at(a, e), parity.mass[c].at(a, e));
+            let s = parity.stiffness[c].at(a, e);
+            let m = parity.mass[c].at(a, e);
             let (along, across) = if c == 0 { (own, shear) } else { (shear, own) };
             along * height * (s * z.mass.at(b, f) / width)
                 + across / height * (m * z.stiffness.at(b, f) * width)
@@ -303,7 +308,9 @@ impl Element<'_> {
     /// Matrix of the functions that do not vanish on all sides, and these functions.
     fn condensed(&self) -> Result<(Block, Vec<Part>)> {
         let degree = self.down.degree;
-        let (mut kept, mut parts, mut inside) = (vec![], vec![], vec![]);
+        let mut kept = vec![];
+        let mut parts = vec![];
+        let mut inside = vec![];
         for component in 0..2 {
             for level in 0..=degree {
                 kept.push([component, 0, level]);

@@ -52,7 +52,8 @@ pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
         return Modified::default();
     }
     if let Ok(found) = besselk_seq(0.0, z, 2, Scaling::Unscaled) {
-        let (zeroth, first) = (found.values[0], found.values[1]);
+        let zeroth = found.values[0];
+        let first = found.values[1];
         return Modified { zeroth, quotient: first / z, product: first * z };
     }
     // Only arguments that are not finite reach this point; the result must not be finite either.
@@ -63,7 +64,8 @@ pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
 /// K₀ and κ at `z`; with `mean`, their means over the line from 0 to `z`.
 pub(super) fn series(z: Complex64, mean: bool) -> [Complex64; 2] {
     let half = 0.5 * z;
-    let (log, q) = (half.ln(), half * half);
+    let log = half.ln();
+    let q = half * half;
     let mut power = Complex64::new(1.0, 0.0);
     let mut sums = [Complex64::default(); 2];
     let mut digamma = -EULER;
@@ -95,7 +97,9 @@ mod tests {
         let mut rows = 0;
         for line in table.lines().filter(|line| !line.starts_with(['#', 'r'])) {
             let x: Vec<f64> = line.split(',').map(|field| field.parse().unwrap()).collect();
-            let [z, k0, k1] = [0, 2, 4].map(|k| Complex64::new(x[k], x[k + 1]));
+            let z = Complex64::new(x[0], x[0 + 1]);
+            let k0 = Complex64::new(x[2], x[2 + 1]);
+            let k1 = Complex64::new(x[4], x[4 + 1]);
             let found = modified(z, false);
             for (what, found, wanted) in [
                 ("K0", found.zeroth, k0),

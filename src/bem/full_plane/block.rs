@@ -98,7 +98,8 @@ impl Level {
         now: usize,
         work: &mut Work,
     ) {
-        let (size, bins) = (self.size, self.size + 1);
+        let size = self.size;
+        let bins = self.size + 1;
         let real = &mut work.real[..2 * size];
         let spectra = work.inputs.chunks_exact_mut(bins);
         for (row, spectrum) in inputs.chunks_exact(stride).zip(spectra) {

@@ -41,13 +41,15 @@ impl Boundary {
             let nodes = strip.nodes();
             (nodes[nodes.len() - 1] - nodes[0]) / (nodes.len() - 1) as f64
         };
-        let (first, last) = (&strips[0], &strips[strips.len() - 1]);
+        let first = &strips[0];
+        let last = &strips[strips.len() - 1];
         let mut nodes: Vec<f64> =
             (1..=free).rev().map(|k| elements[0].left() - k as f64 * mean(first)).collect();
         let mut contact = Vec::with_capacity(elements.len());
         for (k, strip) in strips.iter().enumerate() {
             if k > 0 {
-                let (begin, end) = (nodes.pop().unwrap_or_default(), strip.nodes()[0]);
+                let begin = nodes.pop().unwrap_or_default();
+                let end = strip.nodes()[0];
                 nodes.push(begin);
                 let size = mean(&strips[k - 1]).max(mean(strip));
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "≥ 0")]

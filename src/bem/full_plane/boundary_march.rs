@@ -57,10 +57,12 @@ impl BoundaryMarch {
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
         let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let mut g = vec![0.0; size * size];
+        let mut h = vec![0.0; size * size];
         kernel.coefficients(0, &mut g, &mut h)?;
         let unit = 1.0 / largest(&g).max(f64::MIN_POSITIVE);
-        let (mut matrix, mut known) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let mut matrix = vec![0.0; size * size];
+        let mut known = vec![0.0; size * size];
         for (k, (g, h)) in g.iter().zip(&h).enumerate() {
             match given[k % size] {
                 Given::Traction => (matrix[k], known[k]) = (*h, *g),

@@ -73,7 +73,8 @@ impl BoundaryHistory {
     fn series(&self, lags: usize) -> Result<Vec<Vec<f64>>> {
         let size = self.size();
         let count = size / 2;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let mut g = vec![0.0; size * size];
+        let mut h = vec![0.0; size * size];
         let mut series = vec![Vec::new(); 8 * self.pairs.classes.len()];
         for lag in 1..lags {
             self.kernel.coefficients(lag, &mut g, &mut h)?;
@@ -142,7 +143,8 @@ impl BoundaryHistory {
 
     /// Adds the contribution of the last input, so that the next output is complete.
     fn settle(&mut self) {
-        let (now, stride) = (self.steps, self.capacity);
+        let now = self.steps;
+        let stride = self.capacity;
         let last = now - 1;
         let ahead = LEAF - 1 - last % LEAF;
         if ahead > 0 {
@@ -206,7 +208,8 @@ impl BoundaryHistory {
 
 /// All pairs of components, G with tractions and −H with displacements.
 fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
-    let (layout, mut links) = (ContactLayout::new(PLANE, count), Vec::new());
+    let layout = ContactLayout::new(PLANE, count);
+    let mut links = Vec::new();
     for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -246,7 +249,8 @@ mod tests {
         let mut past: Vec<[Vec<f64>; 2]> = Vec::new();
         let coefficients: Vec<_> = (0..400)
             .map(|lag| {
-                let (mut g, mut h) = (vec![0.0; 64], vec![0.0; 64]);
+                let mut g = vec![0.0; 64];
+                let mut h = vec![0.0; 64];
                 kernel.coefficients(lag, &mut g, &mut h).unwrap();
                 [g, h]
             })

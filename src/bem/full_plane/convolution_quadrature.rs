@@ -139,7 +139,8 @@ impl ConvolutionQuadrature {
 
     /// Early lags by Cauchy's integral, with the alias subtracted.
     fn contour(&self) -> Vec<[f64; 8]> {
-        let (lags, count) = (self.lags, self.views.len());
+        let lags = self.lags;
+        let count = self.views.len();
         let points = lags as f64;
         let radius = CONTOUR.powf(1.0 / points);
         let frequencies = lags / 2 + 1;
@@ -234,7 +235,8 @@ fn views(segments: &[Segment]) -> (Vec<View>, Vec<usize>) {
                 to: [segment.to[0] - x, segment.to[1] - z],
                 own: row == column,
             };
-            let [a, b] = [view.from, view.to];
+            let a = view.from;
+            let b = view.to;
             #[allow(clippy::cast_possible_truncation, reason = "below 1e13 by the grid's choice")]
             let key = [a[0], a[1], b[0], b[1]].map(|offset| (offset / grid).round() as i64);
             view_of.push(*known.entry((key, view.own)).or_insert_with(|| {
@@ -277,7 +279,8 @@ impl BoundaryKernel for ConvolutionQuadrature {
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
         self.check(g, h)?;
-        let (count, views) = (self.segments.len(), self.views.len());
+        let count = self.segments.len();
+        let views = self.views.len();
         if lag < self.lags {
             let early = &self.early[lag * views..][..views];
             scatter(count, &self.view_of, |view| early[view].map(|x| [x]), g, h);

@@ -309,7 +309,8 @@ impl Ground for FullPlaneGround {
     ///
     /// Both together are an error: the values are then not finite, and the next history returns an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
+        let contact = self.boundary.contact();
+        let segments = self.boundary.segments();
         let [down, along] = ContactLayout::new(PLANE, contact.len()).split_mut(displacement);
         for ((&e, down), along) in contact.iter().zip(down).zip(along) {
             let center = segments[e].center();

@@ -33,10 +33,12 @@ impl Prepared {
         time_step: f64,
         incident: bool,
     ) -> Result<Self> {
-        let (count, layout) = (boundary.segments().len(), boundary.layout());
+        let count = boundary.segments().len();
+        let layout = boundary.layout();
         same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
         let size = layout.len();
-        let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
+        let mut g = vec![0.0; layout.square()];
+        let mut h = vec![0.0; layout.square()];
         kernel.coefficients(0, &mut g, &mut h)?;
         let (factor, mobility) = boundary.mobility(&g, &h)?;
         let mut loaded = vec![incident; size];

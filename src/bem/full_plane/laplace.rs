@@ -52,7 +52,8 @@ pub(super) type Pair = ([[Complex64; 2]; 2], [[Complex64; 2]; 2]);
 
 impl LaplacePlane {
     pub(super) fn new(soil: Soil, s: Complex64) -> Self {
-        let (fast, slow) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
+        let fast = soil.pressure_wave_speed();
+        let slow = soil.shear_wave_speed();
         let unit = 1.0 / (2.0 * PI * soil.density());
         let nu = soil.poisson();
         Self {

@@ -37,7 +37,8 @@ pub(super) type LogTerms = [[f64; 8]; TERMS];
 pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
     let line = view.line();
     let (p, q) = radial_terms(soil);
-    let (center, half) = (0.5 * (line.low + line.high), 0.5 * (line.high - line.low));
+    let center = 0.5 * (line.low + line.high);
+    let half = 0.5 * (line.high - line.low);
     let nu = soil.poisson();
     let lame = 2.0 * nu / (1.0 - 2.0 * nu);
     let rule = gauss::largest();
@@ -49,10 +50,12 @@ pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
         let along = x[0] * n[0] + x[1] * n[1];
         let weight = weight * half;
         // (r/R)^{2k} and (r/R)^{2k−2}.
-        let (mut power, mut lower) = (1.0, 0.0);
+        let mut power = 1.0;
+        let mut lower = 0.0;
         for (k, term) in terms.iter_mut().enumerate() {
             let twice = (2 * k) as f64;
-            let (p, q) = (p[k], q[k]);
+            let p = p[k];
+            let q = q[k];
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let delta = if i == j { 1.0 } else { 0.0 };
                 let both = x[i] * x[j] / (unit * unit);
@@ -82,9 +85,11 @@ fn radial_terms(soil: Soil) -> ([f64; TERMS], [f64; TERMS]) {
     let ratio = soil.speed_ratio_squared();
     let slow = soil.shear_wave_speed();
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * slow * slow);
-    let (mut p, mut q) = ([0.0; TERMS], [0.0; TERMS]);
+    let mut p = [0.0; TERMS];
+    let mut q = [0.0; TERMS];
     // 1/(4^k k!²) and (c₂/c₁)^{2k+2}.
-    let (mut scale, mut power) = (unit, ratio);
+    let mut scale = unit;
+    let mut power = ratio;
     for k in 0..TERMS {
         let next = (k + 1) as f64;
         p[k] = scale * (0.5 * (1.0 - power) / next - 1.0);

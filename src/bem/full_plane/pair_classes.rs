@@ -37,7 +37,8 @@ impl PairClasses {
         let mut pairs = Vec::with_capacity(segments.len() * segments.len());
         for (p, receiver) in segments.iter().enumerate() {
             for (q, source) in segments.iter().enumerate() {
-                let (x, y) = (receiver.center(), source.center());
+                let x = receiver.center();
+                let y = source.center();
                 let across =
                     [key(source.to[0] - source.from[0]), key(source.to[1] - source.from[1])];
                 let offset = [key(y[0] - x[0]), key(y[1] - x[1])];
@@ -50,7 +51,8 @@ impl PairClasses {
                 pairs.push((class, mirrored != other));
             }
         }
-        let (mut numbers, mut views) = (HashMap::new(), Vec::new());
+        let mut numbers = HashMap::new();
+        let mut views = Vec::new();
         let view_of = classes
             .iter()
             .map(|&(p, q): &(usize, usize)| {
@@ -77,7 +79,8 @@ impl PairClasses {
         free_term: f64,
         local: impl Fn([f64; 2], f64) -> PairBlocks,
     ) {
-        let (count, layout) = (segments.len(), ContactLayout::new(PLANE, segments.len()));
+        let count = segments.len();
+        let layout = ContactLayout::new(PLANE, segments.len());
         let seen: Vec<PairBlocks> =
             self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
         let blocks: Vec<PairBlocks> = self
@@ -113,7 +116,9 @@ pub(super) fn view(point: [f64; 2], element: &Segment, itself: bool) -> ([f64; 2
     if itself {
         return ([-half, half], 0.0);
     }
-    let (d, n, y) = (element.direction(), element.normal(), element.center());
+    let d = element.direction();
+    let n = element.normal();
+    let y = element.center();
     let offset = [y[0] - point[0], y[1] - point[1]];
     let along = offset[0] * d[0] + offset[1] * d[1];
     let height = offset[0] * n[0] + offset[1] * n[1];

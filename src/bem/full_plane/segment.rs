@@ -39,7 +39,9 @@ impl Segment {
 
     /// Distance (m) of a point (x, z) from the element.
     fn distance(&self, point: [f64; 2]) -> f64 {
-        let (d, n, y) = (self.direction(), self.normal(), self.center());
+        let d = self.direction();
+        let n = self.normal();
+        let y = self.center();
         let offset = [point[0] - y[0], point[1] - y[1]];
         let along = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
         along.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])

@@ -25,7 +25,8 @@ enum Passed {
 fn impulse(medium: &Medium, s: f64, h: f64, time: f64, both: bool) -> Integrals {
     let [c1, c2] = medium.speeds;
     let square = s * s + h * h;
-    let (t1, t2) = (c1 * time, c2 * time);
+    let t1 = c1 * time;
+    let t2 = c2 * time;
     let r1 = (t1 * t1 - square).sqrt();
     let q1 = -1.0 / (c1 * r1 * r1 * r1);
     let (d, l, q2, w);
@@ -72,7 +73,8 @@ fn rules(
         ends[0].abs().min(ends[1].abs()).hypot(h)
     };
     let mut passed = Passed::None;
-    let (mut space, mut time) = (f64::INFINITY, f64::INFINITY);
+    let mut space = f64::INFINITY;
+    let mut time = f64::INFINITY;
     for (c, which) in medium.speeds.into_iter().zip([Passed::Pressure, Passed::Both]) {
         if c * end <= near {
             break;
@@ -111,7 +113,8 @@ pub(super) fn smooth_integrals(
     if passed == Passed::None {
         return Some(sum);
     }
-    let (half, width) = (0.5 * (ends[1] - ends[0]), 0.5 * (end - begin));
+    let half = 0.5 * (ends[1] - ends[0]);
+    let width = 0.5 * (end - begin);
     for (x, weight) in time.nodes.iter().zip(&time.weights) {
         let t = begin + width * (1.0 + x);
         for (y, other) in space.nodes.iter().zip(&space.weights) {

@@ -257,7 +257,8 @@ impl<'a> Symbol<'a> {
 
     /// Operators at ζ = `radius` e^{iθ}, θ = 2πk/`points` for k = 0 … `points`/2, by FFT.
     pub(super) fn operators_on(&self, radius: f64, points: usize) -> Vec<Vec<Complex64>> {
-        let (order, count) = (self.order(), self.classes.len());
+        let order = self.order();
+        let count = self.classes.len();
         let forward = RealFftPlanner::new().plan_fft_forward(points);
         let mut series = forward.make_input_vec();
         let mut spectrum = forward.make_output_vec();
@@ -271,7 +272,8 @@ impl<'a> Symbol<'a> {
         for (index, class) in self.classes.iter().enumerate() {
             // Place of the class in the operator: in G for unknown tractions, in H for unknown displacements.
             let entries = class.iter().filter_map(|(place, sign)| {
-                let (of_h, place) = (*place >= order * order, place % (order * order));
+                let of_h = *place >= order * order;
+                let place = place % (order * order);
                 let prescribed = self.prescribed[place % order];
                 let factor = if prescribed { -self.scale } else { 1.0 };
                 (prescribed != of_h).then_some((place, sign * factor))

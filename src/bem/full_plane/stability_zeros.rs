@@ -46,7 +46,8 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
     if count == 0 {
         return Ok(Zeros { count, zero: None });
     }
-    let (mut low, mut high) = (-LARGEST_GROWTH, -smallest_growth.ln_1p());
+    let mut low = -LARGEST_GROWTH;
+    let mut high = -smallest_growth.ln_1p();
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
         let (inside, near) = search.zeros_inside(middle.exp())?;
@@ -97,11 +98,13 @@ impl Search<'_> {
     /// enough.
     fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
         let operators = self.symbol.operators_on(radius, POINTS);
-        let (factor, order) = (&mut self.factor, self.symbol.order());
+        let factor = &mut self.factor;
+        let order = self.symbol.order();
         let values = operators.iter().map(|operator| log_determinant(factor, operator, order));
         let values: Vec<_> = values.collect::<Result<_>>()?;
         let step = TAU / POINTS as f64;
-        let (mut turn, mut fastest) = (0.0, (0.0, 0.0));
+        let mut turn = 0.0;
+        let mut fastest = (0.0, 0.0);
         for (k, ends) in values.windows(2).enumerate() {
             let angle = step * k as f64;
             turn +=
@@ -140,7 +143,8 @@ impl Search<'_> {
 
     /// Zero of det F near `seed` by the secant method.
     fn secant(&mut self, seed: Complex64) -> Option<Complex64> {
-        let (mut before, mut now) = (seed, seed * (1.0 + 1e-4));
+        let mut before = seed;
+        let mut now = seed * (1.0 + 1e-4);
         let reference = self.log_determinant(before).ok()?;
         let mut value_before = Complex64::new(1.0, 0.0);
         for _ in 0..40 {

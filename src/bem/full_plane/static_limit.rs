@@ -21,7 +21,8 @@ fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7
     let nn = middle + d * h * angle;
     let dn = d * h * log;
     // ∫ h/r², s/r², s h²/r⁴, h³/r⁴; D and Q are constants.
-    let (one, two) = (angle, log);
+    let one = angle;
+    let two = log;
     let three = -0.5 * (h / r).powi(2);
     let four = 0.5 * (h * s / (r * r) + angle);
     let bend = 8.0 * d + 2.0 * (square[0] - square[1]);
@@ -46,11 +47,13 @@ pub(super) fn static_compliance(
     datum: f64,
     matrix: &mut [f64],
 ) -> Result<()> {
-    let (segments, layout) = (boundary.segments(), boundary.layout());
+    let segments = boundary.segments();
+    let layout = boundary.layout();
     let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
     let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
-    let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
+    let mut g = vec![0.0; layout.square()];
+    let mut h = vec![0.0; layout.square()];
     PairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |ends, height| {
         let [low, high] = ends.map(|s| primitive(square, lame, s, height, datum));
         let at = |k: usize| unit * (high[k] - low[k]);

@@ -69,10 +69,12 @@ struct Front {
 impl Front {
     fn new(speed: f64, time: f64, s: f64, height: f64, r: f64) -> Self {
         let reach = speed * time;
-        let (present, covered) = (reach > height, r < reach);
+        let present = reach > height;
+        let covered = r < reach;
         if covered {
             let root = ((reach - r) * (reach + r)).sqrt();
-            let (arc, angle) = (s.atan2(root), (s * reach).atan2(height * root));
+            let arc = s.atan2(root);
+            let angle = (s * reach).atan2(height * root);
             return Self {
                 present,
                 covered,
@@ -121,14 +123,16 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
         let half = 0.5 * (defect - w / (r * r));
         return [(square * pole).copysign_of(s), (square * half).copysign_of(s)];
     }
-    let (reaches, roots) = (p.reach * q.reach, p.root * q.root);
+    let reaches = p.reach * q.reach;
+    let roots = p.root * q.root;
     let below = height * height * roots + s * s * reaches;
     // −X of tan(A₁ − A₂) = h X; D = t² k/(q₁+q₂).
     let x = -s * (r * r) * d * reaches / (square * below);
     let y = height * x;
     let cubic = x * y * y * arctangent_defect(y);
     // T₁T₂ − R₁R₂ without cancellation.
-    let (u1, u2) = ((r / p.reach).powi(2), (r / q.reach).powi(2));
+    let u1 = (r / p.reach).powi(2);
+    let u2 = (r / q.reach).powi(2);
     let lost = reaches * (u1 + u2 - u1 * u2) / (1.0 + roots / reaches);
     let cubic_over_height = x * x * y * arctangent_defect(y);
     let half = -0.5 * (square * cubic_over_height + s * d * height * lost / below);
@@ -227,7 +231,8 @@ mod tests {
         let mut sum = [0.0; 7];
         let pieces = 12;
         for k in 0..pieces {
-            let (a, b) = (f64::from(k) / f64::from(pieces), f64::from(k + 1) / f64::from(pieces));
+            let a = f64::from(k) / f64::from(pieces);
+            let b = f64::from(k + 1) / f64::from(pieces);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 // The substitution s = low + (high − low) sin²θ removes both singularities.
                 let theta = FRAC_PI_2 * (a + 0.5 * (b - a) * (1.0 + node));
@@ -245,10 +250,8 @@ mod tests {
     fn by_quadrature(soil: Soil, ends: [f64; 2], h: f64, time: f64) -> [f64; 7] {
         let plane = FullPlane::new(soil);
         let f = |s: f64| {
-            let [u, t] = [
-                plane.displacement([s, h], time, LoadHistory::Step).unwrap(),
-                plane.traction([s, h], [0.0, 1.0], time, LoadHistory::Step).unwrap(),
-            ];
+            let u = plane.displacement([s, h], time, LoadHistory::Step).unwrap();
+            let t = plane.traction([s, h], [0.0, 1.0], time, LoadHistory::Step).unwrap();
             [u[0][0], u[0][1], u[1][1], t[0][0], t[0][1], t[1][0], t[1][1]]
         };
         let mut nodes = vec![ends[0], ends[1]];

@@ -101,7 +101,8 @@ impl TimeKernel {
 
     /// Integrals of one element over one step, in its axes.
     fn local(&self, ends: [f64; 2], h: f64, lag: usize) -> Integrals {
-        let (begin, end) = (lag as f64 * self.time_step, (lag as f64 + 1.0) * self.time_step);
+        let begin = lag as f64 * self.time_step;
+        let end = (lag as f64 + 1.0) * self.time_step;
         if let Some(rule) = self.subelements {
             return self.by_subelements(ends, h, [begin, end], rule);
         }

@@ -72,7 +72,8 @@ impl IncidentField for VerticalWaves {
             let v = |t: f64| self.surface.velocity(0.0, t)[k];
             0.5 * (v(now + lag) - v(now - lag)) / c
         };
-        let (mu, nu) = (self.soil.shear_modulus(), self.soil.poisson());
+        let mu = self.soil.shear_modulus();
+        let nu = self.soil.poisson();
         let lame = 2.0 * mu * nu / (1.0 - 2.0 * nu);
         let strain = -slope(1);
         [lame * strain, (lame + 2.0 * mu) * strain, mu * slope(0)]

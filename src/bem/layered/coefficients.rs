@@ -150,7 +150,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         stages: Stages,
         [time_step, tolerance]: [f64; 2],
     ) -> Self {
-        let (classes, own) = (own.len(), Arc::from(own));
+        let classes = own.len();
+        let own = Arc::from(own);
         let panels = (0..stages.count()).map(|_| Panels::new(&own)).collect();
         Self { profile, integrals, classes, stages, time_step, tolerance, panels }
     }
@@ -220,7 +221,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let mut values = vec![vec![]; self.classes * KINDS];
         let turn = |buffers: &mut Option<_>, (row, lags): (&[Complex], &mut Vec<f64>)| {
             let (input, output, scratch) = buffers.get_or_insert_with(|| {
-                let [input, scratch] = [transform.make_input_vec(), transform.make_scratch_vec()];
+                let input = transform.make_input_vec();
+                let scratch = transform.make_scratch_vec();
                 (input, transform.make_output_vec(), scratch)
             });
             for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
@@ -248,7 +250,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         threads: usize,
         samples: &mut Samples,
     ) -> Result<Vec<Complex>> {
-        let (count, functions) = (circle.points(), self.classes * KINDS);
+        let count = circle.points();
+        let functions = self.classes * KINDS;
         let mut spectra = vec![];
         spectra.try_reserve_exact(count * functions).map_err(|_| Error::Input {
             quantity: "number of lags of a layered ground",
@@ -323,7 +326,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
-        let (mut missing, mut work) = (vec![], I::Workspace::default());
+        let mut missing = vec![];
+        let mut work = I::Workspace::default();
         for place in places.iter().filter(|place| panels.known(**place).is_none()) {
             samples.reach(0)?;
             if self.looks(node, *place, &mut work)?(DOUBT) {

@@ -77,8 +77,11 @@ impl Layer {
     ///
     /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
     fn carry(&self, k: f64, (u, t): (Square, Square)) -> (Square, Square) {
-        let (a2, q2, h) = (self.a2, self.q2, self.thickness);
-        let (wave, one) = (Complex::real(k), Complex::real(1.0));
+        let a2 = self.a2;
+        let q2 = self.q2;
+        let h = self.thickness;
+        let wave = Complex::real(k);
+        let one = Complex::real(1.0);
         let poisson = Complex::real((1.0 - 2.0 * a2) * k);
         let membrane = Complex::real(4.0 * (1.0 - a2) * k * k) + q2;
         let p = Square([wave, one, q2, -wave]);
@@ -90,7 +93,8 @@ impl Layer {
         let [mut even, mut odd] = terms;
         // Every other power of h k and h √q₂ may be absent from an entry.
         let turn = 2.0 * (k + q2.abs().sqrt()) * h;
-        let (mut n, mut size) = (0.0, 1.0);
+        let mut n = 0.0;
+        let mut size = 1.0;
         while size > SMALL {
             n += 1.0;
             size *= turn / n;
@@ -155,7 +159,8 @@ impl Compliance {
         let mut decay = 0.0;
         for layer in &self.layers {
             let square = Complex::real(k * k);
-            let (alpha, beta) = ((square + layer.q1).sqrt(), (square + layer.q2).sqrt());
+            let alpha = (square + layer.q1).sqrt();
+            let beta = (square + layer.q2).sqrt();
             self.roots.push([alpha, beta]);
             decay += alpha.re.min(beta.re) * layer.thickness;
             if decay > OPAQUE {
@@ -183,7 +188,8 @@ impl Compliance {
                 continue;
             }
             let waves = Waves::new(layer, k, *roots);
-            let (u_up, t_up) = (waves.u.mirrored(), waves.t.mirrored().negative());
+            let u_up = waves.u.mirrored();
+            let t_up = waves.t.mirrored().negative();
             let reflected = t_up.minus(z.times(u_up)).solve(z.times(waves.u).minus(waves.t));
             (u, t) = waves.above(layer, reflected);
         }
@@ -242,9 +248,11 @@ impl Waves {
         let sum = alpha + beta;
         let rest = 1.0 / (1.0 - layer.a2);
         // 1/(β + k) and 1/(k + α), with one division.
-        let (right, left) = (beta + wave, alpha + wave);
+        let right = beta + wave;
+        let left = alpha + wave;
         let both = (right * left).inverse();
-        let (over_right, over_left) = (both * left, both * right);
+        let over_right = both * left;
+        let over_left = both * right;
         let u0 = (sum * over_right).scale(rest);
         let u1 = (sum * over_left).scale(-layer.a2 * rest);
         let minus = -layer.modulus;
@@ -263,7 +271,8 @@ impl Waves {
     /// Displacements and stresses at the layer's top for the reflection R at its bottom.
     fn above(&self, layer: &Layer, reflection: Square) -> (Square, Square) {
         let x = self.transfer(layer.thickness).around(reflection);
-        let (u_up, t_up) = (self.u.mirrored(), self.t.mirrored().negative());
+        let u_up = self.u.mirrored();
+        let t_up = self.t.mirrored().negative();
         (self.u.plus(u_up.times(x)), self.t.plus(t_up.times(x)))
     }
 
@@ -297,9 +306,10 @@ impl Transfer {
     /// Λ R Λ.
     fn around(&self, r: Square) -> Square {
         let Square([a, b, c, d]) = r;
-        let (first, second) =
-            (self.pressure * a - self.mixed * c, self.pressure * b - self.mixed * d);
-        let (third, fourth) = (self.shear * c, self.shear * d);
+        let first = self.pressure * a - self.mixed * c;
+        let second = self.pressure * b - self.mixed * d;
+        let third = self.shear * c;
+        let fourth = self.shear * d;
         Square([
             first * self.pressure,
             second * self.shear - first * self.mixed,
@@ -315,7 +325,8 @@ struct Square([Complex; 4]);
 
 impl Square {
     const UNIT: Self = {
-        let (zero, one) = (Complex::new(0.0, 0.0), Complex::new(1.0, 0.0));
+        let zero = Complex::new(0.0, 0.0);
+        let one = Complex::new(1.0, 0.0);
         Self([one, zero, zero, one])
     };
 

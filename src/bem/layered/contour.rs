@@ -188,7 +188,8 @@ impl Panels {
 /// For each class: the classes of the pairs of its two elements with themselves.
 pub(in crate::bem) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
     let mut own = vec![[0; 2]; classes.count()];
-    let (pairs, elements) = (classes.pairs(), classes.elements().len());
+    let pairs = classes.pairs();
+    let elements = classes.elements().len();
     for (place, pair) in pairs.iter().enumerate() {
         let ends = [place / elements, place % elements];
         own[pair.class] = ends.map(|element| pairs[element * (elements + 1)].class);
@@ -270,7 +271,8 @@ fn chebyshev(x: [f64; LANES]) -> [[f64; LANES]; POINTS] {
     let mut polynomials = [[1.0; LANES]; POINTS];
     polynomials[1] = x;
     for degree in 2..POINTS {
-        let [before, last] = [polynomials[degree - 2], polynomials[degree - 1]];
+        let before = polynomials[degree - 2];
+        let last = polynomials[degree - 1];
         polynomials[degree] = std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
     }
     polynomials
@@ -295,7 +297,8 @@ pub(super) fn evaluate(
     let mut moved = vec![Complex::default(); panel.len()];
     for (x, values) in nodes().zip(moved.chunks_exact_mut(count)) {
         let x = Complex::new(x, shift);
-        let [mut last, mut value] = [x, Complex::real(1.0)];
+        let mut last = x;
+        let mut value = Complex::real(1.0);
         for row in panel.chunks_exact(count) {
             for (sum, coefficient) in values.iter_mut().zip(row) {
                 *sum += value * *coefficient;

@@ -70,7 +70,8 @@ impl PairShape {
     /// For each wave: the distance y ≥ 0 of cos ky and sin ky, and the factors of both.
     pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
         let Self { lengths: [q, p], offset } = *self;
-        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
+        let sum = 0.5 * (p + q);
+        let difference = 0.5 * (p - q);
         let ends = [
             (offset + sum, -1.0),
             (offset - difference, 1.0),
@@ -200,7 +201,8 @@ impl FormFactors {
     /// Rows of a wide panel: factors of the sum of C and weights over Gauss points.
     fn wide_table(&self, panel: Panel) -> Box<[FormRow]> {
         let [left, width] = self.extent(panel);
-        let (half, middle) = (0.5 * width, left + 0.5 * width);
+        let half = 0.5 * width;
+        let middle = left + 0.5 * width;
         let mut rows = vec![FormRow::default(); self.blocks() * POINTS];
         let polynomials: Vec<_> = self.rule.nodes.iter().map(|x| legendre(*x)).collect();
         for (class, shape) in self.shapes.iter().enumerate() {
@@ -277,7 +279,8 @@ fn spherical_bessel(t: f64) -> [f64; POINTS] {
         }
         return values;
     }
-    let [mut above, mut value] = [0.0, 1e-200];
+    let mut above = 0.0;
+    let mut value = 1e-200;
     for n in (1..=ABOVE).rev() {
         let below = (2 * n + 1) as f64 / t * value - above;
         (above, value) = (value, below);
@@ -286,7 +289,8 @@ fn spherical_bessel(t: f64) -> [f64; POINTS] {
         }
     }
     // The larger of the first two is not zero.
-    let [zero, one] = [sin / t, (sin / t - cos) / t];
+    let zero = sin / t;
+    let one = (sin / t - cos) / t;
     let scale = if zero.abs() > one.abs() { zero / values[0] } else { one / values[1] };
     values.map(|value| scale * value)
 }

@@ -33,7 +33,8 @@ pub(crate) fn by_halves<S>(
     stack.clear();
     stack.extend([(0.5, 0.5, 1), (0.0, 0.5, 1)]);
     while let Some((place, size, depth)) = stack.pop() {
-        let (left, width) = (start + whole * place, whole * size);
+        let left = start + whole * place;
+        let width = whole * size;
         let (samples, resolved) = sample(left, width);
         if resolved {
             take([place, size], width, samples);

@@ -183,7 +183,8 @@ fn extrapolated<const N: usize>(
         }
         sum
     };
-    let (found, coarse) = (limit(samples.len()), limit(samples.len() - 1));
+    let found = limit(samples.len());
+    let coarse = limit(samples.len() - 1);
     for place in judged {
         let change = (found[*place] - coarse[*place]).abs();
         if change.is_nan() || change > SETTLED * found[*place].abs() {

@@ -103,7 +103,8 @@ impl Stages {
     fn quadratic(z: Complex, rest: Complex) -> [Complex; 3] {
         let middle = Complex::real(2.0) + z;
         let root = (z * z + z.scale(10.0) - Complex::real(2.0)).sqrt();
-        let (one, two) = (middle + root, middle - root);
+        let one = middle + root;
+        let two = middle - root;
         let large = if one.square() >= two.square() { one } else { two };
         [large, rest.scale(6.0) / large, Complex::default()]
     }
@@ -123,7 +124,8 @@ impl Stages {
         for _ in 0..60 {
             let mut moved = 0.0_f64;
             for i in 0..3 {
-                let (value, slope) = (value(roots[i]), slope(roots[i]));
+                let value = value(roots[i]);
+                let slope = slope(roots[i]);
                 if value.square() == 0.0 {
                     continue;
                 }

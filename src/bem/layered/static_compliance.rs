@@ -68,7 +68,8 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
         let c = waves.at(k);
         let Some([even, odd]) = far else { return c };
         let decay = (-k * span).exp() / k;
-        let (even, odd) = (Complex::real(even * decay), Complex::real(odd * decay));
+        let even = Complex::real(even * decay);
+        let odd = Complex::real(odd * decay);
         SurfaceCompliance { xx: c.xx - even, zz: c.zz - even, xz: c.xz + odd }
     };
     let least = deep(profile).max(end);
@@ -91,7 +92,8 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
 /// Both integrands are smooth on the scale of a, the length of the patch.
 fn smooth(source: ContactElement, receiver: ContactElement, a: f64) -> [f64; 2] {
     let rule = gauss::largest();
-    let (p, q) = (0.5 * receiver.length(), 0.5 * source.length());
+    let p = 0.5 * receiver.length();
+    let q = 0.5 * source.length();
     let offset = if source == receiver { 0.0 } else { receiver.center()[0] - source.center()[0] };
     let mut sums = [0.0; 2];
     for (u, wu) in rule.nodes.iter().zip(&rule.weights) {
@@ -135,7 +137,8 @@ mod tests {
             let many = one.clone().with_layer(soil, 0.1).unwrap().with_layer(soil, 30.0).unwrap();
             for profile in [one, many] {
                 let found = matrix(&profile, &strip);
-                let (count, mut worst) = (elements.len(), 0.0_f64);
+                let count = elements.len();
+                let mut worst = 0.0_f64;
                 for (p, receiver) in elements.iter().enumerate() {
                     for (q, source) in elements.iter().enumerate() {
                         let wanted = kernel.coefficients(*receiver, *source).unwrap();

@@ -33,7 +33,8 @@ pub(crate) fn surface_series(a2: f64) -> [[f64; TERMS]; 3] {
         }
         series
     };
-    let (alpha, beta) = (root(a2), root(1.0));
+    let alpha = root(a2);
+    let beta = root(1.0);
     let product: [f64; COUNT] =
         std::array::from_fn(|j| (0..=j).map(|i| alpha[i] * beta[j - i]).sum());
     // xρ and the numerator of xz begin with x.
@@ -187,7 +188,8 @@ mod tests {
                     for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                         let h = 1.0 / f64::from(pieces);
                         let w = h * (f64::from(piece) + 0.5 * (1.0 + node));
-                        let (u, slope) = ((w / (1.0 - w)).powi(2), 2.0 * w / (1.0 - w).powi(3));
+                        let u = (w / (1.0 - w)).powi(2);
+                        let slope = 2.0 * w / (1.0 - w).powi(3);
                         let t = Complex::new(1.0, u);
                         let mut power = Complex::real(1.0);
                         for _ in 0..m {

@@ -26,7 +26,8 @@ pub(in crate::bem) fn on_threads<T: Send, W: Default>(
     mut after: impl FnMut(usize) -> Result<()>,
 ) -> Result<()> {
     let queue = Mutex::new(items.enumerate());
-    let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let done = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
     let take = |after: &mut dyn FnMut(usize) -> Result<()>| {
         let mut own = W::default();
         while !stopped.load(Ordering::Relaxed) {
@@ -67,7 +68,8 @@ mod tests {
     fn threads_do_all_items_or_return_the_first_error() {
         for threads in [1, 2, 5] {
             let mut squares = vec![0; 100];
-            let (calls, mut last) = (AtomicUsize::new(0), 0);
+            let calls = AtomicUsize::new(0);
+            let mut last = 0;
             let work = |own: &mut usize, (item, square): (usize, &mut usize)| {
                 *own += 1;
                 *square += item * item;

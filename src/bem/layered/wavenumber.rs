@@ -233,7 +233,9 @@ impl Wavenumbers {
         let short = (SHORT / self.shortest).min(MOST_FOR_SHORT * width);
         let count = (least / width).max(short / width).ceil().max(1.0);
         if count > MOST_PANELS {
-            let (span, wavenumber, most) = (self.span, least, MOST_PANELS * width);
+            let span = self.span;
+            let wavenumber = least;
+            let most = MOST_PANELS * width;
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
@@ -288,7 +290,8 @@ impl Wavenumbers {
     fn read(&self, work: &Scratch, values: &mut [[Complex; KINDS]]) {
         const UNIT: f64 = std::f64::consts::FRAC_1_PI;
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
-            let (sums, lane) = (&work.sums[class / LANES], class % LANES);
+            let sums = &work.sums[class / LANES];
+            let lane = class % LANES;
             let part = |i: usize| Complex::new(sums[i][lane], sums[i + 1][lane]);
             *value = [part(0).scale(UNIT), part(2).scale(UNIT), part(4).scale(-UNIT)];
         }

@@ -118,7 +118,8 @@ impl MovedEdge {
     /// end before: a corner of the mat is then cut off, and in a corner of its surroundings edges pass one another.
     fn corner_to(&self, next: &Self) -> Vec<Point> {
         let corner = self.end;
-        let [one, other] = [self.direction, next.direction];
+        let one = self.direction;
+        let other = next.direction;
         let sine = one[0] * other[1] - one[1] * other[0];
         let cosine = one[0] * other[0] + one[1] * other[1];
         if sine.abs() <= STRAIGHT_SINE {
@@ -163,7 +164,8 @@ fn closed_lines(points: &Points, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
             && let [.., before, at] = line[..]
             && let Some(ends) = leaving.get_mut(&at)
         {
-            let [from, here] = [before, at].map(|number| points.place(number));
+            let from = points.place(before);
+            let here = points.place(at);
             let turn = |end: usize| clockwise([from, here], points.place(end));
             let by_turn =
                 |one: &usize, other: &usize| turn(ends[*one]).total_cmp(&turn(ends[*other]));
@@ -183,7 +185,8 @@ fn closed_lines(points: &Points, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
 fn corners(points: &Points, line: &[usize]) -> Option<Vec<Point>> {
     let places: Vec<Point> = line.iter().map(|number| points.place(*number)).collect();
     let order = |one: &usize, other: &usize| {
-        let [one, other] = [places[*one], places[*other]];
+        let one = places[*one];
+        let other = places[*other];
         if (one[0] - other[0]).abs() <= points.near() {
             one[1].total_cmp(&other[1])
         } else {

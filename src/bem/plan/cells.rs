@@ -116,7 +116,8 @@ impl Plan {
         }
         let rows = mask.len().div_ceil(columns.max(1)).max(1);
         if columns == 0 || rows * columns != mask.len() {
-            let (found, needed) = (mask.len(), rows * columns.max(1));
+            let found = mask.len();
+            let needed = rows * columns.max(1);
             return Err(Error::Size { quantity: "mask of a mat", found, needed });
         }
         check_memory([columns, rows])?;

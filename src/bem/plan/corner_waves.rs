@@ -145,7 +145,8 @@ impl CornerWaves {
             corners.extend(all.map(|((re, im), (sin, cos))| {
                 if odd_x == odd_y { re * cos - im * sin } else { re * sin + im * cos }
             }));
-            let (height, unit) = (down + 1, k.powi(-4) / PI);
+            let height = down + 1;
+            let unit = k.powi(-4) / PI;
             columns.clear();
             for i in 0..across {
                 let before = if i > 0 { i - 1 } else { 1 };
@@ -175,13 +176,15 @@ impl CornerWaves {
     fn band(&self, begin: f64) -> Vec<f64> {
         let [_, down] = self.lattice.extent();
         let [a, b] = self.lattice.pitch;
-        let (corners, mut coefficients) = (self.distances.len(), vec![]);
+        let corners = self.distances.len();
+        let mut coefficients = vec![];
         coefficients.resize(NODES * 2 * WAVES * corners, 0.0);
         for node in 0..NODES {
             let angle = PI * (node as f64 + 0.5) / NODES as f64;
             let k = begin * (1.0 + 0.5 * (1.0 + angle.cos()));
             for corner in 1..corners {
-                let [i, j] = [corner / (down + 1), corner % (down + 1)];
+                let i = corner / (down + 1);
+                let j = corner % (down + 1);
                 let amplitudes = amplitudes(k, [a * i as f64, b * j as f64]);
                 for (wave, (value, [odd_x, odd_y])) in amplitudes.into_iter().zip(ODD).enumerate() {
                     if (odd_x && i == 0) || (odd_y && j == 0) {
@@ -228,7 +231,9 @@ fn along_axes(k: f64, [a, b]: [f64; 2], [i, j]: [usize; 2]) -> [f64; WAVES] {
 /// k⁴ 2π e^(−ikR) of the waves by the stationary point θ = φ, for a corner at (X, Y) ≠ (0, 0), X, Y ≥ 0.
 fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; WAVES] {
     let distance = x.hypot(y);
-    let (cos, sin, direction) = (x / distance, y / distance, y.atan2(x));
+    let cos = x / distance;
+    let sin = y / distance;
+    let direction = y.atan2(x);
     let h = STEP / (k * distance).sqrt();
     let one = Complex::real(1.0);
     // p = turn × √2 sin ½(θ − φ).
@@ -239,12 +244,14 @@ fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; WAVES] {
         let p = place * h;
         let half = turn.conj().scale(p / SQRT_2);
         let root = Complex::new(1.0, 0.5 * p * p).sqrt();
-        let (near, far) = (Complex::new(1.0, p * p), (half * root).scale(2.0));
+        let near = Complex::new(1.0, p * p);
+        let far = (half * root).scale(2.0);
         let c = near.scale(cos) - far.scale(sin);
         let s = near.scale(sin) + far.scale(cos);
         // dp e^(−kRp²) dθ/dp.
         let weight = turn.conj().scale(h * SQRT_2 * (-(place * STEP).powi(2)).exp()) / root;
-        let [over_c, over_s] = [one / c, one / s];
+        let over_c = one / c;
+        let over_s = one / s;
         let both = over_c * over_s;
         let all = [over_s * over_s, over_c * over_c, both, both * over_s, both * over_c];
         for (sum, value) in sums.iter_mut().zip(all) {
@@ -267,7 +274,8 @@ fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; WAVES] {
         let exponent = (turn * Complex::new(0.0, TAU)).scale(SQRT_2 * (0.5 * gap).sin().abs() / h);
         let fall = exponent.exp();
         let under = (one + fall).inverse();
-        let (kernel, change) = (fall * under, fall * under * under);
+        let kernel = fall * under;
+        let change = fall * under * under;
         let side = if gap > 0.0 { 1.0 } else { -1.0 };
         let rate = (Complex::new(0.0, TAU) * speed).scale(side / h);
         for (sum, [double, single]) in sums.iter_mut().zip(poles) {
@@ -310,7 +318,8 @@ mod tests {
             let lattice = Lattice { pitch, counts };
             let least = CornerWaves::least(&lattice);
             let waves = CornerWaves::new(&lattice, [least, 40.0 * least]);
-            let (mut means, mut scratch) = (AngularMeans::new(&lattice), Scratch::default());
+            let mut means = AngularMeans::new(&lattice);
+            let mut scratch = Scratch::default();
             for size in [1.0, 1.37, 1.999, 2.0, 3.7, 31.0] {
                 let wavenumbers = [size * least, size * least * (1.0 + 1e-4)];
                 waves.at(&wavenumbers, &mut scratch);

@@ -141,7 +141,8 @@ impl Face {
             let mut inner = Vec::with_capacity(corners.len() + 1);
             for (k, &q) in corners.iter().enumerate() {
                 let p = corners[(k + corners.len() - 1) % corners.len()];
-                let [before, after] = [side(edge, p), side(edge, q)];
+                let before = side(edge, p);
+                let after = side(edge, q);
                 if (before < 0.0) != (after < 0.0) {
                     let ratio = before / (before - after);
                     inner.push([0, 1].map(|k| p[k] + ratio * (q[k] - p[k])));
@@ -194,7 +195,8 @@ fn area(corners: &[[f64; 2]]) -> f64 {
 pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
     for (place, owner) in owners.iter().enumerate() {
         let Some(owner) = owner else { continue };
-        let (left, right) = (place % columns > 0, place % columns + 1 < columns);
+        let left = place % columns > 0;
+        let right = place % columns + 1 < columns;
         let steps = [(right, 1), (left, columns - 1), (true, columns), (right, columns + 1)];
         for (_, step) in steps.into_iter().filter(|(there, _)| *there) {
             if let Some(Some(other)) = owners.get(place + step)

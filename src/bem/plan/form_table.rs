@@ -172,7 +172,8 @@ impl FormTable {
             direct,
         };
         table.polynomials = table.rule.nodes.iter().map(|x| legendre(*x)).collect();
-        let (side, cells) = (lattice.finest(), (lattice.counts[0] * lattice.counts[1]) as f64);
+        let side = lattice.finest();
+        let cells = (lattice.counts[0] * lattice.counts[1]) as f64;
         let reach = (SHORT / side).max(deep).max(REACH * root);
         // Beyond K* an error of about q₂ K*⁻⁵ is left. Compliances fall like 1/|√q₂| from |√q₂| = 2/side on.
         let size = 0.5 * root * side;
@@ -234,8 +235,11 @@ impl FormTable {
         if self.tabulated.get().is_some() {
             return Ok(());
         }
-        let (list, classes, unit) = (self.lattice.classes(), self.classes, self.unit());
-        let (kept, end) = (self.panels(0.0)..=self.most_panels(), self.end);
+        let list = self.lattice.classes();
+        let classes = self.classes;
+        let unit = self.unit();
+        let kept = self.panels(0.0)..=self.most_panels();
+        let end = self.end;
         let mut tabulated =
             Tabulated { values: FormRows::new(kept.end() * POINTS, classes), tails: vec![] };
         let mut sums = FormRows::new(TERMS, classes);
@@ -313,7 +317,8 @@ impl FormTable {
     /// Rows of a panel for Legendre polynomials of degree 0, 1, …: weights of ∫ C Pₙ dk.
     pub(super) fn legendre(&self, panel: usize) -> &FormRows {
         self.legendre[panel].get_or_init(|| {
-            let (mut forms, fine) = (PanelForms::new(self), Rule::new(FINE));
+            let mut forms = PanelForms::new(self);
+            let fine = Rule::new(FINE);
             let mut rows = FormRows::new(DEGREES, self.classes);
             let all = forms.on(panel, &fine.nodes).chunks_exact(FORMS * self.classes);
             for ((x, weight), values) in fine.points().zip(all) {

@@ -38,12 +38,14 @@ pub(super) struct AngularMeans {
 
 impl AngularMeans {
     pub(super) fn new(lattice: &Lattice) -> Self {
-        let (extent, classes) = (lattice.extent(), lattice.classes());
+        let extent = lattice.extent();
+        let classes = lattice.classes();
         let [columns, rows] = extent;
         let sums = [3, 2].map(|factors| vec![0.0; factors * columns * rows]);
         let values = vec![0.0; FORMS * classes.len()];
         let [left, right] = [(); 2].map(|()| [const { Vec::new() }; 2]);
-        let (pitch, diagonal) = (lattice.pitch, lattice.diagonal());
+        let pitch = lattice.pitch;
+        let diagonal = lattice.diagonal();
         Self { pitch, diagonal, extent, classes, left, right, sums, values }
     }
 
@@ -62,7 +64,8 @@ impl AngularMeans {
         for list in self.left.iter_mut().chain(&mut self.right) {
             list.clear();
         }
-        let (mut cosines, mut sines) = (vec![0.0; columns], vec![0.0; columns]);
+        let mut cosines = vec![0.0; columns];
+        let mut sines = vec![0.0; columns];
         for direction in 0..count {
             let angle = std::f64::consts::FRAC_PI_2 * (direction as f64 + 0.5) / count as f64;
             let (sin, cos) = angle.sin_cos();
@@ -99,7 +102,8 @@ impl AngularMeans {
         let total = self.classes.len();
         for (class, [i, j]) in self.classes.iter().enumerate() {
             let at = |sums: &[f64], factor: usize| sums[(factor * columns + i) * rows + j];
-            let (all, along) = (at(even, 0), at(even, 1));
+            let all = at(even, 0);
+            let along = at(even, 1);
             let forms = [all, along, all - along, at(odd, 0), at(even, 2), at(odd, 1)];
             for (form, value) in forms.into_iter().enumerate() {
                 self.values[form * total + class] = value;
@@ -112,7 +116,8 @@ impl AngularMeans {
 /// Calls `put` with n, cos nx and sin nx for n below `count`.
 fn waves(x: f64, mut put: impl FnMut(usize, f64, f64), count: usize) {
     let (sin, cos) = x.sin_cos();
-    let [mut c, mut s] = [1.0, 0.0];
+    let mut c = 1.0;
+    let mut s = 0.0;
     for n in 0..count {
         put(n, c, s);
         (c, s) = (c * cos - s * sin, s * cos + c * sin);
@@ -153,8 +158,10 @@ fn primitives(x: f64, y: f64) -> [f64; FORMS] {
     let cube = r * r * r;
     // asinh and atan of quotients with a vanishing denominator have a factor of zero.
     let ratio = |a: f64, b: f64| if b == 0.0 { 0.0 } else { a / b };
-    let (along, across) = (ratio(x, y.abs()).asinh(), ratio(y, x.abs()).asinh());
-    let (one, two) = (0.5 * x * x * y * across, 0.5 * y * y * x * along);
+    let along = ratio(x, y.abs()).asinh();
+    let across = ratio(y, x.abs()).asinh();
+    let one = 0.5 * x * x * y * across;
+    let two = 0.5 * y * y * x * along;
     let inverse = one + two - cube / 6.0;
     let yy = cube / 6.0 + one - 0.5 * x * x * r;
     let xx = cube / 6.0 + two - 0.5 * y * y * r;
@@ -254,7 +261,8 @@ mod tests {
     /// value.
     #[test]
     fn own_cells_are_sums_of_parts() {
-        let (pitch, half) = ([0.7, 0.4], [0.35, 0.2]);
+        let pitch = [0.7, 0.4];
+        let half = [0.35, 0.2];
         for offset in [[0_usize, 0], [1, 0], [0, 1], [1, 1]] {
             let mut sums = [0.0; FORMS];
             for (i, one) in [(-1, 1.0), (0, 2.0), (1, 1.0)] {

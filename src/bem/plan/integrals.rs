@@ -120,7 +120,8 @@ impl Compliances<SERIES> for Integrals {
         let Workspace { ground, panels: work } = work;
         ground.set(profile, s)?;
         self.sum(ground, s, work)?;
-        let (classes, unit) = (self.table.classes, 0.5 * std::f64::consts::FRAC_1_PI);
+        let classes = self.table.classes;
+        let unit = 0.5 * std::f64::consts::FRAC_1_PI;
         for (class, values) in values.iter_mut().enumerate() {
             for (series, value) in values.iter_mut().enumerate() {
                 let part = |part: usize| unit * work.sums[(2 * series + part) * classes + class];
@@ -189,7 +190,8 @@ impl Integrals {
         let panels = self.table.panels(ground.root());
         let Some([values, tail]) = self.table.tabulated(panels) else {
             let width = self.table.width;
-            let (span, wavenumber) = (self.table.span(), panels as f64 * width);
+            let span = self.table.span();
+            let wavenumber = panels as f64 * width;
             let most = self.table.end as f64 * width;
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
@@ -220,7 +222,8 @@ impl Integrals {
         symbol: &mut Symbol,
         take: &mut dyn FnMut(Option<usize>, &mut Scratch),
     ) -> std::result::Result<(), f64> {
-        let (width, half) = (self.table.width, 0.5 * self.table.width);
+        let width = self.table.width;
+        let half = 0.5 * self.table.width;
         work.samples.clear();
         let mut whole = 0.0;
         for panel in 0..panels {
@@ -273,7 +276,8 @@ impl Integrals {
         width: f64,
         allowed: f64,
     ) -> bool {
-        let (rule, polynomials) = (&self.table.rule, &self.table.polynomials);
+        let rule = &self.table.rule;
+        let polynomials = &self.table.polynomials;
         let Some(error) = last_coefficients(samples.iter().copied(), rule, polynomials) else {
             return false;
         };

@@ -33,7 +33,8 @@ pub(in crate::bem) fn static_compliance(
 ) -> Result<()> {
     let classes = plan.classes()?;
     same_length("static compliance", matrix.len(), classes.layout().square())?;
-    let (s, mut watch) = (Complex::default(), Watch::nobody());
+    let s = Complex::default();
+    let mut watch = Watch::nobody();
     let integrals = Integrals::new(&plan.lattice, profile, [s], tolerance, &mut watch)?;
     let mut values = vec![[Complex::default(); SERIES]; classes.count()];
     integrals.compliance(profile, s, &mut Workspace::default(), &mut values)?;

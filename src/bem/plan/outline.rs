@@ -149,7 +149,9 @@ impl Grid {
 
     /// Contact element of a cell with this fraction inside: the cell, or a rectangle about the centre of area.
     fn cut(&self, cell: [usize; 2], part: &Part, area: f64) -> Cut {
-        let (mut center, mut half, mut softness) = ([0.5; 2], [0.5; 2], 0.0);
+        let mut center = [0.5; 2];
+        let mut half = [0.5; 2];
+        let mut softness = 0.0;
         if part.is_cut() {
             let area = area.clamp(0.1 * LEAST * SLIVER, 1.0);
             half = part.center.map(|x| x.min(1.0 - x));

@@ -100,7 +100,8 @@ impl<'a> Points<'a> {
         }
         (0..order).for_each(|dof| near.add(dof, dof, HELD * largest));
         let Ok(mut factor) = SparseFactor::new(NAME, &near) else { return 0.0 };
-        let (mut compliance, mut whole) = (0.0, 0.0);
+        let mut compliance = 0.0;
+        let mut whole = 0.0;
         for axis in 0..2 {
             for phase in [0.0, std::f64::consts::FRAC_PI_2] {
                 let waves = self.waves(axis, wavenumber, phase);

@@ -57,8 +57,10 @@ impl Points {
         let mut ends: Vec<usize> = edges.iter().flatten().copied().collect();
         ends.sort_by(|one, other| self.places[*one][0].total_cmp(&self.places[*other][0]));
         let on_edge = |&[first, last]: &[usize; 2]| {
-            let [a, b] = [self.places[first], self.places[last]];
-            let [left, right] = [a[0].min(b[0]) - self.near, a[0].max(b[0]) + self.near];
+            let a = self.places[first];
+            let b = self.places[last];
+            let left = a[0].min(b[0]) - self.near;
+            let right = a[0].max(b[0]) + self.near;
             let start = ends.partition_point(|end| self.places[*end][0] < left);
             let within = ends[start..].iter().take_while(|end| self.places[**end][0] <= right);
             let inner = within.filter(|end| **end != first && **end != last);

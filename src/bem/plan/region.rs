@@ -63,14 +63,17 @@ impl Region {
         let edges: Vec<Edge> =
             self.rows[row].iter().map(|edge| edge.map(|[x, y]| [x - column, y])).collect();
         let levels = levels(&edges);
-        let (mut area, mut moments) = (0.0, [0.0; 2]);
-        let (mut across, mut along) = ([f64::INFINITY, 0.0_f64], [f64::INFINITY, 0.0_f64]);
+        let mut area = 0.0;
+        let mut moments = [0.0; 2];
+        let mut across = [f64::INFINITY, 0.0_f64];
+        let mut along = [f64::INFINITY, 0.0_f64];
         let rule = Rule::new(3);
         let mut crossings = Vec::with_capacity(edges.len());
         // Between levels the ends of each span are linear in y.
         for pair in levels.windows(2).filter(|pair| pair[1] > pair[0]) {
             for (x, weight) in rule.points_on_unit_interval() {
-                let (y, weight) = (pair[0] + x * (pair[1] - pair[0]), weight * (pair[1] - pair[0]));
+                let y = pair[0] + x * (pair[1] - pair[0]);
+                let weight = weight * (pair[1] - pair[0]);
                 cross(&edges, y, &mut crossings);
                 let mut turns = 0;
                 let mut begin = 0.0;
@@ -80,7 +83,8 @@ impl Region {
                     if !was_inside {
                         begin = x;
                     }
-                    let [low, high] = [begin, x].map(|end| end.clamp(0.0, 1.0));
+                    let low = begin.clamp(0.0, 1.0);
+                    let high = x.clamp(0.0, 1.0);
                     if was_inside && turns <= 0 && high > low {
                         area += weight * (high - low);
                         moments[0] += weight * 0.5 * (high * high - low * low);

@@ -63,7 +63,8 @@ impl<'a> Sectors<'a> {
             for (cell, owner) in owners.iter().enumerate() {
                 let [i, j] = mirrored(*axes, plan.cells[cell], counts);
                 let other = on[j * counts[0] + i]?;
-                let [own, there] = [cell, other].map(|cell| plan.arms(cell));
+                let own = plan.arms(cell);
+                let there = plan.arms(other);
                 let is_mirrored = (0..2).all(|k| {
                     let sign = if axes[k] { -1.0 } else { 1.0 };
                     near(own[k], sign * there[k], plan.lattice.pitch[k])
@@ -136,9 +137,11 @@ impl<'a> Sectors<'a> {
         memory::check("cells of a mat", cells, 32.0 * (order as f64).powi(2))?;
         let mut matrix = vec![Complex64::default(); order * order];
         let mut loads = vec![Complex64::default(); order * MOTIONS];
-        let (size, counts) = (self.group.len() as f64, self.plan.lattice.counts);
+        let size = self.group.len() as f64;
+        let counts = self.plan.lattice.counts;
         for (receiver, element) in &self.cells {
-            let (rows, at) = (places[*element], self.plan.cells[*receiver]);
+            let rows = places[*element];
+            let at = self.plan.cells[*receiver];
             for Reflection { axes, .. } in &self.group {
                 let resultants = self.resultants(*axes, *receiver);
                 for (component, row) in rows.iter().enumerate() {
@@ -200,7 +203,8 @@ impl<'a> Sectors<'a> {
     fn resultants(&self, h: [bool; 2], cell: usize) -> [[f64; MOTIONS]; COMPONENTS] {
         let ([a, b], arms) = (self.plan.lattice.pitch, self.plan.arms(cell));
         let area = a * b;
-        let [x, y] = [0, 1].map(|axis| if h[axis] { -arms[axis] } else { arms[axis] });
+        let x = if h[0] { -arms[0] } else { arms[0] };
+        let y = if h[1] { -arms[1] } else { arms[1] };
         // u = θ × r, and down is −z.
         let down = [0.0, 0.0, -1.0, -y, x, 0.0];
         let along = [1.0, 0.0, 0.0, 0.0, 0.0, -y];

@@ -64,7 +64,8 @@ impl Plan {
         };
         let flexible: Vec<_> = mats.filter(|own| cells > 1 && is_flexible(own)).collect();
         let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
-        let [shorter, longer] = [sides[0].min(sides[1]), sides[0].max(sides[1])];
+        let shorter = sides[0].min(sides[1]);
+        let longer = sides[0].max(sides[1]);
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
         let limit = (MOST_RAISED / (longer / shorter)).sqrt() as usize;
         let mut most = cells;

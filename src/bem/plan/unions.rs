@@ -99,7 +99,8 @@ impl Unions {
             }
         }
         let quarters = cells.iter().enumerate().flat_map(|(number, [i, j])| {
-            let (element, ends) = (owner(number), ends[owner(number)]);
+            let element = owner(number);
+            let ends = ends[owner(number)];
             [[0, 0], [1, 0], [0, 1], [1, 1]].map(|part| {
                 let cell = [2 * i + part[0], 2 * j + part[1]];
                 // In half cells, the middle of an element is the sum of its ends.
@@ -188,7 +189,8 @@ impl Unions {
         spring_share: f64,
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
-        let [width, size] = [self.owners.len(), self.sizes.len()].map(|count| SPACE * count);
+        let width = SPACE * self.owners.len();
+        let size = SPACE * self.sizes.len();
         same_length("compliance of elements", matrix.len(), size * size)?;
         let bytes = 8.0 * (width as f64).powi(2);
         memory::check("cells of a mat", self.owners.len() as f64, bytes)?;
@@ -196,7 +198,8 @@ impl Unions {
         find(&mut cells)?;
         matrix.fill(0.0);
         let place = |n: usize| {
-            let [component, cell] = [n / self.owners.len(), n % self.owners.len()];
+            let component = n / self.owners.len();
+            let cell = n % self.owners.len();
             component * self.sizes.len() + self.owners[cell]
         };
         for (row, values) in cells.chunks_exact(width).enumerate() {
@@ -236,7 +239,8 @@ mod tests {
             assert!((found - wanted).abs() < 1e-15);
         }
         for time in 1..9 {
-            let (mean, mut displacement) = (f64::from(time) - 0.5, vec![0.0; 6]);
+            let mean = f64::from(time) - 0.5;
+            let mut displacement = vec![0.0; 6];
             unions.gather(&mut displacement, zero).unwrap();
             for (place, displacement) in displacement.iter().enumerate().filter(|_| time > 1) {
                 let found = displacement + step[place] * mean;

@@ -44,7 +44,8 @@ fn weights_are_the_coefficients_of_the_mobility() {
     let place = [0.8_f64.ln(), 0.7];
     let [z, rest] = on_circle(place[0], place[1]);
     let mut mobility = still.clone();
-    let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), still.clone());
+    let mut work = crate::bem::layered::Compliance::default();
+    let mut scratch = still.clone();
     weights.quadrature.mobility(place, &mut work, &mut scratch, &mut mobility).unwrap();
     let largest = still.iter().flatten().map(|value| value.re.abs()).fold(0.0, f64::max);
     let mut worst = [0.0_f64; 2];
@@ -52,7 +53,8 @@ fn weights_are_the_coefficients_of_the_mobility() {
         for (kind, lags) in lags(&weights, class).iter().enumerate() {
             let sum: f64 = lags.iter().sum();
             worst[0] = worst[0].max((sum - still[class][kind].re).abs());
-            let (mut power, mut sum) = (rest, Complex::default());
+            let mut power = rest;
+            let mut sum = Complex::default();
             for lag in lags {
                 sum += power.scale(*lag);
                 power = power * z;
@@ -74,7 +76,8 @@ fn symbols_are_positive_at_short_and_long_steps() {
         let weights = TrenchSource { soil, stages: None, file: None }.weights(step).unwrap();
         let classes = &weights.classes;
         let mut sums = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
-        let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), sums.clone());
+        let mut work = crate::bem::layered::Compliance::default();
+        let mut scratch = sums.clone();
         let mut least = f64::INFINITY;
         for k in 0..12 {
             let place = [0.0, std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0];
@@ -140,7 +143,8 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     let soil = TrenchSoil::new(half_plane.into(), trench).unwrap();
     let source = TrenchSource { soil, stages: None, file: None };
     let strip = Strip::graded(-1.0..1.0, 8).unwrap();
-    let (count, size) = (8, 16);
+    let count = 8;
+    let size = 16;
     let [mut found, mut wanted] = [(); 2].map(|()| vec![0.0; size * size]);
     source.static_compliance(&strip.elements(), &mut found).unwrap();
     let ground = ElasticGround::new(half_plane, strip).unwrap();
@@ -176,12 +180,14 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
 fn static_compliance_holds_a_rigid_body_as_the_impedance_does() {
     let source = source(1.2, 4, 3);
     let elements = source.soil.elements().elements();
-    let (count, size) = (elements.len(), 2 * elements.len());
+    let count = elements.len();
+    let size = 2 * elements.len();
     let mut matrix = vec![0.0; size * size];
     source.static_compliance(&elements, &mut matrix).unwrap();
     // To the right, down, and a rotation about the middle of the base that lowers the right end.
     let motion = |place: usize| {
-        let (element, component) = (&elements[place % count], place / count);
+        let element = &elements[place % count];
+        let component = place / count;
         let [x, _, z] = element.center();
         let [along, _, up] = element.directions()[component];
         [along, -up, along * (1.2 + z) - up * x]

@@ -34,7 +34,8 @@ fn panels_give_what_points_give() {
             let mut work = Workspace::default();
             let mut values = vec![[Complex::default(); KINDS]; quadrature.classes];
             let mut scratch = values.clone();
-            let (mut worst, mut covered) = (0.0_f64, 0);
+            let mut worst = 0.0_f64;
+            let mut covered = 0;
             for number in [0, 2, 4] {
                 let circle = Block::circle(number, 1e-10);
                 let mut watch = Watch::nobody();
@@ -104,7 +105,8 @@ fn lags_are_those_of_all_points() {
                 };
                 Block::circle(number, 1e-10).covered(node, unresolved).unwrap();
             }
-            let [one, two] = [&panels, &points].map(|quadrature| block(quadrature, number, 1));
+            let one = block(&panels, number, 1);
+            let two = block(&points, number, 1);
             for (place, (one, two)) in one.values.iter().zip(&two.values).enumerate() {
                 let largest = &mut largest[place % KINDS];
                 *largest = two.iter().fold(*largest, |size, x| size.max(x.abs()));

@@ -46,7 +46,9 @@ fn stiff_layers_over_soft_ground_keep_their_digits() {
 }
 
 fn agrees(table: &str, count: usize) {
-    let (mut worst, mut worst_xz, mut rows) = (0.0_f64, 0.0_f64, 0);
+    let mut worst = 0.0_f64;
+    let mut worst_xz = 0.0_f64;
+    let mut rows = 0;
     for line in table.lines().filter(|l| l.starts_with(|c: char| c.is_ascii_digit())) {
         let (numbers, layers) = line.rsplit_once(',').unwrap();
         let n: Vec<f64> = numbers.split(',').map(|x| x.parse().unwrap()).collect();
@@ -89,7 +91,8 @@ fn identical_layers_are_one_half_plane() {
                     compliance.set(profile, s).unwrap();
                     compliance.at(k)
                 };
-                let (a, b) = (at(&one), at(&many));
+                let a = at(&one);
+                let b = at(&many);
                 let size = a.xx.abs().max(a.zz.abs());
                 for (a, b) in [(a.xx, b.xx), (a.zz, b.zz), (a.xz, b.xz)] {
                     worst = worst.max((a - b).abs() / size);
@@ -111,7 +114,8 @@ fn half_plane_is_lambs() {
     for k in [0.1, 1.0, 5.0] {
         let q2 = (s * s).scale(0.75);
         let k2 = Complex::real(k * k);
-        let (alpha, beta) = ((k2 + q2.scale(soil.speed_ratio_squared())).sqrt(), (k2 + q2).sqrt());
+        let alpha = (k2 + q2.scale(soil.speed_ratio_squared())).sqrt();
+        let beta = (k2 + q2).sqrt();
         let sum = k2.scale(2.0) + q2;
         let r = (sum * sum - (alpha * beta).scale(4.0 * k * k)).scale(2.0);
         let found = compliance.at(k);
@@ -222,7 +226,8 @@ fn long_waves_are_those_along_the_wavenumber() {
             let mut ground = Compliance::default();
             ground.set(&profile, s).unwrap();
             let k = 1e-8;
-            let (wanted, found) = (ground.at(k).xx, ground.across());
+            let wanted = ground.at(k).xx;
+            let found = ground.across();
             let error = (found - wanted).abs() / wanted.abs();
             assert!(error < 1e-13, "{s:?} {error:e}");
         }
@@ -238,8 +243,9 @@ fn layer_on_rigid_base_solves_its_equation() {
         let profile = SoilProfile::on_rigid_bedrock().with_layer(soil, h).unwrap();
         let square = Complex::real(k * k) + (s * s).scale(0.75);
         // sinh(βh)/β and cosh(βh).
-        let (mut term, mut u, mut slope) =
-            (Complex::real(1.0), Complex::default(), Complex::default());
+        let mut term = Complex::real(1.0);
+        let mut u = Complex::default();
+        let mut slope = Complex::default();
         for n in 0..30 {
             let n = f64::from(n);
             slope += term;

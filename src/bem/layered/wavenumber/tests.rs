@@ -29,14 +29,17 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let integrals = Wavenumbers::new(&classes, 1e-11);
     let profile = p1(gmb(5), gmb(1));
     let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
-    let (mut worst, mut largest, mut rows) = (0.0_f64, 0.0_f64, 0);
+    let mut worst = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut rows = 0;
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     for line in table.lines().skip(2) {
         let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let s = Complex::new(n[0], n[1]);
         integrals.compliance(&profile, s, &mut Workspace::default(), &mut values).unwrap();
         let index = |i: usize| line.split(',').nth(i).unwrap().parse::<usize>().unwrap();
-        let (row, column) = (index(2), index(3));
+        let row = index(2);
+        let column = index(3);
         let found = assembled(&classes, &values);
         if (row, column) == (0, 0) {
             // u_xx of an element due to its own traction.

@@ -45,10 +45,12 @@ fn agrees_with_the_table_of_sixteen_cells() {
         let largest = lattice.block(&values, [0, 0])[1][1].abs();
         let mut own = [0.0_f64; SERIES];
         for row in group {
-            let [i, j] = [4, 5].map(|column| row[column].parse::<isize>().unwrap());
+            let i = row[4].parse::<isize>().unwrap();
+            let j = row[5].parse::<isize>().unwrap();
             let block = lattice.block(&values, [i, j]);
             let place = |letter: char| "zxy".find(letter).unwrap();
-            let [to, from] = [0, 1].map(|at| place(row[3].chars().nth(at).unwrap()));
+            let to = place(row[3].chars().nth(0).unwrap());
+            let from = place(row[3].chars().nth(1).unwrap());
             let wanted = Complex::new(number(row[6]), number(row[7]));
             let error = (block[to][from] - wanted).abs() / largest;
             own[(2 * to + from).min(5)] = own[(2 * to + from).min(5)].max(error);
@@ -88,8 +90,10 @@ fn cut_half_space_is_whole() {
 /// Short waves: panels up to a far wavenumber and a static rest in closed form, without tables, tails or halved panels.
 #[test]
 fn compliances_of_short_waves_are_plain_sums() {
-    let (lattice, rule) = (Lattice { pitch: [0.5, 0.4], counts: [2, 1] }, Rule::new(16));
-    let (width, panels) = (8.0, 750);
+    let lattice = Lattice { pitch: [0.5, 0.4], counts: [2, 1] };
+    let rule = Rule::new(16);
+    let width = 8.0;
+    let panels = 750;
     for (profile, s) in [
         (half_space(), Complex::real(30.0)),
         (half_space(), Complex::new(12.0, 25.0)),

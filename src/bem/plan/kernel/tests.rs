@@ -86,7 +86,9 @@ fn weights_match_the_table_and_sum_up_to_statics() {
             });
             errors.fold(0.0, f64::max) / still[0][1].re
         };
-        let [even, odd, before] = [rest(256, 0..4), rest(256, 4..6), rest(128, 4..6)];
+        let even = rest(256, 0..4);
+        let odd = rest(256, 4..6);
+        let before = rest(128, 4..6);
         println!("{}: lags {worst:.1e}, sum {even:.1e}, {odd:.1e} (128: {before:.1e})", rows[0][0]);
         assert!(worst < 1e-6, "{worst:e}");
         let gates = if layered { [5e-5, 5e-5] } else { [1e-7, 2e-5] };
@@ -104,7 +106,8 @@ fn weights_depend_on_the_offset_alone() {
         let small = kernel(p1(gmb(5), gmb(1)), &oblong([2, 3]), stages);
         let large = kernel(p1(gmb(5), gmb(1)), &oblong([4, 3]), stages);
         large.prepare(200, &mut unobserved).unwrap();
-        let [one, two] = [weights(&small, 100), weights(&large, 200)];
+        let one = weights(&small, 100);
+        let two = weights(&large, 200);
         let largest = one[0][1][0];
         let mut worst = 0.0_f64;
         let offsets = |kernel: &LatticeKernel| kernel.classes.plan().unwrap().0.classes();
@@ -133,7 +136,8 @@ fn weights_of_short_steps_are_sums_over_directions() {
         };
         let mut summed = make();
         summed.quadrature.integrals.table.direct = usize::MAX;
-        let [one, two] = [make(), summed].map(|kernel| weights(&kernel, 128));
+        let one = weights(&make(), 128);
+        let two = weights(&summed, 128);
         let largest = one[0][1][0];
         let pairs = one.iter().flatten().flatten().zip(two.iter().flatten().flatten());
         let worst = pairs.fold(0.0_f64, |worst, (one, two)| worst.max((one - two).abs()));
