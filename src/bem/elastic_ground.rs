@@ -10,7 +10,7 @@ use super::{
     Grading, Ground, GroundDescription, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
 use crate::error::{Observer, Result, require};
-use crate::geometry::{ContactElement, SPACE, check_count, check_order};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::SoilProfile;
@@ -124,7 +124,7 @@ impl ElasticGround {
     /// more cells than their matrices allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
         let elements = plan.elements();
-        check_count(elements.len(), SPACE)?;
+        check_count(elements.len(), COMPONENTS_IN_SPACE)?;
         let source = ElasticSource::new(profile.into(), Some(plan))?;
         let unions = source.plan.as_ref().map(|own| own.unions(&source.profile, source.tolerance));
         let unions = unions.transpose()?.flatten();
@@ -319,7 +319,7 @@ impl Ground for ElasticGround {
         let Some(plan) = &self.source.plan else { return self.ground.finer_compliance() };
         let source = &self.source;
         let plan = plan.quartered();
-        let mut matrix = vec![0.0; (4 * SPACE * self.elements().len()).pow(2)];
+        let mut matrix = vec![0.0; (4 * COMPONENTS_IN_SPACE * self.elements().len()).pow(2)];
         let profile = &source.profile;
         let tolerance = source.tolerance;
         let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);

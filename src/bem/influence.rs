@@ -21,7 +21,7 @@ use super::strip::Overlap;
 use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::Surface;
 use crate::fundamental::branch::{Branch, Branches, Weight};
-use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
+use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, Rayleigh, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
 use crate::linalg::gauss;
@@ -43,7 +43,7 @@ use crate::soil::Soil;
 pub struct InfluenceKernel {
     pub(super) branches: Branches,
     /// `c_k` of zz and xx: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
-    pub(super) late: [[f64; TERMS]; 2],
+    pub(super) late: [[f64; LATE_SERIES_TERMS]; 2],
     /// `c_S` Δt, m.
     pub(super) step: f64,
     /// μ, Pa.
@@ -82,7 +82,7 @@ impl InfluenceKernel {
     ) -> Result<PairInfluence<'_>> {
         let overlap = Overlap::new(receiver, source)?;
         let far = overlap.farthest();
-        let mut moments = [0.0; TERMS];
+        let mut moments = [0.0; LATE_SERIES_TERMS];
         let rule = gauss::largest();
         for i in 1..overlap.nodes.len() {
             let low = overlap.nodes[i - 1];
@@ -125,7 +125,7 @@ pub(super) struct PairInfluence<'a> {
     kernel: &'a InfluenceKernel,
     overlap: Overlap,
     /// `M_k` divided by the 2k-th power of the largest offset.
-    moments: [f64; TERMS],
+    moments: [f64; LATE_SERIES_TERMS],
 }
 
 impl PairInfluence<'_> {
@@ -192,7 +192,7 @@ impl PairInfluence<'_> {
         let mut series = 1.0;
         let mut power = ratio;
         let small = 1e-17 * first;
-        for k in 1..TERMS {
+        for k in 1..LATE_SERIES_TERMS {
             let term = scale * series / (2 * k) as f64;
             sum[0] += zz[k] * self.moments[k] * term;
             sum[1] += xx[k] * self.moments[k] * term;

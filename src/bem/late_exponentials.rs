@@ -22,7 +22,7 @@
 
 use super::{InfluenceKernel, PatchKernel};
 use crate::error::{Result, require};
-use crate::fundamental::rayleigh::TERMS;
+use crate::fundamental::rayleigh::LATE_SERIES_TERMS;
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, ExponentialSum, LateWeights, PairClasses, TailProduct};
 use crate::linalg::gauss;
@@ -132,7 +132,7 @@ struct Pole {
 impl Pole {
     /// Makes a pole; `reach` is s times half the length of the patch.
     fn new(
-        terms: &[[f64; TERMS]; 2],
+        terms: &[[f64; LATE_SERIES_TERMS]; 2],
         differences: &[f64],
         s: f64,
         reach: f64,
@@ -162,7 +162,7 @@ impl Pole {
     }
 
     /// Keeps the fewest degrees for which the rest, relative to t⁻¹ alone, is within both limits.
-    fn cut(&mut self, terms: &[[f64; TERMS]; 2], accuracy: f64, energy: f64) {
+    fn cut(&mut self, terms: &[[f64; LATE_SERIES_TERMS]; 2], accuracy: f64, energy: f64) {
         let limit = accuracy.min(energy);
         let mut rest = [0.0; 2];
         while self.degrees > 1 {
@@ -218,8 +218,8 @@ fn means(elements: &[ContactElement], degrees: usize) -> Vec<Vec<f64>> {
 ///
 /// All binomial terms that contribute to a coefficient have one sign, so no digits are lost.
 fn differences() -> Vec<f64> {
-    let powers = monomials(2 * TERMS - 1);
-    let mut tables = vec![0.0; TERMS * DEGREES * DEGREES];
+    let powers = monomials(2 * LATE_SERIES_TERMS - 1);
+    let mut tables = vec![0.0; LATE_SERIES_TERMS * DEGREES * DEGREES];
     for (k, table) in tables.chunks_exact_mut(DEGREES * DEGREES).enumerate() {
         let mut binomial = 1.0;
         for m in 0..=2 * k {

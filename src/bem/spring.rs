@@ -5,7 +5,7 @@ use super::{Grading, Ground, NOT_PREPARED, Strip};
 use crate::error::{
     CheckpointError, Observer, Result, not_negative, positive, require, same_length,
 };
-use crate::geometry::{ContactElement, ContactLayout, Patch, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, ContactLayout, Patch};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -104,7 +104,7 @@ impl SpringGround {
     /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero;
     /// [`Error::Memory`](crate::Error::Memory) for more elements than their matrices allow; as for
     /// [`Plan::without_overhang`].
-    pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
+    pub fn in_plan(plan: Plan, stiffness: [f64; COMPONENTS_IN_SPACE]) -> Result<Self> {
         Self::bed(plan.without_overhang()?.elements(), stiffness)
     }
 
@@ -155,7 +155,7 @@ impl SpringGround {
         })
     }
 
-    fn bed(elements: Vec<ContactElement>, stiffness: [f64; SPACE]) -> Result<Self> {
+    fn bed(elements: Vec<ContactElement>, stiffness: [f64; COMPONENTS_IN_SPACE]) -> Result<Self> {
         positive("normal stiffness of the spring bed", stiffness[0])?;
         positive("tangential stiffness of the spring bed", stiffness[1])?;
         positive("tangential stiffness of the spring bed along y", stiffness[2])?;
@@ -208,7 +208,7 @@ impl SpringGround {
 }
 
 /// Values down, along x and along y, for each number of a contact vector.
-fn each_number(layout: ContactLayout, values: [f64; SPACE]) -> Vec<f64> {
+fn each_number(layout: ContactLayout, values: [f64; COMPONENTS_IN_SPACE]) -> Vec<f64> {
     (0..layout.len()).map(|index| values[layout.origin(index)[0]]).collect()
 }
 

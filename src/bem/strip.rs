@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Result, at_least, finite, positive, require};
 use crate::fundamental::branch::Weight;
-use crate::geometry::{ContactElement, PLANE, check_count};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::structure::{Base, BaseNode, Structure, check_line, from_the_left};
 
 /// Variation of element lengths along a strip.
@@ -57,7 +57,7 @@ impl Strip {
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
         require("number of contact elements", count as f64, count > 0, "1 or more")?;
-        check_count(count, PLANE)?;
+        check_count(count, COMPONENTS_IN_PLANE)?;
         let middle = 0.5 * (range.start + range.end);
         let half = 0.5 * (range.end - range.start);
         let node = |k: usize| {

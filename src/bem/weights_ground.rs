@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::plan::{AT_END, Unions};
 use super::{Ground, GroundDescription, NOT_PREPARED, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::{ContactElement, PLANE, check_order};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_order};
 use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
 /// Ground for any soil that has convolution weights and a static compliance.
@@ -299,7 +299,7 @@ impl Ground for WeightsGround {
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::parts).collect();
-        let mut matrix = vec![0.0; (PLANE * halves.len()).pow(2)];
+        let mut matrix = vec![0.0; (COMPONENTS_IN_PLANE * halves.len()).pow(2)];
         self.source.static_compliance(&halves, &mut matrix)?;
         Ok(Some(matrix))
     }

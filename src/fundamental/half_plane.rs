@@ -17,7 +17,7 @@
 
 use crate::error::{Result, finite, positive, require};
 use crate::fundamental::branch::{Branch, Branches, Power};
-use crate::fundamental::rayleigh::{TERMS, late_coefficients};
+use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
 use crate::geometry::ContactElement;
 use crate::linalg::Complex;
@@ -39,7 +39,7 @@ pub struct Surface {
 pub struct HalfPlane {
     soil: Soil,
     branches: Branches,
-    late: [[f64; TERMS]; 2],
+    late: [[f64; LATE_SERIES_TERMS]; 2],
     /// ∫ f/η² over all times, zz and xx.
     total: [f64; 2],
     /// Regular ∫ f η^m of zx, m = 1, 0, −1, −2.

@@ -60,13 +60,14 @@ impl Direction {
 }
 
 /// Directions of elements of the plane without rotations.
-pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
+pub(crate) const PLANE_TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
 /// All directions of the plane, as of beams and of masses with rotary inertia.
-pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
+pub(crate) const PLANE_DIRECTIONS: &[Direction] =
+    &[Direction::X, Direction::Y, Direction::Rotation];
 
 /// All directions in space.
-pub(crate) const IN_SPACE: &[Direction] = &[
+pub(crate) const SPACE_DIRECTIONS: &[Direction] = &[
     Direction::X,
     Direction::Y,
     Direction::Z,

@@ -2,7 +2,7 @@
 
 use std::ops::Mul;
 
-use super::{ContactElement, SPACE};
+use super::{COMPONENTS_IN_SPACE, ContactElement};
 
 /// Largest difference of a cell from its place, relative to its sides.
 const EQUAL: f64 = 1e-9;
@@ -10,7 +10,7 @@ const EQUAL: f64 = 1e-9;
 const FEW: f64 = 4.0;
 
 /// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
-pub(crate) const SERIES: usize = 6;
+pub(crate) const SERIES_PER_OFFSET: usize = 6;
 
 /// Lattice of equal cells. Compliances depend only on the offset between two cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +85,11 @@ impl Lattice {
     }
 
     /// 3 × 3 values for a receiver `offset` cells from the source, taken from the values of all classes.
-    pub(crate) fn block<T>(&self, values: &[[T; SERIES]], offset: [isize; 2]) -> [[T; 3]; 3]
+    pub(crate) fn block<T>(
+        &self,
+        values: &[[T; SERIES_PER_OFFSET]],
+        offset: [isize; 2],
+    ) -> [[T; 3]; 3]
     where
         T: Copy + Mul<f64, Output = T>,
     {
@@ -101,7 +105,7 @@ pub(crate) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
 
 /// Column and row of each element, if all are equal cells of a lattice that is mostly filled.
 pub(crate) fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
-    let first = elements.first().filter(|own| own.directions().len() == SPACE)?;
+    let first = elements.first().filter(|own| own.directions().len() == COMPONENTS_IN_SPACE)?;
     let pitch = first.sides();
     let corner = [0, 1]
         .map(|axis| elements.iter().map(|own| own.ends()[axis][0]).fold(f64::INFINITY, f64::min));
@@ -156,7 +160,7 @@ mod tests {
     fn blocks_are_reciprocal() {
         let lattice = Lattice { pitch: [1.0; 2], counts: [4, 5] };
         let number = |class: usize, series: usize| Complex::new(class as f64, 1.0 + series as f64);
-        let values: Vec<[Complex; SERIES]> = (0..lattice.classes().len())
+        let values: Vec<[Complex; SERIES_PER_OFFSET]> = (0..lattice.classes().len())
             .map(|class| std::array::from_fn(|series| number(class, series)))
             .collect();
         for offset in [[0_isize, 3], [3, 1], [-2, 4], [-3, -1]] {

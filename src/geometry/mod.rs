@@ -10,16 +10,16 @@ mod patch;
 
 pub(crate) use circle::circle;
 pub use direction::Direction;
-pub(crate) use direction::{FRAME, IN_SPACE, TRANSLATIONS};
+pub(crate) use direction::{PLANE_DIRECTIONS, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 pub use element::ContactElement;
 pub(crate) use footing::{Edge, Footing};
-pub(crate) use lattice::{Lattice, SERIES, lattice_cells, offset};
+pub(crate) use lattice::{Lattice, SERIES_PER_OFFSET, lattice_cells, offset};
 pub(crate) use patch::{Patch, check_count, check_order};
 
 /// Directions of motion and traction at each element of a ground in the plane: down, along x.
-pub(crate) const PLANE: usize = 2;
+pub(crate) const COMPONENTS_IN_PLANE: usize = 2;
 /// Directions of motion and traction at each element of a ground in plan: down, along x, along y.
-pub(crate) const SPACE: usize = 3;
+pub(crate) const COMPONENTS_IN_SPACE: usize = 3;
 
 /// Order of the numbers in a contact vector: component by component, all elements in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,14 +29,17 @@ pub(crate) struct ContactLayout {
 }
 
 impl ContactLayout {
-    /// Layout of elements with [`PLANE`] or [`SPACE`] components each.
+    /// Layout of elements with [`COMPONENTS_IN_PLANE`] or [`COMPONENTS_IN_SPACE`] components each.
     pub(crate) const fn new(components: usize, elements: usize) -> Self {
         Self { components, elements }
     }
 
     /// Layout of these elements, which have equally many directions.
     pub(crate) fn for_elements(elements: &[ContactElement]) -> Self {
-        Self::new(elements.first().map_or(PLANE, |own| own.directions().len()), elements.len())
+        Self::new(
+            elements.first().map_or(COMPONENTS_IN_PLANE, |own| own.directions().len()),
+            elements.len(),
+        )
     }
 
     /// Components of each element: down, along x, and in plan along y.
@@ -46,7 +49,7 @@ impl ContactLayout {
 
     /// Whether the ground is one in plan, of three directions.
     pub(crate) const fn is_plan(self) -> bool {
-        self.components == SPACE
+        self.components == COMPONENTS_IN_SPACE
     }
 
     /// Axes along the surface: x (0), and in plan y (1).

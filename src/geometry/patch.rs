@@ -2,7 +2,9 @@
 
 use std::ops::Range;
 
-use super::{ContactElement, ContactLayout, PLANE, SPACE, far_ends, middle};
+use super::{
+    COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, far_ends, middle,
+};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
 /// The elements of a ground, checked.
@@ -29,7 +31,7 @@ impl Patch {
             });
         }
         match elements.first().map(count) {
-            Some(SPACE) => check_cells(&elements)?,
+            Some(COMPONENTS_IN_SPACE) => check_cells(&elements)?,
             _ => check_order(&elements)?,
         }
         let areas = elements.iter().map(ContactElement::area).collect();
@@ -126,7 +128,7 @@ const BYTES_PER_PAIR: f64 = 400.0;
 /// Error if the matrices between this many elements, with this number of components each, exceed the memory.
 pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
-    let numbers = count * (components as f64 / PLANE as f64);
+    let numbers = count * (components as f64 / COMPONENTS_IN_PLANE as f64);
     memory::check("contact elements", count, BYTES_PER_PAIR * numbers * numbers)
 }
 
@@ -139,8 +141,8 @@ fn check_sizes(elements: &[ContactElement], components: usize) -> Result<()> {
 
 /// Error unless the elements are in the plane and have positive length, in order, without overlap.
 pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
-    check_sizes(elements, PLANE)?;
-    if elements.iter().any(|element| element.directions().len() != PLANE) {
+    check_sizes(elements, COMPONENTS_IN_PLANE)?;
+    if elements.iter().any(|element| element.directions().len() != COMPONENTS_IN_PLANE) {
         return Err(Error::Scene {
             quantity: "contact elements",
             needed: "elements in the plane: those in plan need a `Plan`",
@@ -157,7 +159,7 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
 
 /// Error unless the rectangles have a size and do not overlap.
 fn check_cells(elements: &[ContactElement]) -> Result<()> {
-    check_sizes(elements, SPACE)?;
+    check_sizes(elements, COMPONENTS_IN_SPACE)?;
     // Sorted by left ends: an element that begins beyond another's right end cannot overlap it.
     let mut order: Vec<_> = elements.iter().collect();
     order.sort_by(|one, other| one.left().total_cmp(&other.left()));

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::error::{Result, finite, not_negative, positive, require_part};
-use crate::geometry::{ContactElement, PLANE, check_count};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::interface::InterfaceLaw;
 
 /// Rectangular trench in the surface of the ground, in the plane: its sides and its depth.
@@ -73,7 +73,7 @@ impl Trench {
     /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their
     /// matrices allow.
     pub fn elements(&self, base: usize, wall: usize) -> Result<TrenchElements> {
-        check_count(base.saturating_add(wall.saturating_mul(2)), PLANE)?;
+        check_count(base.saturating_add(wall.saturating_mul(2)), COMPONENTS_IN_PLANE)?;
         let even = base > 0 && base.is_multiple_of(2);
         require_part("base elements of a trench", even, "an even number above zero")?;
         let fits = (wall > 0) == (self.depth > 0.0);

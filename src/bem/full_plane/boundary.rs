@@ -3,7 +3,7 @@
 use super::segment::{Segment, check_count, check_segments};
 use crate::bem::{ContactElement, Strip};
 use crate::error::{Error, Result, require};
-use crate::geometry::{ContactLayout, PLANE, check_order};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, check_order};
 use crate::linalg::DenseFactor;
 
 /// A polygonal boundary of the soil, with the contact elements under the structure.
@@ -116,12 +116,12 @@ impl Boundary {
 
     /// Order of vectors of the boundary (2E, x first).
     pub(super) fn layout(&self) -> ContactLayout {
-        ContactLayout::new(PLANE, self.segments.len())
+        ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len())
     }
 
     /// Place of each component of a contact vector (2Q, down first) in vectors of the boundary.
     pub(super) fn places(&self) -> impl Iterator<Item = usize> + Clone {
-        let contact = ContactLayout::new(PLANE, self.contact.len());
+        let contact = ContactLayout::new(COMPONENTS_IN_PLANE, self.contact.len());
         (0..contact.len()).map(move |k| {
             let [component, element] = contact.origin(k);
             self.layout().place(1 - component, self.contact[element])

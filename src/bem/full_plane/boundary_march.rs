@@ -3,7 +3,7 @@
 use super::BoundaryKernel;
 use super::convolution::BoundaryHistory;
 use crate::error::{Error, Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Quantity that is prescribed for a component of an element.
@@ -55,7 +55,7 @@ impl BoundaryMarch {
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values do not
     /// determine the others, and errors of the kernel.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
         let mut g = vec![0.0; size * size];
         let mut h = vec![0.0; size * size];

@@ -10,7 +10,7 @@ use super::BoundaryKernel;
 use super::block::{Level, Link, Work};
 use super::pair_classes::PairClasses;
 use crate::error::{Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use realfft::RealFftPlanner;
 
 /// Steps that are summed directly before the smallest block is transformed.
@@ -65,7 +65,7 @@ impl BoundaryHistory {
     }
 
     fn size(&self) -> usize {
-        ContactLayout::new(PLANE, self.kernel.segments().len()).len()
+        ContactLayout::new(COMPONENTS_IN_PLANE, self.kernel.segments().len()).len()
     }
 
     /// Coefficients of all series for the lags below `lags`, without lag 0, which belongs to the present
@@ -208,7 +208,7 @@ impl BoundaryHistory {
 
 /// All pairs of components, G with tractions and −H with displacements.
 fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
-    let layout = ContactLayout::new(PLANE, count);
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
     let mut links = Vec::new();
     for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
         for i in 0..2 {

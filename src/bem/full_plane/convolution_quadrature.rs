@@ -19,7 +19,7 @@ use std::f64::consts::TAU;
 use realfft::RealFftPlanner;
 
 use crate::error::{Error, Result, positive, require, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::soil::Soil;
 
 use super::bessel::Complex64;
@@ -256,7 +256,7 @@ fn scatter<const WIDTH: usize>(
     g: &mut [f64],
     h: &mut [f64],
 ) {
-    let layout = ContactLayout::new(PLANE, count);
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
     for row in 0..count {
         for column in 0..count {
             let block = block(view_of[row * count + column]);

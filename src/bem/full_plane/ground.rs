@@ -10,7 +10,7 @@ use super::{
 };
 use crate::bem::{ContactElement, Ground, GroundDescription, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, GroundError, Observer, Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
@@ -261,7 +261,7 @@ impl Ground for FullPlaneGround {
     /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let size = ContactLayout::new(PLANE, self.boundary.contact().len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
         same_length("instantaneous operator", matrix.len(), size)?;
         self.boundary.compliance(&prepared.mobility, matrix);
         Ok(())
@@ -296,7 +296,7 @@ impl Ground for FullPlaneGround {
     /// has the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let size = ContactLayout::new(PLANE, elements.len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
         same_length("static compliance", matrix.len(), size)?;
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
@@ -311,7 +311,8 @@ impl Ground for FullPlaneGround {
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let contact = self.boundary.contact();
         let segments = self.boundary.segments();
-        let [down, along] = ContactLayout::new(PLANE, contact.len()).split_mut(displacement);
+        let [down, along] =
+            ContactLayout::new(COMPONENTS_IN_PLANE, contact.len()).split_mut(displacement);
         for ((&e, down), along) in contact.iter().zip(down).zip(along) {
             let center = segments[e].center();
             let [horizontal, vertical] = motion.displacement(center[0], time);

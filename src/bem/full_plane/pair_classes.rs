@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::segment::Segment;
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 
 /// Coefficients of a pair in G and in H: `[row][column]`, row the receiver's component.
 pub(super) type PairBlocks = [[[f64; 2]; 2]; 2];
@@ -80,7 +80,7 @@ impl PairClasses {
         local: impl Fn([f64; 2], f64) -> PairBlocks,
     ) {
         let count = segments.len();
-        let layout = ContactLayout::new(PLANE, segments.len());
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, segments.len());
         let seen: Vec<PairBlocks> =
             self.views.iter().map(|&(ends, height)| local(ends, height)).collect();
         let blocks: Vec<PairBlocks> = self

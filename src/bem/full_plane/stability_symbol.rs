@@ -18,7 +18,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 
 use crate::error::{Error, Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::{DenseFactor, largest};
 
 use super::{BoundaryCondition, BoundaryKernel};
@@ -59,7 +59,7 @@ impl<'a> Symbol<'a> {
         if count == 0 {
             return Err(Error::Size { quantity: "segments", found: 0, needed: 1 });
         }
-        let size = ContactLayout::new(PLANE, count).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, count).square();
         let mut symbol = Self {
             kernel,
             prescribed: vec![],

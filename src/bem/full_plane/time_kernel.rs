@@ -7,7 +7,7 @@ use super::step_integrals::{Integrals, Medium, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -176,7 +176,7 @@ impl BoundaryKernel for TimeKernel {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        let size = ContactLayout::new(PLANE, self.segments.len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len()).square();
         same_length("displacement coefficients", g.len(), size)?;
         same_length("traction coefficients", h.len(), size)?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());

@@ -220,11 +220,11 @@ impl Compliance {
 }
 
 /// |x| below which 1 − e^(−x) is summed as a series.
-const SERIES: f64 = 0.3;
+const SERIES_LIMIT: f64 = 0.3;
 
 /// 1 − e^(−x) for Re x ≥ 0.
 fn one_less_exponential(x: Complex) -> Complex {
-    if x.square() > SERIES * SERIES {
+    if x.square() > SERIES_LIMIT * SERIES_LIMIT {
         return Complex::real(1.0) - (-x).exp();
     }
     let terms = (2..=13).rev().map(f64::from);

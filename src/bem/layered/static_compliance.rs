@@ -12,7 +12,7 @@
 use super::compliance::{Compliance, SurfaceCompliance};
 use super::wavenumber::{Scratch, Wavenumbers, deep};
 use crate::error::{Result, same_length};
-use crate::geometry::{ContactElement, ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::linalg::gauss;
@@ -39,7 +39,7 @@ pub(in crate::bem) fn static_compliance(
     elements: &[ContactElement],
     matrix: &mut [f64],
 ) -> Result<()> {
-    let size = ContactLayout::new(PLANE, elements.len()).square();
+    let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
     same_length("static compliance", matrix.len(), size)?;
     let classes = PairClasses::new(elements.to_vec())?;
     let values = pairs(profile, &classes)?;

@@ -10,7 +10,7 @@ use super::runge_kutta::Stages;
 use super::threads::threads;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
-use crate::geometry::{ContactElement, SERIES};
+use crate::geometry::{ContactElement, SERIES_PER_OFFSET};
 #[cfg(feature = "embedded")]
 use crate::history::TRENCH_KINDS;
 use crate::history::{
@@ -167,7 +167,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; SERIES],
+        values: [&mut [f64]; SERIES_PER_OFFSET],
     ) -> Result<()> {
         self.copy(class, first_lag, values)
     }

@@ -8,7 +8,7 @@ use super::integrals::{Integrals, Workspace};
 use super::sectors::{MOTIONS, Sectors};
 use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
 use crate::error::{Observer, PlanError, Result};
-use crate::geometry::SERIES;
+use crate::geometry::SERIES_PER_OFFSET;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -97,7 +97,7 @@ pub fn impedances_in_plan(
     let sectors = Sectors::new(plan);
     let diagonal: [usize; MOTIONS] = std::array::from_fn(|i| (MOTIONS + 1) * i);
     let mut work = Workspace::default();
-    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
     let found = stiffnesses(&lists, &diagonal, watch, |s| {
         integrals.compliance(profile, s, &mut work, &mut values)?;
         let matrix = sectors.stiffness(&values, parts)?;

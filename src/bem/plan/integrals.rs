@@ -22,7 +22,7 @@ use crate::bem::layered::{
     last_coefficients, legendre, median, surface_outlook, surface_series, unresolved,
 };
 use crate::error::{GroundError, Result, Watch};
-use crate::geometry::{Lattice, SERIES};
+use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -99,7 +99,7 @@ fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
 }
 
 /// Compliances zz, xx, yy, xy, zx and zy of each class, m³/Pa × m.
-impl Compliances<SERIES> for Integrals {
+impl Compliances<SERIES_PER_OFFSET> for Integrals {
     type Workspace = Workspace;
 
     /// Measured: 0.4 to 4.8 (8 × 8 cells, half-space and damped layer, two steps, tolerances 1e-13 to 1e-10, up to
@@ -115,7 +115,7 @@ impl Compliances<SERIES> for Integrals {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Workspace,
-        values: &mut [[Complex; SERIES]],
+        values: &mut [[Complex; SERIES_PER_OFFSET]],
     ) -> Result<()> {
         let Workspace { ground, panels: work } = work;
         ground.set(profile, s)?;
@@ -196,7 +196,7 @@ impl Integrals {
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
         work.sums.clear();
-        work.sums.resize(2 * SERIES * self.table.classes, 0.0);
+        work.sums.resize(2 * SERIES_PER_OFFSET * self.table.classes, 0.0);
         let ratio = q2.scale(self.table.unit().powi(-2));
         let mut power = softness;
         work.kernels.clear();

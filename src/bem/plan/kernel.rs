@@ -7,7 +7,7 @@ use super::integrals::{Integrals, Workspace};
 use super::unions::Unions;
 use crate::bem::layered::{Compliances, FINER, Quadrature, QuadratureWeights, Stages, on_circle};
 use crate::error::{Result, Watch, positive, same_length};
-use crate::geometry::{Lattice, SERIES, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::PairClasses;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
@@ -36,18 +36,22 @@ pub(in crate::bem) fn static_compliance(
     let s = Complex::default();
     let mut watch = Watch::nobody();
     let integrals = Integrals::new(&plan.lattice, profile, [s], tolerance, &mut watch)?;
-    let mut values = vec![[Complex::default(); SERIES]; classes.count()];
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; classes.count()];
     integrals.compliance(profile, s, &mut Workspace::default(), &mut values)?;
     classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
     Ok(())
 }
 
 /// Static compliance of one cell in its own directions, m/Pa.
-fn own_compliance(profile: &SoilProfile, pitch: [f64; 2], tolerance: f64) -> Result<[f64; SPACE]> {
-    let mut matrix = [0.0; SPACE * SPACE];
+fn own_compliance(
+    profile: &SoilProfile,
+    pitch: [f64; 2],
+    tolerance: f64,
+) -> Result<[f64; COMPONENTS_IN_SPACE]> {
+    let mut matrix = [0.0; COMPONENTS_IN_SPACE * COMPONENTS_IN_SPACE];
     let cell = Plan::masked([0.0; 2], pitch, 1, &[true])?;
     static_compliance(profile, &cell, tolerance, &mut matrix)?;
-    Ok([0, 1, 2].map(|k| matrix[k * (SPACE + 1)]))
+    Ok([0, 1, 2].map(|k| matrix[k * (COMPONENTS_IN_SPACE + 1)]))
 }
 
 impl Plan {
@@ -74,7 +78,7 @@ impl Plan {
 }
 
 /// Convolution weights of a layered ground under cells, with six series.
-pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES>;
+pub(in crate::bem) type LatticeKernel = QuadratureWeights<Integrals, SERIES_PER_OFFSET>;
 
 impl LatticeKernel {
     /// Weights of `profile` under the cells of `plan` for a time step (s) and a relative tolerance.

@@ -12,7 +12,7 @@ use realfft::num_complex::Complex64;
 
 use super::cells::Plan;
 use crate::error::{Error, Result, memory};
-use crate::geometry::{SERIES, offset};
+use crate::geometry::{SERIES_PER_OFFSET, offset};
 use crate::linalg::{Complex, DenseFactor};
 
 /// Rigid motions: along x, y, z (up) and about these axes.
@@ -101,7 +101,7 @@ impl<'a> Sectors<'a> {
     /// [`Error::Memory`], [`Error::Singular`].
     pub(super) fn stiffness(
         &self,
-        values: &[[Complex; SERIES]],
+        values: &[[Complex; SERIES_PER_OFFSET]],
         parts: &[&[usize]],
     ) -> Result<[[Complex; MOTIONS]; MOTIONS]> {
         let mut sum = [[Complex64::default(); MOTIONS]; MOTIONS];
@@ -128,7 +128,7 @@ impl<'a> Sectors<'a> {
         &self,
         parity: [f64; 2],
         components: &[usize],
-        values: &[[Complex; SERIES]],
+        values: &[[Complex; SERIES_PER_OFFSET]],
         sum: &mut [[Complex64; MOTIONS]; MOTIONS],
     ) -> Result<()> {
         let character = |axes: [bool; 2], component: usize| character(parity, axes, component);
@@ -291,7 +291,7 @@ mod tests {
             let mut watch = Watch::nobody();
             let integrals = Integrals::new(&plan.lattice, &profile, [s], 1e-9, &mut watch).unwrap();
             let mut work = Workspace::default();
-            let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
+            let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
             integrals.compliance(&profile, s, &mut work, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
             assert_eq!(sectors.group.len(), order, "{plan:?}");

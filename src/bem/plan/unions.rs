@@ -9,7 +9,7 @@
 //! symbol f (1 − cos θ)² ≥ 0.
 
 use crate::error::{Error, Result, memory, require, same_length};
-use crate::geometry::SPACE;
+use crate::geometry::COMPONENTS_IN_SPACE;
 
 /// Cells of each element.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,7 +118,7 @@ impl Unions {
             sizes[*owner] += 1.0;
         }
         Self {
-            cells: vec![0.0; SPACE * owners.len()],
+            cells: vec![0.0; COMPONENTS_IN_SPACE * owners.len()],
             owners: owners.to_vec(),
             sizes,
             fractions: vec![1.0; owners.len()],
@@ -131,10 +131,10 @@ impl Unions {
     pub(super) fn with_cuts(
         mut self,
         cuts: impl Iterator<Item = (f64, f64)>,
-        own: [f64; SPACE],
+        own: [f64; COMPONENTS_IN_SPACE],
     ) -> Self {
         let count = self.sizes.len();
-        [self.springs, self.last] = [(); 2].map(|()| vec![0.0; SPACE * count]);
+        [self.springs, self.last] = [(); 2].map(|()| vec![0.0; COMPONENTS_IN_SPACE * count]);
         for (cell, (fraction, softness)) in cuts.enumerate() {
             let owner = self.owners[cell];
             self.fractions[cell] = fraction;
@@ -152,7 +152,11 @@ impl Unions {
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
         let Self { owners, sizes, cells, springs, last, .. } = self;
-        same_length("displacement of the history", elements.len(), SPACE * sizes.len())?;
+        same_length(
+            "displacement of the history",
+            elements.len(),
+            COMPONENTS_IN_SPACE * sizes.len(),
+        )?;
         find(cells)?;
         elements.fill(0.0);
         let parts = elements.chunks_exact_mut(sizes.len()).zip(cells.chunks_exact(owners.len()));
@@ -189,8 +193,8 @@ impl Unions {
         spring_share: f64,
         find: impl FnOnce(&mut [f64]) -> Result<()>,
     ) -> Result<()> {
-        let width = SPACE * self.owners.len();
-        let size = SPACE * self.sizes.len();
+        let width = COMPONENTS_IN_SPACE * self.owners.len();
+        let size = COMPONENTS_IN_SPACE * self.sizes.len();
         same_length("compliance of elements", matrix.len(), size * size)?;
         let bytes = 8.0 * (width as f64).powi(2);
         memory::check("cells of a mat", self.owners.len() as f64, bytes)?;

@@ -16,11 +16,11 @@ fn all(
     profile: &SoilProfile,
     s: Complex,
     tolerance: f64,
-) -> (Vec<[Complex; SERIES]>, usize) {
+) -> (Vec<[Complex; SERIES_PER_OFFSET]>, usize) {
     let mut watch = Watch::nobody();
     let integrals = Integrals::new(lattice, profile, [s], tolerance, &mut watch).unwrap();
     let mut work = Workspace::default();
-    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
     (values, work.panels.evaluations)
 }
@@ -43,7 +43,7 @@ fn agrees_with_the_table_of_sixteen_cells() {
         let s = Complex::new(number(group[0][1]), number(group[0][2]));
         let (values, evaluations) = all(&lattice, &profile, s, 1e-10);
         let largest = lattice.block(&values, [0, 0])[1][1].abs();
-        let mut own = [0.0_f64; SERIES];
+        let mut own = [0.0_f64; SERIES_PER_OFFSET];
         for row in group {
             let i = row[4].parse::<isize>().unwrap();
             let j = row[5].parse::<isize>().unwrap();
@@ -62,7 +62,10 @@ fn agrees_with_the_table_of_sixteen_cells() {
     assert!(worst[0].max(worst[1]) < 1e-8, "{worst:?}");
 }
 
-fn largest_difference(one: &[[Complex; SERIES]], two: &[[Complex; SERIES]]) -> f64 {
+fn largest_difference(
+    one: &[[Complex; SERIES_PER_OFFSET]],
+    two: &[[Complex; SERIES_PER_OFFSET]],
+) -> f64 {
     let pairs = one.as_flattened().iter().zip(two.as_flattened());
     pairs.map(|(one, two)| (*one - *two).abs()).fold(0.0, f64::max) / one[0][1].abs()
 }
@@ -106,8 +109,10 @@ fn compliances_of_short_waves_are_plain_sums() {
         let unit = modulus.inverse();
         // zz, rr, tt and zr at rest, times k.
         let rest = [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| unit.scale(0.5 * d / (1.0 - a2)));
-        let mut wanted = vec![[Complex::default(); SERIES]; found.len()];
-        let add = |wanted: &mut [Complex; SERIES], [zz, rr, tt, zr]: Kernel, form: [f64; FORMS]| {
+        let mut wanted = vec![[Complex::default(); SERIES_PER_OFFSET]; found.len()];
+        let add = |wanted: &mut [Complex; SERIES_PER_OFFSET],
+                   [zz, rr, tt, zr]: Kernel,
+                   form: [f64; FORMS]| {
             let [all, along, across, both, x, y] = form.map(|form| 0.5 * form / PI);
             let parts = [
                 zz.scale(all),
@@ -161,7 +166,7 @@ fn statics_are_the_limit_of_slow_motions() {
 /// All cells: factor × F.
 fn assembled(
     lattice: &Lattice,
-    values: &[[Complex; SERIES]],
+    values: &[[Complex; SERIES_PER_OFFSET]],
     factor: Complex,
 ) -> (Vec<Complex64>, usize) {
     let count = lattice.counts[0] * lattice.counts[1];

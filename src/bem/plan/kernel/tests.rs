@@ -31,10 +31,10 @@ fn square() -> Lattice {
 }
 
 /// Weights of each class and series, all lags up to `lags`.
-fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES]> {
+fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES_PER_OFFSET]> {
     let all = 0..kernel.classes.count();
     all.map(|class| {
-        let mut values = [(); SERIES].map(|()| vec![0.0; lags]);
+        let mut values = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; lags]);
         let slices = values.each_mut().map(Vec::as_mut_slice);
         kernel.coefficients_in_plan(class, 1, slices).unwrap();
         values
@@ -54,7 +54,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         kernel.prepare(256, &mut unobserved).unwrap();
         let quadrature = &kernel.quadrature;
         let mut work = Workspace::default();
-        let mut values = vec![[Complex::default(); SERIES]; kernel.classes.count()];
+        let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; kernel.classes.count()];
         let mut scratch = values.clone();
         for point in 0..20 {
             let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
@@ -68,7 +68,7 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         for row in rows {
             let number = |column: usize| row[column].parse::<isize>().unwrap();
             let place = |at: usize| "zxy".find(row[2].chars().nth(at).unwrap()).unwrap();
-            let lag: Vec<[f64; SERIES]> = found
+            let lag: Vec<[f64; SERIES_PER_OFFSET]> = found
                 .iter()
                 .map(|kinds| kinds.each_ref().map(|lags| lags[number(1).unsigned_abs() - 1]))
                 .collect();
@@ -198,7 +198,7 @@ fn bad_requests_are_told() {
         kernel.coefficients(0, 1, [&mut [], &mut [], &mut []]),
         Err(Error::Scene { .. })
     ));
-    let mut none = [(); SERIES].map(|()| vec![]);
+    let mut none = [(); SERIES_PER_OFFSET].map(|()| vec![]);
     let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));
