@@ -54,14 +54,12 @@ impl Rayleigh {
         // The cubic in w = y − 1, whose one positive root is the Rayleigh wave:
         // −16 h w³ + (24 − 16a² − 48h) w² + (40 − 32a² − 48h) w + 1.
         let cubic = [-16.0 * h, 32.0 * a2 - 24.0, 16.0 * a2 - 8.0, 1.0];
-        let value = |w: f64| ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3];
-        let slope = |w: f64| (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2];
-        // P(1) = 1 > 0 and P → −∞: bisect, then polish.
+        // P(1) = 1 > 0 and P → −∞: bisect, then polish by Newton's method.
         let mut low = 0.0;
         let mut high = 4.0;
         for _ in 0..30 {
             let middle = 0.5 * (low + high);
-            if value(middle) > 0.0 {
+            if cubic_value(cubic, middle) > 0.0 {
                 low = middle;
             } else {
                 high = middle;
@@ -69,7 +67,7 @@ impl Rayleigh {
         }
         let mut excess = 0.5 * (low + high);
         for _ in 0..3 {
-            excess -= value(excess) / slope(excess);
+            excess -= cubic_value(cubic, excess) / cubic_slope(cubic, excess);
         }
         let z = excess + h;
         // In c = a² − y: 16h c³ + C₂ c² − C₁ c + g⁴ with C₂ = 48a⁴ − 64a² + 24; its roots sum to
@@ -123,6 +121,16 @@ impl Rayleigh {
     }
 }
 
+/// A cubic at `w`, coefficients from the highest power down.
+fn cubic_value(cubic: [f64; 4], w: f64) -> f64 {
+    ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3]
+}
+
+/// Derivative of the cubic at `w`.
+fn cubic_slope(cubic: [f64; 4], w: f64) -> f64 {
+    (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2]
+}
+
 impl Soil {
     /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
     pub fn rayleigh_wave_speed(&self) -> f64 {
@@ -130,33 +138,28 @@ impl Soil {
     }
 }
 
-/// Number of terms: enough for an error at rounding level from three Rayleigh arrivals on.
+/// Number of terms of the series at late times.
+///
+/// They suffice for an error at rounding level from three Rayleigh arrivals on.
 pub(crate) const LATE_SERIES_TERMS: usize = 20;
 
-/// `c_k` of f = Σ `c_k` τ^(−2k−1), for zz and xx; converges for τ above the Rayleigh arrival.
+/// Coefficients of the kernel's series at late times, zz and xx.
 ///
+/// `c_k` of f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival.
 /// f = τ⁻¹ n(v)/p(v) with v = τ⁻² and p(v) = v³ P(1/v): the numerators are binomial series, and
 /// the division by the cubic is a recurrence, stable because the Rayleigh root dominates.
 pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS]; 2] {
     let a2 = rayleigh.a2;
-    let root = |k2: f64| {
-        let mut series = [1.0; LATE_SERIES_TERMS];
-        for k in 1..LATE_SERIES_TERMS {
-            series[k] = series[k - 1] * k2 * (k as f64 - 1.5) / k as f64;
-        }
-        series
-    };
-    let sa = root(a2);
-    let sb = root(1.0);
+    let sa = square_root_series(a2);
+    let sb = square_root_series(1.0);
     let mut result = [[0.0; LATE_SERIES_TERMS]; 2];
     let p = [-16.0 * rayleigh.h, 24.0 - 16.0 * a2, -8.0, 1.0];
     for k in 0..LATE_SERIES_TERMS {
-        let at =
-            |s: &[f64; LATE_SERIES_TERMS], back: usize| if k >= back { s[k - back] } else { 0.0 };
-        let square = |s: &[f64; LATE_SERIES_TERMS]| 4.0 * at(s, 0) - 4.0 * at(s, 1) + at(s, 2);
+        let sa_k = last_three(&sa, k);
+        let sb_k = last_three(&sb, k);
         let numerator = [
-            square(&sa) + 4.0 * (at(&sb, 0) - a2 * at(&sb, 1)),
-            4.0 * (at(&sa, 0) - at(&sa, 1)) + square(&sb),
+            (4.0 * sa_k[0] - 4.0 * sa_k[1] + sa_k[2]) + 4.0 * (sb_k[0] - a2 * sb_k[1]),
+            4.0 * (sa_k[0] - sa_k[1]) + (4.0 * sb_k[0] - 4.0 * sb_k[1] + sb_k[2]),
         ];
         for (series, numerator) in result.iter_mut().zip(numerator) {
             let mut value = -numerator;
@@ -167,6 +170,20 @@ pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS
         }
     }
     result
+}
+
+/// Coefficients of √(1 − `factor` v) in powers of v.
+fn square_root_series(factor: f64) -> [f64; LATE_SERIES_TERMS] {
+    let mut series = [1.0; LATE_SERIES_TERMS];
+    for k in 1..LATE_SERIES_TERMS {
+        series[k] = series[k - 1] * factor * (k as f64 - 1.5) / k as f64;
+    }
+    series
+}
+
+/// Coefficients k, k − 1 and k − 2 of a series; zero before its first.
+fn last_three(series: &[f64], k: usize) -> [f64; 3] {
+    [0, 1, 2].map(|back| if k >= back { series[k - back] } else { 0.0 })
 }
 
 #[cfg(test)]

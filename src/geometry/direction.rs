@@ -38,11 +38,11 @@ words! { pub(crate) Direction, "direction", {
 impl Direction {
     /// Displacement or rotation in this direction in a rigid `motion` by one unit.
     ///
-    /// `arm`: place relative to the point about which a rotation turns, m. The right-hand rule holds in the plane
-    /// too.
+    /// `[x, y, z]`: position relative to the point about which a rotation turns, m. The right-hand rule holds in the
+    /// plane too.
     pub(crate) fn in_rigid_motion(self, motion: Self, [x, y, z]: [f64; 3]) -> f64 {
         match (self, motion) {
-            // A difference, which is not −0.
+            // The difference is never −0, unlike the negative of zero.
             (Self::X, Self::Rotation | Self::RotationZ) => 0.0 - y,
             (Self::Y, Self::Rotation | Self::RotationZ) => x,
             (Self::Z, Self::RotationX) => y,

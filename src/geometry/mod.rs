@@ -16,9 +16,9 @@ pub(crate) use footing::{Edge, Footing};
 pub(crate) use lattice::{Lattice, SERIES_PER_OFFSET, lattice_cells, offset};
 pub(crate) use patch::{Patch, check_count, check_order};
 
-/// Directions of motion and traction at each element of a ground in the plane: down, along x.
+/// Components of a traction on an element in the plane: down, along x.
 pub(crate) const COMPONENTS_IN_PLANE: usize = 2;
-/// Directions of motion and traction at each element of a ground in plan: down, along x, along y.
+/// Components of a traction on an element in plan: down, along x, along y.
 pub(crate) const COMPONENTS_IN_SPACE: usize = 3;
 
 /// Order of the numbers in a contact vector: component by component, all elements in their order.
@@ -37,7 +37,7 @@ impl ContactLayout {
     /// Layout of these elements, which have equally many directions.
     pub(crate) fn for_elements(elements: &[ContactElement]) -> Self {
         Self::new(
-            elements.first().map_or(COMPONENTS_IN_PLANE, |own| own.directions().len()),
+            elements.first().map_or(COMPONENTS_IN_PLANE, |element| element.directions().len()),
             elements.len(),
         )
     }
@@ -57,9 +57,9 @@ impl ContactLayout {
         0..self.components - 1
     }
 
-    /// Base moment and rotation over those about y by the right-hand rule: 1 in plan.
+    /// Sign of base moment and rotation relative to the right-hand rule about y.
     ///
-    /// −1 in the plane, where they count counter-clockwise.
+    /// 1 in plan; −1 in the plane, where they count counter-clockwise.
     pub(crate) const fn turn(self) -> f64 {
         [-1.0, 1.0][self.is_plan() as usize]
     }
@@ -97,27 +97,30 @@ impl ContactLayout {
     /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
     pub(crate) fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
-            let (own, rest) = vector.split_at(self.elements.min(vector.len()));
+            let (component, rest) = vector.split_at(self.elements.min(vector.len()));
             vector = rest;
-            own
+            component
         })
     }
 
     /// Mutable components of a contact vector, split as by [`ContactLayout::split`].
     pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
         std::array::from_fn(|_| {
-            let all = std::mem::take(&mut vector);
-            let (own, rest) = all.split_at_mut(self.elements.min(all.len()));
+            let remaining = std::mem::take(&mut vector);
+            let (component, rest) = remaining.split_at_mut(self.elements.min(remaining.len()));
             vector = rest;
-            own
+            component
         })
     }
 }
 
 /// The smallest low end and the largest high end.
 pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    let none = [f64::INFINITY, f64::NEG_INFINITY];
-    ends.fold(none, |[least, most], [low, high]| [least.min(low), most.max(high)])
+    let mut far = [f64::INFINITY, f64::NEG_INFINITY];
+    for [low, high] in ends {
+        far = [far[0].min(low), far[1].max(high)];
+    }
+    far
 }
 
 /// The smallest and the largest value.
@@ -126,24 +129,25 @@ pub(crate) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Distance between two ends that counts as rounding, relative to the interval.
-const ROUNDING: f64 = 1e-9;
+const END_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// Number of intervals in a row: the fewest that lead from the first end to the last.
 pub(crate) fn in_a_row(mut ends: Vec<[f64; 2]>) -> usize {
     ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
     let mut count = 0;
-    let mut end = f64::NEG_INFINITY;
-    let mut reach = f64::NEG_INFINITY;
-    let mut rounding = 0.0;
+    // End of the intervals counted so far, and the largest end of all intervals so far.
+    let mut counted_end = f64::NEG_INFINITY;
+    let mut largest_end = f64::NEG_INFINITY;
+    let mut tolerance = 0.0;
     for [low, high] in ends {
-        rounding = ROUNDING * (high - low);
-        if low > end + rounding {
+        tolerance = END_TOLERANCE_FACTOR * (high - low);
+        if low > counted_end + tolerance {
             count += 1;
-            end = if low > reach + rounding { high } else { reach };
+            counted_end = if low > largest_end + tolerance { high } else { largest_end };
         }
-        reach = reach.max(high);
+        largest_end = largest_end.max(high);
     }
-    count + usize::from(reach > end + rounding)
+    count + usize::from(largest_end > counted_end + tolerance)
 }
 
 /// The middle between two ends.
@@ -156,7 +160,9 @@ pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }
 
-/// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
+/// Resultant of a component along x and one along y.
+///
+/// In the plane, where the component along y is zero, it keeps the sign of the component along x.
 pub(crate) fn resultant(along: f64, across: f64) -> f64 {
     if across == 0.0 { along } else { along.hypot(across) }
 }
