@@ -11,8 +11,8 @@ use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 use crate::soil::{Bedrock, SoilProfile};
 
-/// Default tolerance of the wavenumber integrals.
-const TOLERANCE: f64 = 1e-10;
+/// Relative tolerance of the wavenumber integrals unless the user sets another.
+const DEFAULT_INTEGRAL_TOLERANCE: f64 = 1e-10;
 
 /// Soil profile, with the accuracy of its convolution weights.
 #[derive(Debug, Clone)]
@@ -29,15 +29,17 @@ impl ElasticSource {
     /// Source of `profile` under strips, or under the cells of a plan, with default accuracy.
     pub(super) fn new(profile: SoilProfile, plan: Option<Plan>) -> Result<Self> {
         profile.check()?;
-        Ok(Self { profile, plan, stages: None, tolerance: TOLERANCE, file: None })
+        Ok(Self { profile, plan, stages: None, tolerance: DEFAULT_INTEGRAL_TOLERANCE, file: None })
     }
 
     /// Runge–Kutta stages for steps of `time_step` seconds; `None` for the closed form.
     pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
-        let by_rule = || Stages::for_profile(&self.profile, time_step);
-        let strips = self.plan.is_none();
-        let closed = strips && self.stages.is_none() && self.profile.is_elastic_half_plane();
-        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
+        let has_closed_form =
+            self.plan.is_none() && self.stages.is_none() && self.profile.is_elastic_half_plane();
+        if has_closed_form {
+            return None;
+        }
+        Some(self.stages.unwrap_or_else(|| Stages::for_profile(&self.profile, time_step)))
     }
 
     /// Convolution weights of cells in plan.
@@ -45,7 +47,7 @@ impl ElasticSource {
         let stages = self.stages(time_step).unwrap_or_default();
         let profile = self.profile.clone();
         let file = self.file.clone();
-        LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
+        LatticeKernel::in_plan(profile, plan, stages, [time_step, self.tolerance], file)
     }
 
     /// Convolution weights of strips by convolution quadrature.
@@ -57,11 +59,8 @@ impl ElasticSource {
     ) -> Result<StripWeights> {
         let profile = self.profile.clone();
         let file = self.file.clone();
-        StripWeights::under_strips(profile, elements, stages, self.sizes(time_step), file)
-    }
-
-    fn sizes(&self, time_step: f64) -> [f64; 2] {
-        [time_step, self.tolerance]
+        let steps = [time_step, self.tolerance];
+        StripWeights::under_strips(profile, elements, stages, steps, file)
     }
 }
 
