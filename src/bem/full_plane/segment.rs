@@ -33,8 +33,8 @@ impl Segment {
 
     /// Unit normal (x, z) pointing out of the soil: (0, −1) on a flat surface.
     pub fn normal(&self) -> [f64; 2] {
-        let [along, down] = self.direction();
-        [down, -along]
+        let direction = self.direction();
+        [direction[1], -direction[0]]
     }
 
     /// Distance (m) of a point (x, z) from the element.
@@ -48,7 +48,7 @@ impl Segment {
     }
 }
 
-/// Bytes for each pair of elements: eight dense operators of 2 × 2 numbers.
+/// Memory for each pair of elements, bytes: eight dense operators of 2 × 2 numbers.
 const BYTES_PER_PAIR: f64 = 256.0;
 
 /// Error if the operators between so many elements would not fit into memory.
@@ -72,9 +72,10 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     for (q, source) in segments.iter().enumerate() {
         for (p, receiver) in segments.iter().enumerate() {
             let distance = source.distance(receiver.center());
-            let apart = p == q || distance >= 1e-6 * source.length().min(receiver.length());
+            let min_distance = 1e-6 * source.length().min(receiver.length());
             let quantity = "distance of a boundary element from the midpoint of another";
-            require(quantity, distance, apart, "at least 1e-6 of the shorter")?;
+            let fits = p == q || distance >= min_distance;
+            require(quantity, distance, fits, "at least 1e-6 of the shorter")?;
         }
     }
     Ok(())

@@ -27,6 +27,7 @@ use crate::soil::Soil;
 pub struct VerticalWaves {
     soil: Soil,
     surface: Box<dyn FreeField>,
+    /// t₀, s.
     delay: f64,
 }
 
@@ -47,35 +48,43 @@ impl VerticalWaves {
         self.delay
     }
 
-    fn speeds(&self) -> [f64; 2] {
-        [self.soil.shear_wave_speed(), self.soil.pressure_wave_speed()]
+    /// Mean of the surface displacements that up- and downgoing waves bring to a depth.
+    fn displacement_component(&self, component: usize, speed: f64, depth: f64, time: f64) -> f64 {
+        let record_time = time - self.delay;
+        let travel = depth / speed;
+        let upgoing = self.surface.displacement(0.0, record_time + travel)[component];
+        let downgoing = self.surface.displacement(0.0, record_time - travel)[component];
+        0.5 * (upgoing + downgoing)
+    }
+
+    /// Derivative of a displacement component with respect to depth.
+    fn depth_derivative(&self, component: usize, speed: f64, depth: f64, time: f64) -> f64 {
+        let record_time = time - self.delay;
+        let travel = depth / speed;
+        let upgoing = self.surface.velocity(0.0, record_time + travel)[component];
+        let downgoing = self.surface.velocity(0.0, record_time - travel)[component];
+        0.5 * (upgoing - downgoing) / speed
     }
 }
 
 impl IncidentField for VerticalWaves {
     fn displacement(&self, point: [f64; 2], time: f64) -> [f64; 2] {
-        let now = time - self.delay;
-        let at = |k: usize| {
-            let lag = point[1] / self.speeds()[k];
-            let s = |t: f64| self.surface.displacement(0.0, t)[k];
-            0.5 * (s(now + lag) + s(now - lag))
-        };
+        let shear = self.soil.shear_wave_speed();
+        let pressure = self.soil.pressure_wave_speed();
+        let horizontal = self.displacement_component(0, shear, point[1], time);
+        let vertical = self.displacement_component(1, pressure, point[1], time);
         // The record is positive up, z is positive down.
-        [at(0), -at(1)]
+        [horizontal, -vertical]
     }
 
     fn stress(&self, point: [f64; 2], time: f64) -> [f64; 3] {
-        let now = time - self.delay;
-        let slope = |k: usize| {
-            let c = self.speeds()[k];
-            let lag = point[1] / c;
-            let v = |t: f64| self.surface.velocity(0.0, t)[k];
-            0.5 * (v(now + lag) - v(now - lag)) / c
-        };
+        let shear = self.soil.shear_wave_speed();
+        let pressure = self.soil.pressure_wave_speed();
         let mu = self.soil.shear_modulus();
         let nu = self.soil.poisson();
-        let lame = 2.0 * mu * nu / (1.0 - 2.0 * nu);
-        let strain = -slope(1);
-        [lame * strain, (lame + 2.0 * mu) * strain, mu * slope(0)]
+        let lambda = 2.0 * mu * nu / (1.0 - 2.0 * nu);
+        let shear_strain = self.depth_derivative(0, shear, point[1], time);
+        let vertical_strain = -self.depth_derivative(1, pressure, point[1], time);
+        [lambda * vertical_strain, (lambda + 2.0 * mu) * vertical_strain, mu * shear_strain]
     }
 }

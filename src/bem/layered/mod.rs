@@ -5,7 +5,7 @@
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
 //! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
-//! | passivity | the gate that checks convolution weights |
+//! | passivity | the check of convolution weights |
 //! | block_store, block_file | blocks of convolution weights in memory and in a file |
 //! | threads | work on several threads |
 //! | weights | convolution weights for a history |
@@ -29,12 +29,14 @@ mod threads;
 mod wavenumber;
 mod weights;
 
-pub(super) use coefficients::{FINER, Quadrature};
-pub(super) use compliance::{Compliance, SurfaceCompliance};
+pub(super) use coefficients::{INTEGRAL_TOLERANCE_FACTOR, Quadrature};
+pub(super) use compliance::{LayeredCompliance, SurfaceCompliance};
 #[cfg(feature = "embedded")]
-pub(super) use contour::own_classes;
-pub(super) use form_factors::{DEGREES, POINTS, legendre};
-pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
+pub(super) use contour::self_pair_classes;
+pub(super) use form_factors::{LEGENDRE_DEGREES, PANEL_POINTS, legendre};
+pub(super) use halving::{
+    PANEL_TOLERANCE_EXPONENT, ROUNDING_FLOOR_FACTOR, by_halves, last_coefficients, median,
+};
 pub use impedance::{StripContact, StripImpedance};
 pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
 #[cfg(test)]

@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 
 use super::corner_waves::{CornerWaves, WaveBuffers};
 use super::forms::{AngularMeans, FORM_COUNT, integrals};
-use crate::bem::layered::{DEGREES, POINTS, legendre, on_grid, on_threads, threads};
+use crate::bem::layered::{LEGENDRE_DEGREES, PANEL_POINTS, legendre, on_grid, on_threads, threads};
 use crate::error::{GroundError, Result, Watch, memory};
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
@@ -45,7 +45,7 @@ const OPERATIONS_PER_WAVE: f64 = 2e3;
 /// Number of cells that cost as much as the surface compliance.
 const CELLS_PER_SURFACE_COMPLIANCE: f64 = 80.0;
 /// Number of points for Legendre coefficients of the forms.
-const LEGENDRE_POINT_COUNT: usize = DEGREES + 8;
+const LEGENDRE_POINT_COUNT: usize = LEGENDRE_DEGREES + 8;
 
 /// Rows of forms: form by form, row by row, all classes.
 #[derive(Debug)]
@@ -103,7 +103,7 @@ pub(super) struct FormTable {
     pub(super) width: f64,
     pub(super) rule: Rule,
     /// Legendre polynomials at the Gauss points.
-    pub(super) polynomials: Vec<[f64; DEGREES]>,
+    pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
     tabulated: OnceLock<Tabulated>,
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<FormRows>>,
@@ -163,7 +163,7 @@ impl FormTable {
             lattice: lattice.clone(),
             classes,
             width,
-            rule: Rule::new(POINTS),
+            rule: Rule::new(PANEL_POINTS),
             polynomials: vec![],
             tabulated: OnceLock::new(),
             legendre: vec![],
@@ -194,7 +194,7 @@ impl FormTable {
             return Err(GroundError::TooFine { span, wavenumber: end, most: max_end }.into());
         }
         // Values at all points, and rows of tails, which are fewer.
-        let bytes = 8.0 * (FORM_COUNT * POINTS * classes) as f64 * 2.0 * max_k / width;
+        let bytes = 8.0 * (FORM_COUNT * PANEL_POINTS * classes) as f64 * 2.0 * max_k / width;
         memory::check("cells of a mat", cells, bytes)?;
         let max_panels_to_k = table.panels(root);
         table.legendre = (0..max_panels_to_k).map(|_| OnceLock::new()).collect();
@@ -247,7 +247,7 @@ impl FormTable {
         // Numbers of panels up to K of all Laplace variables.
         let panels_to_k = self.panels(0.0)..=self.max_panels_to_k();
         let max_panels_to_k = *panels_to_k.end();
-        let values = FormRows::new(max_panels_to_k * POINTS, classes);
+        let values = FormRows::new(max_panels_to_k * PANEL_POINTS, classes);
         let mut tabulated = Tabulated { values, tails: vec![] };
         let mut sums = FormRows::new(TAIL_TERMS, classes);
         // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
@@ -264,7 +264,7 @@ impl FormTable {
             for (i, (node, values)) in self.rule.nodes.iter().zip(rows).enumerate() {
                 let k = self.wavenumber(panel, *node);
                 if panel < max_panels_to_k {
-                    tabulated.values.set(panel * POINTS + i, values);
+                    tabulated.values.set(panel * PANEL_POINTS + i, values);
                 }
                 let fading = smooth_step((k - fade_start) / (fade_end - fade_start));
                 let mut weight = 0.5 * self.width * self.rule.weights[i];
@@ -334,7 +334,7 @@ impl FormTable {
         self.legendre[panel].get_or_init(|| {
             let mut panel_forms = PanelForms::new(self);
             let rule = Rule::new(LEGENDRE_POINT_COUNT);
-            let mut rows = FormRows::new(DEGREES, self.classes);
+            let mut rows = FormRows::new(LEGENDRE_DEGREES, self.classes);
             let forms = panel_forms.forms(panel, &rule.nodes);
             for ((x, weight), values) in
                 rule.points().zip(forms.chunks_exact(FORM_COUNT * self.classes))

@@ -18,8 +18,9 @@
 use super::form_table::{FormRows, FormTable, TAIL_TERMS};
 use super::forms::FORM_COUNT;
 use crate::bem::layered::{
-    Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, SurfaceCompliance, by_halves, deep,
-    last_coefficients, legendre, median, surface_outlook, surface_series, unresolved,
+    Compliances, LEGENDRE_DEGREES, LayeredCompliance, PANEL_POINTS, PANEL_TOLERANCE_EXPONENT,
+    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, by_halves, deep, last_coefficients, legendre, median,
+    surface_outlook, surface_series, unresolved,
 };
 use crate::error::{GroundError, Result, Watch};
 use crate::geometry::{Lattice, SERIES_PER_OFFSET};
@@ -54,7 +55,7 @@ pub(in crate::bem) struct CellIntegrals {
 /// Buffers of one thread.
 #[derive(Debug, Default)]
 pub(crate) struct CellWorkspace {
-    ground: Compliance,
+    ground: LayeredCompliance,
     panels: PanelBuffers,
 }
 
@@ -63,7 +64,7 @@ pub(crate) struct CellWorkspace {
 struct PanelBuffers {
     /// Kernels at all points, with their weights.
     kernels: Vec<CellKernel>,
-    samples: Vec<[CellKernel; POINTS]>,
+    samples: Vec<[CellKernel; PANEL_POINTS]>,
     stack: Vec<(f64, f64, u32)>,
     weights: Vec<f64>,
     sums: Vec<f64>,
@@ -73,7 +74,7 @@ struct PanelBuffers {
 
 /// Kernels of the ground at one Laplace variable, without their static values.
 struct DynamicKernel<'a> {
-    ground: &'a mut Compliance,
+    ground: &'a mut LayeredCompliance,
     /// k C at s = 0.
     static_kernel: CellKernel,
 }
@@ -107,7 +108,7 @@ impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
 
     /// Errors are 0.4 to 4.8 with 8 × 8 cells on a half-space and a damped layer, two time steps, tolerances of 1e-13
     /// to 1e-10, and up to 32 768 lags.
-    const LATE_ERROR: f64 = 5.0;
+    const LATE_ERROR_FACTOR: f64 = 5.0;
 
     fn make_ready(&self, progress: &mut Watch) -> Result<()> {
         self.table.tabulate(progress)
@@ -178,7 +179,7 @@ impl CellIntegrals {
         variables: impl IntoIterator<Item = Complex>,
         tolerance: f64,
     ) -> Result<Self> {
-        let mut ground = Compliance::default();
+        let mut ground = LayeredCompliance::default();
         let mut largest_root = 0.0_f64;
         for s in variables {
             ground.set(profile, s)?;
@@ -191,13 +192,13 @@ impl CellIntegrals {
     /// Overwrites `work.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.
     fn integrate(
         &self,
-        ground: &mut Compliance,
+        ground: &mut LayeredCompliance,
         s: Complex,
         work: &mut PanelBuffers,
     ) -> Result<()> {
-        let (modulus, q2, a2) = ground.top();
-        let series = kernel_series(a2);
-        let softness = modulus.inverse();
+        let top = ground.top();
+        let series = kernel_series(top.a2);
+        let softness = top.modulus.inverse();
         let panels = self.table.panels(ground.root());
         let Some([values, tail]) = self.table.tabulated(panels) else {
             let width = self.table.width;
@@ -208,7 +209,7 @@ impl CellIntegrals {
         };
         work.sums.clear();
         work.sums.resize(2 * SERIES_PER_OFFSET * self.table.classes, 0.0);
-        let ratio = q2.scale(self.table.unit().powi(-2));
+        let ratio = top.q2.scale(self.table.unit().powi(-2));
         let mut power = softness;
         work.kernels.clear();
         for term in series {
@@ -247,8 +248,8 @@ impl CellIntegrals {
                 * (size + dynamic.static_kernel[0].abs());
             work.samples.push(samples);
         }
-        work.evaluations += POINTS * panels;
-        let max_error = self.tolerance.powf(SHARE) * integral_size;
+        work.evaluations += PANEL_POINTS * panels;
+        let max_error = self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_size;
         let mut unresolved_panels = vec![];
         work.kernels.clear();
         for panel in 0..panels {
@@ -260,7 +261,7 @@ impl CellIntegrals {
                 }
             } else {
                 unresolved_panels.push(panel);
-                work.kernels.extend([CellKernel::default(); POINTS]);
+                work.kernels.extend([CellKernel::default(); PANEL_POINTS]);
             }
         }
         take(None, work);
@@ -282,14 +283,14 @@ impl CellIntegrals {
         left: f64,
         width: f64,
         dynamic: &mut DynamicKernel,
-    ) -> [CellKernel; POINTS] {
+    ) -> [CellKernel; PANEL_POINTS] {
         std::array::from_fn(|i| dynamic.at(left + 0.5 * width * (1.0 + self.table.rule.nodes[i])))
     }
 
     /// Whether the last two Legendre coefficients are small enough.
     fn is_resolved(
         &self,
-        samples: &[CellKernel; POINTS],
+        samples: &[CellKernel; PANEL_POINTS],
         dynamic: &DynamicKernel,
         left: f64,
         width: f64,
@@ -306,7 +307,8 @@ impl CellIntegrals {
                 largest_square = largest_square.max((*value + static_value).square());
             }
         }
-        error * width * self.form_size(left) <= max_error || error <= FLOOR * largest_square.sqrt()
+        error * width * self.form_size(left) <= max_error
+            || error <= ROUNDING_FLOOR_FACTOR * largest_square.sqrt()
     }
 
     /// Moments ∫ C Pₙ dk over one panel, by halves; written to `work.kernels`.
@@ -321,9 +323,9 @@ impl CellIntegrals {
         let panel_range = [panel_width * panel as f64, panel_width];
         let PanelBuffers { kernels, stack, evaluations, .. } = work;
         kernels.clear();
-        kernels.resize(DEGREES, CellKernel::default());
+        kernels.resize(LEGENDRE_DEGREES, CellKernel::default());
         let sample = |left: f64, width: f64| {
-            *evaluations += POINTS;
+            *evaluations += PANEL_POINTS;
             let samples = self.kernel_samples(left, width, dynamic);
             let is_resolved = self.is_resolved(&samples, dynamic, left, width, max_error);
             (samples, is_resolved)

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use super::cells::Plan;
 use super::integrals::{CellIntegrals, CellWorkspace};
 use super::unions::Unions;
-use crate::bem::layered::{Compliances, FINER, Quadrature, QuadratureWeights, Stages, on_circle};
+use crate::bem::layered::{
+    Compliances, INTEGRAL_TOLERANCE_FACTOR, Quadrature, QuadratureWeights, Stages, on_circle,
+};
 use crate::error::{Result, Watch, positive, same_length};
 use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::PairClasses;
@@ -109,8 +111,12 @@ impl LatticeKernel {
             variables
                 .extend(nodes.map(|node| node.lambda.scale(LAPLACE_RADIUS_MARGIN / time_step)));
         }
-        let integrals =
-            CellIntegrals::untabulated(&plan.lattice, &profile, variables, FINER * tolerance)?;
+        let integrals = CellIntegrals::untabulated(
+            &plan.lattice,
+            &profile,
+            variables,
+            INTEGRAL_TOLERANCE_FACTOR * tolerance,
+        )?;
         let classes = plan.classes()?;
         let self_pairs = vec![[0; 2]; classes.count()];
         let steps = [time_step, tolerance];

@@ -103,10 +103,11 @@ fn compliances_of_short_waves_are_plain_sums() {
         (p1(gmb(5), gmb(1)), Complex::new(10.0, 40.0)),
     ] {
         let (found, _) = compliances(&lattice, &profile, s, 3e-12);
-        let mut ground = Compliance::default();
+        let mut ground = LayeredCompliance::default();
         ground.set(&profile, s).unwrap();
-        let (modulus, _, a2) = ground.top();
-        let unit = modulus.inverse();
+        let top = ground.top();
+        let a2 = top.a2;
+        let unit = top.modulus.inverse();
         // zz, rr, tt and zr at rest, times k.
         let rest = [1.0, 1.0, 2.0 - 2.0 * a2, -a2].map(|d| unit.scale(0.5 * d / (1.0 - a2)));
         let mut wanted = vec![[Complex::default(); SERIES_PER_OFFSET]; found.len()];
