@@ -118,6 +118,13 @@ const SUBTRACTION_REACH: f64 = 3.0;
 /// Largest number of successive halvings of a piece.
 const MAX_PIECE_HALVINGS: u32 = 60;
 
+/// Kernel of a branch at one point.
+struct BranchKernel {
+    /// zz and xx; or zx and 0.
+    values: [f64; 2],
+    u: f64,
+}
+
 /// √(sign·z + offset) as a point of the complex plane.
 fn root_of_shifted(z: Complex, sign: f64, offset: f64) -> [f64; 2] {
     let s = (z.scale(sign) + Complex::real(offset)).sqrt();
@@ -131,11 +138,12 @@ impl Branches {
         let pressure_arrival = r.a2.sqrt();
         let rayleigh_arrival = r.arrival();
         let discriminant = r.discriminant();
-        let (one, two) = r.shifted_roots(discriminant, 0.0);
-        let near_root = (discriminant > 0.0 && -one.re < NEAR_ROOT_DISTANCE).then_some(-one.re);
-        let second_point = root_of_shifted(two, 1.0, 0.0);
+        let roots = r.shifted_roots(discriminant, 0.0);
+        let is_near = discriminant > 0.0 && -roots[0].re < NEAR_ROOT_DISTANCE;
+        let near_root = is_near.then_some(-roots[0].re);
+        let second_point = root_of_shifted(roots[1], 1.0, 0.0);
         let first_point =
-            if near_root.is_some() { second_point } else { root_of_shifted(one, 1.0, 0.0) };
+            if near_root.is_some() { second_point } else { root_of_shifted(roots[0], 1.0, 0.0) };
         let pressure_pole = r.z.sqrt();
         let shear_pole = r.excess.sqrt();
         let h = r.h;
@@ -143,15 +151,15 @@ impl Branches {
             [[0.0, pressure_arrival], first_point, second_point, [-pressure_pole, 0.0]],
             [
                 [0.0, 1.0],
-                root_of_shifted(one, 1.0, -h),
-                root_of_shifted(two, 1.0, -h),
+                root_of_shifted(roots[0], 1.0, -h),
+                root_of_shifted(roots[1], 1.0, -h),
                 [-shear_pole, 0.0],
             ],
             [[0.0, pressure_arrival], first_point, second_point, [h.sqrt(), 0.0]],
             [
                 [0.0, shear_pole],
-                root_of_shifted(one, -1.0, h),
-                root_of_shifted(two, -1.0, h),
+                root_of_shifted(roots[0], -1.0, h),
+                root_of_shifted(roots[1], -1.0, h),
                 [h.sqrt(), 0.0],
             ],
             [[1.0 / rayleigh_arrival, 0.0]; 4],
@@ -256,10 +264,13 @@ impl Branches {
         for (node, node_weight) in rule.nodes.iter().zip(&rule.weights) {
             let s = center + half_length * node;
             let node_weight = node_weight * half_length;
-            let [one, two, u] = self.kernel_without_pole(branch, s, pole);
-            let weight_value =
-                if branch == Branch::Tail { weight.value_over_speed(u) } else { weight.value(u) };
-            let mut value = [one * weight_value, two * weight_value];
+            let kernel = self.kernel_without_pole(branch, s, pole);
+            let weight_value = if branch == Branch::Tail {
+                weight.value_over_speed(kernel.u)
+            } else {
+                weight.value(kernel.u)
+            };
+            let mut value = kernel.values.map(|value| value * weight_value);
             if let Some(residue) = subtracted.residue {
                 value[0] -= residue[0];
                 value[1] -= residue[1];
@@ -299,9 +310,9 @@ impl Branches {
         if let Some(s) = pole {
             let pole_reach = gauss::reach([s, 0.0], low, high);
             if pole_reach < SUBTRACTION_REACH {
-                let [one, two, u] = self.kernel_without_pole(branch, s, pole);
-                let weight_value = weight.value(u);
-                subtracted.residue = Some([one * weight_value, two * weight_value]);
+                let kernel = self.kernel_without_pole(branch, s, pole);
+                let weight_value = weight.value(kernel.u);
+                subtracted.residue = Some(kernel.values.map(|value| value * weight_value));
             } else {
                 reach = reach.min(pole_reach);
             }
@@ -318,25 +329,24 @@ impl Branches {
     }
 
     /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.
-    fn kernel_without_pole(&self, branch: Branch, s: f64, pole: Option<f64>) -> [f64; 3] {
+    fn kernel_without_pole(&self, branch: Branch, s: f64, pole: Option<f64>) -> BranchKernel {
         let r = &self.rayleigh;
         let square = s * s;
         let sixteen = 16.0 * r.h;
         match branch {
             Branch::Pressure | Branch::Shear => {
-                let (z, y) = if branch == Branch::Pressure {
-                    (square, square + r.a2)
-                } else {
-                    (square + r.h, square + 1.0)
-                };
+                let behind_pressure = branch == Branch::Pressure;
+                let z = if behind_pressure { square } else { square + r.h };
+                let y = if behind_pressure { square + r.a2 } else { square + 1.0 };
                 let u = 1.0 / y.sqrt();
                 let common = square * u / (sixteen * (s + pole.unwrap_or(0.0)) * r.pair(z));
                 let k2 = (r.g - 2.0 * z).powi(2);
-                if branch == Branch::Pressure {
-                    [common * k2, common * 4.0 * y * (z - r.h), u]
+                let values = if behind_pressure {
+                    [common * k2, common * 4.0 * y * (z - r.h)]
                 } else {
-                    [common * 4.0 * y * z, common * k2, u]
-                }
+                    [common * 4.0 * y * z, common * k2]
+                };
+                BranchKernel { values, u }
             }
             Branch::OddLow | Branch::OddHigh => {
                 let low = branch == Branch::OddLow;
@@ -344,7 +354,7 @@ impl Branches {
                 let root = if low { r.h - square } else { z }.max(0.0).sqrt();
                 let value =
                     2.0 * (r.g - 2.0 * z) * square * root / (sixteen * (z - r.z) * r.pair(z));
-                [value, 0.0, 1.0 / (z + r.a2).sqrt()]
+                BranchKernel { values: [value, 0.0], u: 1.0 / (z + r.a2).sqrt() }
             }
             Branch::Tail => {
                 let ka = 1.0 - r.a2 * square;
@@ -354,7 +364,9 @@ impl Branches {
                 let sa = ka.sqrt();
                 let sb = kb.sqrt();
                 let k2 = (2.0 - square).powi(2);
-                [common * (k2 * sa + 4.0 * ka * sb), common * (4.0 * kb * sa + k2 * sb), s]
+                let zz = common * (k2 * sa + 4.0 * ka * sb);
+                let xx = common * (4.0 * kb * sa + k2 * sb);
+                BranchKernel { values: [zz, xx], u: s }
             }
         }
     }

@@ -107,12 +107,18 @@ impl FullPlane {
     }
 }
 
-/// Distance and direction of an offset.
-fn polar(offset: [f64; 2]) -> Result<(f64, [f64; 2])> {
+/// Distance r and direction e of an offset.
+struct PolarOffset {
+    r: f64,
+    e: [f64; 2],
+}
+
+/// Distance and direction of an offset; an error at the load.
+fn polar(offset: [f64; 2]) -> Result<PolarOffset> {
     finite("x component of the offset", offset[0])?;
     finite("z component of the offset", offset[1])?;
     let r = positive("distance", offset[0].hypot(offset[1]))?;
-    Ok((r, offset.map(|x| x / r)))
+    Ok(PolarOffset { r, e: offset.map(|x| x / r) })
 }
 
 impl FundamentalSolution for FullPlane {
@@ -126,7 +132,7 @@ impl FundamentalSolution for FullPlane {
         time: f64,
         load: LoadHistory,
     ) -> Result<[[f64; 2]; 2]> {
-        let (r, e) = polar(offset)?;
+        let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
         let functions = self.time_functions(r, time, load);
         let unit = 1.0 / (4.0 * std::f64::consts::PI * self.soil.density());
@@ -145,7 +151,7 @@ impl FundamentalSolution for FullPlane {
         time: f64,
         load: LoadHistory,
     ) -> Result<[[f64; 2]; 2]> {
-        let (r, e) = polar(offset)?;
+        let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
         finite("x component of the normal", normal[0])?;
         finite("z component of the normal", normal[1])?;

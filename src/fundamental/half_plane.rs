@@ -238,7 +238,8 @@ impl HalfPlane {
             for i in 0..AVERAGING_POINTS {
                 let angle =
                     std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(AVERAGING_POINTS);
-                let (sin, cos) = angle.sin_cos();
+                let sin = angle.sin();
+                let cos = angle.cos();
                 let fraction = 1.0 / f64::from(AVERAGING_POINTS);
                 let roots =
                     r.shifted_roots(discriminant + AVERAGING_RADIUS * cos, AVERAGING_RADIUS * sin);
@@ -254,11 +255,11 @@ impl HalfPlane {
     fn add_root_pair(
         r: &Rayleigh,
         tau: f64,
-        (one, two): (Complex, Complex),
+        roots: [Complex; 2],
         fraction: f64,
         sum: &mut [[f64; 2]; 4],
     ) {
-        for (z, other) in [(one, two), (two, one)] {
+        for (z, other) in [(roots[0], roots[1]), (roots[1], roots[0])] {
             let slope = ((z - Complex::real(r.z)) * (z - other)).scale(-16.0 * r.h);
             Self::add_root(r, tau, z, Complex::real(1.0) / slope, fraction, sum);
         }
@@ -391,7 +392,8 @@ impl FundamentalSolution for HalfPlane {
 
 /// |x| of an offset along the surface.
 fn surface_distance(offset: [f64; 2]) -> Result<f64> {
-    let [x, z] = offset;
+    let x = offset[0];
+    let z = offset[1];
     require("z component of the offset", z, z == 0.0, "0: load and receiver on the surface")?;
     let fits = x.is_finite() && x != 0.0;
     require("x component of the offset", x, fits, "finite and not zero").map(f64::abs)

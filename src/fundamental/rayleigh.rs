@@ -94,14 +94,14 @@ impl Rayleigh {
     }
 
     /// Roots of z² + σ z + (σ/2)² − d, for a complex discriminant d = `real` + i `imaginary`.
-    pub(crate) fn shifted_roots(&self, real: f64, imaginary: f64) -> (Complex, Complex) {
+    pub(crate) fn shifted_roots(&self, real: f64, imaginary: f64) -> [Complex; 2] {
         let root = Complex::new(real, imaginary).sqrt();
         let middle = Complex::real(-0.5 * self.sum);
         if imaginary == 0.0 && real > 0.0 && self.sum > 0.0 {
             let far = middle - root;
-            return (Complex::real(self.product / far.re), far);
+            return [Complex::real(self.product / far.re), far];
         }
-        (middle + root, middle - root)
+        [middle + root, middle - root]
     }
 
     /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − `τ_R`).
@@ -199,9 +199,9 @@ mod tests {
         // nu = 1/4: y = (3 + sqrt 3)/4 exactly; nu = 0: c_R^2 = 3 - sqrt 5.
         let quarter = Rayleigh::new(soil(0.25));
         assert!((quarter.square - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
-        let (first, second) = quarter.shifted_roots(quarter.discriminant(), 0.0);
-        let first = quarter.a2 + first.re;
-        let second = quarter.a2 + second.re;
+        let roots = quarter.shifted_roots(quarter.discriminant(), 0.0);
+        let first = quarter.a2 + roots[0].re;
+        let second = quarter.a2 + roots[1].re;
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
         let speed = soil(0.0).rayleigh_wave_speed();
@@ -213,8 +213,7 @@ mod tests {
         // c (C1 - C2 c + ...) = g^4 with C1 = -P'(a^2).
         for nu in [1e-1, 1e-3, 1e-6, -1e-4] {
             let r = Rayleigh::new(soil(nu));
-            let (near, _) = r.shifted_roots(r.discriminant(), 0.0);
-            let c = -near.re;
+            let c = -r.shifted_roots(r.discriminant(), 0.0)[0].re;
             let k = r.g + 2.0 * c;
             let residual = k.powi(4) - 16.0 * (r.a2 - c).powi(2) * c * (r.h + c);
             assert!(residual.abs() < 1e-14 * r.g.powi(4), "{nu} {c:e} {residual:e}");

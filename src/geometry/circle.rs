@@ -10,7 +10,9 @@ pub(crate) fn circle(radius: f64) -> impl Iterator<Item = [f64; 2]> {
     let angle = TAU / CIRCLE_CORNER_COUNT as f64;
     let corner_radius = radius * (angle / angle.sin()).sqrt();
     (0..CIRCLE_CORNER_COUNT).map(move |k| {
-        let (sin, cos) = ((k as f64 + 0.5) * angle).sin_cos();
+        let corner_angle = (k as f64 + 0.5) * angle;
+        let sin = corner_angle.sin();
+        let cos = corner_angle.cos();
         [corner_radius * cos, corner_radius * sin]
     })
 }

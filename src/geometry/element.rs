@@ -98,10 +98,9 @@ impl ContactElement {
 
     /// Sides along the tangents, m; the second is one metre in the plane.
     pub fn sides(&self) -> [f64; 2] {
-        let [low, high] = self.corners;
-        let diagonal = [0, 1, 2].map(|k| high[k] - low[k]);
-        let [_, along, across] = self.components(diagonal);
-        [along, across]
+        let diagonal = [0, 1, 2].map(|k| self.corners[1][k] - self.corners[0][k]);
+        let components = self.components(diagonal);
+        [components[1], components[2]]
     }
 
     /// Centre `[x, y, z]`, m.
@@ -162,8 +161,8 @@ impl ContactElement {
 
     /// Area inside the outline of the base, m²; in the plane the length, m.
     pub fn area(&self) -> f64 {
-        let [along, across] = self.sides();
-        along * across * self.inside
+        let sides = self.sides();
+        sides[0] * sides[1] * self.inside
     }
 
     /// Corners in order, m; in the plane both ends.

@@ -97,8 +97,9 @@ impl ContactLayout {
     /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
     pub(crate) fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
-            let (component, rest) = vector.split_at(self.elements.min(vector.len()));
-            vector = rest;
+            let count = self.elements.min(vector.len());
+            let component = &vector[..count];
+            vector = &vector[count..];
             component
         })
     }

@@ -57,7 +57,7 @@ impl TrenchModel<'_> {
         let elements = Elements::new(*degree, [*degree, self.bottom.degree]);
         let whole_stack = self.stack(false);
         let (coarse, coarse_values) = whole_stack.coarsened(&self.groups());
-        let far_column = elements.column(grid.column, &coarse, self.soils, Loads::NONE)?;
+        let far_column = elements.column(grid.column, &coarse, self.soils, Loads::NO_LOADS)?;
         let Some(far) = far_columns(far_column, coarse.nodes())? else { return Ok(None) };
         let mut side = SideStiffness { matrix: far, nodes: coarse.nodes(), loads: 0 };
         let count = self.loads();

@@ -199,7 +199,7 @@ pub(super) struct Loads {
 
 impl Loads {
     /// No loads on any column.
-    pub(super) const NONE: Self = Self { count: 0, first: None };
+    pub(super) const NO_LOADS: Self = Self { count: 0, first: None };
 }
 
 impl Elements {

@@ -43,7 +43,7 @@ pub(super) struct Modified {
 /// K₀ and K₁ of `z`; with `regular`, κ instead of K₁/z, for |z| ≤ [`SERIES_REACH`].
 pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
     if z.norm() <= SERIES_REACH {
-        let Series { zeroth, kappa } = series(z, false);
+        let BesselSeries { zeroth, kappa } = series(z, false);
         let square = z * z;
         let quotient = if regular { kappa } else { kappa + 1.0 / square };
         return Modified { zeroth, quotient, product: 1.0 + square * kappa };
@@ -63,18 +63,18 @@ pub(super) fn modified(z: Complex64, regular: bool) -> Modified {
 
 /// K₀ and κ of one argument, or their means over a line.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Series {
+pub(super) struct BesselSeries {
     pub(super) zeroth: Complex64,
     pub(super) kappa: Complex64,
 }
 
 /// K₀ and κ at `z`; with `mean`, their means over the line from 0 to `z`.
-pub(super) fn series(z: Complex64, mean: bool) -> Series {
+pub(super) fn series(z: Complex64, mean: bool) -> BesselSeries {
     let half = 0.5 * z;
     let log = half.ln();
     let q = half * half;
     let mut power = Complex64::new(1.0, 0.0);
-    let mut sums = Series::default();
+    let mut sums = BesselSeries::default();
     let mut digamma = -EULER_GAMMA;
     for k in 0..BESSEL_SERIES_TERMS {
         let next = (k + 1) as f64;

@@ -267,9 +267,9 @@ mod tests {
             history.evaluate(&mut found).unwrap();
             let mut wanted = [0.0; 8];
             for (m, [u, t]) in past.iter().enumerate() {
-                let [g, h] = &coefficients[n - m];
-                crate::linalg::dense_multiply_add(g, 1.0, t, &mut wanted);
-                crate::linalg::dense_multiply_add(h, -1.0, u, &mut wanted);
+                let lag = &coefficients[n - m];
+                crate::linalg::dense_multiply_add(&lag[0], 1.0, t, &mut wanted);
+                crate::linalg::dense_multiply_add(&lag[1], -1.0, u, &mut wanted);
             }
             for (a, b) in found.iter().zip(wanted) {
                 assert!((a - b).abs() < 1e-13, "step {n}: {a} {b}");

@@ -68,7 +68,6 @@ mod boundary;
 mod boundary_march;
 mod convolution;
 mod convolution_quadrature;
-mod cq_method;
 mod ground;
 mod ground_state;
 mod incident_field;
@@ -80,22 +79,20 @@ mod segment;
 mod smooth_integrals;
 mod stability;
 mod stability_symbol;
+mod stability_tail;
 mod stability_zeros;
 mod static_limit;
 mod step_integrals;
 mod time_kernel;
-mod vertical_waves;
 
 pub use boundary::Boundary;
 pub use boundary_march::{BoundaryMarch, Given};
-pub use convolution_quadrature::ConvolutionQuadrature;
-pub use cq_method::CqMethod;
+pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
 pub use ground::FullPlaneGround;
-pub use incident_field::IncidentField;
+pub use incident_field::{IncidentField, VerticalWaves};
 pub use segment::Segment;
 pub use stability::Stability;
 pub use time_kernel::TimeKernel;
-pub use vertical_waves::VerticalWaves;
 
 use crate::error::Result;
 

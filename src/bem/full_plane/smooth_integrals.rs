@@ -43,7 +43,10 @@ fn impulse_response(
     let t2 = c2 * time;
     let r1 = (t1 * t1 - square).sqrt();
     let q1 = -1.0 / (c1 * r1 * r1 * r1);
-    let (d, l, q2, w);
+    let d;
+    let l;
+    let q2;
+    let w;
     if both {
         let r2 = (t2 * t2 - square).sqrt();
         let sums = [t1 + r1, t2 + r2];

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::coefficients::{LagBlock, MAX_BLOCK_COUNT};
+use super::lag_block::{LagBlock, MAX_BLOCK_COUNT};
 use crate::error::{FileFault, Result};
 use crate::text::check_sum::CheckSum;
 use crate::text::file::write_file;

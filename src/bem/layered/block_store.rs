@@ -21,7 +21,7 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::block_file::{read, write};
-use super::coefficients::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
+use super::lag_block::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use crate::error::{Error, Result, Watch, require, same_length};
 
 /// Time between two checks whether another thread has finished.

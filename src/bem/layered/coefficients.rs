@@ -26,7 +26,8 @@ use super::contour::{
     CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, evaluate, panel_factor,
     self_pair_classes,
 };
-use super::runge_kutta::{Node, Stages, on_circle};
+use super::lag_block::LagBlock;
+use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
 use crate::error::{Error, Result, Watch};
@@ -34,63 +35,12 @@ use crate::history::{KINDS as STRIP_KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Number of lags of the first block.
-pub(crate) const FIRST_BLOCK_LAGS: usize = 128;
-/// Largest number of blocks: lags up to 2³¹.
-pub(crate) const MAX_BLOCK_COUNT: usize = 25;
-/// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
-const POINTS_PER_LAG: usize = 4;
 /// Tolerance of the integrals relative to the tolerance of the weights: integration errors must not cause halving.
 pub(crate) const INTEGRAL_TOLERANCE_FACTOR: f64 = 0.03;
 /// A panel is sampled only if it is predicted as resolved to this multiple of the tolerance.
 ///
 /// Half of the panels at this limit are resolved.
 pub(super) const SAMPLING_TOLERANCE_FACTOR: f64 = 100.0;
-
-/// Weights of consecutive lags, for all classes.
-#[derive(Debug)]
-pub(crate) struct LagBlock {
-    /// One list of lags for each class and kind, class by class.
-    pub(crate) values: Vec<Vec<f64>>,
-}
-
-impl LagBlock {
-    /// Number of the block that contains `lag` ≥ 1.
-    pub(crate) fn number_of(lag: usize) -> usize {
-        let index = lag - 1;
-        if index < FIRST_BLOCK_LAGS { 0 } else { (index / FIRST_BLOCK_LAGS).ilog2() as usize + 1 }
-    }
-
-    /// The first lag in block `number`.
-    pub(crate) fn first_lag(number: usize) -> usize {
-        if number == 0 { 1 } else { (FIRST_BLOCK_LAGS << (number - 1)) + 1 }
-    }
-
-    /// Number of lags in block `number`.
-    pub(crate) fn lags(number: usize) -> usize {
-        FIRST_BLOCK_LAGS << number.saturating_sub(1)
-    }
-
-    /// Circle for the transform of block `number`, for a relative accuracy of F.
-    pub(crate) fn circle(number: usize, tolerance: f64) -> Circle {
-        let length = POINTS_PER_LAG * Self::lags(number) / if number == 0 { 2 } else { 1 };
-        Circle::new(length, tolerance)
-    }
-
-    /// The last lag in block `number`.
-    pub(crate) fn last_lag(number: usize) -> usize {
-        FIRST_BLOCK_LAGS << number
-    }
-
-    /// Weights of one class from a position in the block to its end.
-    pub(crate) fn lags_from<const KINDS: usize>(
-        &self,
-        class: usize,
-        position: usize,
-    ) -> [&[f64]; KINDS] {
-        std::array::from_fn(|kind| &self.values[class * KINDS + kind][position..])
-    }
-}
 
 /// Progress of a block's samples, reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
@@ -184,7 +134,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
 
     /// Eigenvalues and weights at a z.
     pub(crate) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
-        let [z, rest] = on_circle(logarithm, angle);
+        let CirclePoint { z, rest } = on_circle(logarithm, angle);
         self.stages.nodes(z, rest)
     }
 
@@ -224,7 +174,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let spectra = self.spectra(circle, threads, &mut samples)?;
         // Factor 1/(1−z) from the mobility to the transform of Gⁿ.
         let inverse_rest: Vec<_> = (0..circle.points())
-            .map(|point| on_circle(logarithm, circle.angle(point))[1].inverse())
+            .map(|point| on_circle(logarithm, circle.angle(point)).rest.inverse())
             .collect();
         let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
         // r⁻ⁿ/L.

@@ -30,6 +30,10 @@ use crate::error::Result;
 use crate::linalg::Complex;
 use crate::soil::{Bedrock, SoilProfile};
 
+mod square;
+
+use square::Square;
+
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct SurfaceCompliance {
@@ -196,7 +200,8 @@ impl LayeredCompliance {
         // A layer from whose bottom no wave returns is a half-plane.
         let is_half_plane = lowest.thickness.is_infinite() || decay > OPAQUE_DECAY_EXPONENT;
         let mut top = if !is_half_plane && lowest.is_thin(k) {
-            let rigid = PlaneState { displacement: Square::default(), stress: Square::IDENTITY };
+            let rigid =
+                PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
             lowest.carry(k, rigid)
         } else {
             let waves = LayerWaves::new(lowest, k, self.roots[last]);
@@ -210,7 +215,8 @@ impl LayeredCompliance {
         for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
             let z = top.stress.times_inverse(top.displacement);
             if layer.is_thin(k) {
-                top = layer.carry(k, PlaneState { displacement: Square::IDENTITY, stress: z });
+                top =
+                    layer.carry(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
                 continue;
             }
             let waves = LayerWaves::new(layer, k, *roots);
@@ -357,62 +363,6 @@ impl Transfer {
             left[2] * self.pressure,
             left[3] * self.shear - left[2] * self.mixed,
         ])
-    }
-}
-
-/// A complex 2 × 2 matrix, row by row.
-#[derive(Clone, Copy, Default)]
-struct Square([Complex; 4]);
-
-impl Square {
-    const IDENTITY: Self = {
-        let zero = Complex::new(0.0, 0.0);
-        let one = Complex::new(1.0, 0.0);
-        Self([one, zero, zero, one])
-    };
-
-    /// diag(1, −1) A: displacements of the mirrored waves.
-    fn mirrored(self) -> Self {
-        let Self([a, b, c, d]) = self;
-        Self([a, b, -c, -d])
-    }
-
-    fn negative(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-
-    fn scaled(self, factor: Complex) -> Self {
-        Self(self.0.map(|x| x * factor))
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-
-    fn minus(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
-    }
-
-    fn times(self, other: Self) -> Self {
-        let Self([a, b, c, d]) = self;
-        let Self([e, f, g, h]) = other;
-        Self([a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h])
-    }
-
-    /// A⁻¹ B.
-    fn solve(self, other: Self) -> Self {
-        let Self([a, b, c, d]) = self;
-        let scale = (a * d - b * c).inverse();
-        let Self([e, f, g, h]) = other;
-        Self([d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x * scale))
-    }
-
-    /// A B⁻¹.
-    fn times_inverse(self, other: Self) -> Self {
-        let Self([e, f, g, h]) = other;
-        let scale = (e * h - f * g).inverse();
-        let Self([a, b, c, d]) = self;
-        Self([a * h - b * g, b * e - a * f, c * h - d * g, d * e - c * f].map(|x| x * scale))
     }
 }
 

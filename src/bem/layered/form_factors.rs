@@ -61,7 +61,9 @@ impl PairShape {
                 length * half_phase.sin() / half_phase
             }
         });
-        let (sin, cos) = (k * self.offset).sin_cos();
+        let phase = k * self.offset;
+        let sin = phase.sin();
+        let cos = phase.cos();
         [factors[0] * factors[1] * cos, factors[0] * factors[1] * sin]
     }
 
@@ -222,7 +224,9 @@ impl FormFactors {
         for (class, shape) in self.shapes.iter().enumerate() {
             let mut moments = [[0.0; 2]; PANEL_POINTS];
             for (y, factors) in shape.waves() {
-                let (sin, cos) = (middle * y).sin_cos();
+                let phase = middle * y;
+                let sin = phase.sin();
+                let cos = phase.cos();
                 // Real and imaginary part of iⁿ e^(iκy), n = 0 … 3.
                 let phases = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
                 for (n, bessel) in spherical_bessel(half_width * y).into_iter().enumerate() {
@@ -288,7 +292,8 @@ fn spherical_bessel(t: f64) -> [f64; PANEL_POINTS] {
         }
         return values;
     }
-    let (sin, cos) = t.sin_cos();
+    let sin = t.sin();
+    let cos = t.cos();
     if t > PANEL_POINTS as f64 {
         values[0] = sin / t;
         values[1] = (sin / t - cos) / t;

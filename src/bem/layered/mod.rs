@@ -4,7 +4,7 @@
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
-//! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
+//! | runge_kutta, contour, coefficients, lag_block | convolution weights Gⁿ by convolution quadrature |
 //! | passivity | the check of convolution weights |
 //! | block_store, block_file | blocks of convolution weights in memory and in a file |
 //! | threads | work on several threads |
@@ -19,6 +19,7 @@ mod contour;
 mod form_factors;
 mod halving;
 mod impedance;
+mod lag_block;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;
@@ -42,7 +43,7 @@ pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedance
 #[cfg(test)]
 pub(super) use passivity::margin;
 pub use runge_kutta::Stages;
-pub(super) use runge_kutta::on_circle;
+pub(super) use runge_kutta::{CirclePoint, on_circle};
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{on_grid, surface_series};
 pub(super) use threads::{on_threads, threads};

@@ -149,12 +149,19 @@ impl Stages {
     }
 }
 
-/// z = r e^(iφ) and 1 − z without cancellation, from ln r and φ.
-pub(crate) fn on_circle(logarithm: f64, angle: f64) -> [Complex; 2] {
+/// A point z of a circle about the origin.
+pub(crate) struct CirclePoint {
+    pub(crate) z: Complex,
+    /// 1 − z without cancellation.
+    pub(crate) rest: Complex,
+}
+
+/// The point z = r e^(iφ), from ln r and φ.
+pub(crate) fn on_circle(logarithm: f64, angle: f64) -> CirclePoint {
     let z = Complex::polar(logarithm.exp(), angle);
     let half_sine = (0.5 * angle).sin();
     let rest = 2.0 * half_sine * half_sine - angle.cos() * logarithm.exp_m1();
-    [z, Complex::new(rest, -z.im)]
+    CirclePoint { z, rest: Complex::new(rest, -z.im) }
 }
 
 /// A polynomial at `x`, constant term first.
@@ -214,7 +221,7 @@ mod tests {
                 (-1e-4, 3.1),
                 (-0.3, -2.0),
             ] {
-                let [z, rest] = on_circle(logarithm, angle);
+                let CirclePoint { z, rest } = on_circle(logarithm, angle);
                 let nodes: Vec<Node> = stages.nodes(z, rest).collect();
                 let one: Complex =
                     nodes.iter().fold(Complex::default(), |s, n| s + n.weight / n.lambda);
@@ -268,7 +275,7 @@ mod tests {
             [(Stages::Two, 1.0 / 72.0, 4), (Stages::Three, 1.0 / 7200.0, 6)]
         {
             let theta: f64 = 0.05;
-            let [z, rest] = on_circle(0.0, theta);
+            let CirclePoint { z, rest } = on_circle(0.0, theta);
             let smallest = stages
                 .nodes(z, rest)
                 .min_by(|a, b| a.lambda.square().total_cmp(&b.lambda.square()))

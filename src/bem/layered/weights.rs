@@ -4,7 +4,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::block_store::{BlockStore, copy_lags, last_block};
-use super::coefficients::{LagBlock, Quadrature, Samples};
+use super::coefficients::{Quadrature, Samples};
+use super::lag_block::LagBlock;
 use super::passivity;
 use super::runge_kutta::Stages;
 use super::threads::threads;

@@ -233,7 +233,9 @@ fn residue_differences(k: f64, pitch: [f64; 2], offset: [usize; 2]) -> [f64; COR
         // Places of the forms g_cc, g_c and g_s along x, of g_ss, g_s and g_c along y.
         let [even, odd, next_row] = [[0, 3, 4], [1, 4, 3]][axis];
         let unit = 4.0 * (0.5 * k * pitch[axis]).sin().powi(2) * k.powi(-4);
-        let (sin, cos) = (k * pitch[axis] * offset[axis] as f64).sin_cos();
+        let phase = k * pitch[axis] * offset[axis] as f64;
+        let sin = phase.sin();
+        let cos = phase.cos();
         if offset[across] == 0 {
             values[even] += 2.0 * k * pitch[across] * unit * cos;
             values[odd] += 2.0 * k * pitch[across] * unit * sin;

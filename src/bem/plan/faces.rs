@@ -122,13 +122,14 @@ impl MatFace {
         order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
         let mut pairs = vec![];
         for (place, &one) in order.iter().enumerate() {
-            let [x_range, y_range] = bounds[one];
+            let x_range = bounds[one][0];
+            let y_range = bounds[one][1];
             for &other in &order[place + 1..] {
                 if bounds[other][0][0] > x_range[1] {
                     break;
                 }
-                let [low, high] = bounds[other][1];
-                if low <= y_range[1] && high >= y_range[0] {
+                let other_y_range = bounds[other][1];
+                if other_y_range[0] <= y_range[1] && other_y_range[1] >= y_range[0] {
                     pairs.push([one.min(other), one.max(other)]);
                 }
             }

@@ -71,7 +71,8 @@ impl AngularMeans {
         }
         for direction in 0..count {
             let angle = std::f64::consts::FRAC_PI_2 * (direction as f64 + 0.5) / count as f64;
-            let (sin, cos) = angle.sin_cos();
+            let sin = angle.sin();
+            let cos = angle.cos();
             let half_phases = [0.5 * k * self.pitch[0] * cos, 0.5 * k * self.pitch[1] * sin];
             let size: f64 = half_phases
                 .into_iter()
@@ -115,7 +116,8 @@ impl AngularMeans {
 
 /// cos nx and sin nx for n = 0, 1, … below `count`.
 fn cosines_and_sines(x: f64, count: usize) -> Vec<[f64; 2]> {
-    let (sin, cos) = x.sin_cos();
+    let sin = x.sin();
+    let cos = x.cos();
     let mut values = Vec::with_capacity(count);
     let mut c = 1.0;
     let mut s = 0.0;
@@ -207,7 +209,8 @@ mod tests {
                 let count = 6000;
                 for n in 0..count {
                     let angle = std::f64::consts::TAU * (f64::from(n) + 0.3) / f64::from(count);
-                    let (sin, cos) = angle.sin_cos();
+                    let sin = angle.sin();
+                    let cos = angle.cos();
                     let weight = size * (sinc(0.5 * k * a * cos) * sinc(0.5 * k * b * sin)).powi(2);
                     for (class, [i, j]) in classes.iter().enumerate() {
                         let x_phase = k * a * cos * *i as f64;

@@ -6,7 +6,8 @@ use super::cells::Plan;
 use super::integrals::{CellIntegrals, CellWorkspace};
 use super::unions::Unions;
 use crate::bem::layered::{
-    Compliances, INTEGRAL_TOLERANCE_FACTOR, Quadrature, QuadratureWeights, Stages, on_circle,
+    CirclePoint, Compliances, INTEGRAL_TOLERANCE_FACTOR, Quadrature, QuadratureWeights, Stages,
+    on_circle,
 };
 use crate::error::{Result, Watch, positive, same_length};
 use crate::geometry::{COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
@@ -106,7 +107,7 @@ impl LatticeKernel {
         let mut variables = vec![];
         for point in 0..=CIRCLE_POINT_COUNT {
             let angle = std::f64::consts::PI * point as f64 / CIRCLE_POINT_COUNT as f64;
-            let [z, rest] = on_circle(0.0, angle);
+            let CirclePoint { z, rest } = on_circle(0.0, angle);
             let nodes = stages.nodes(z, rest);
             variables
                 .extend(nodes.map(|node| node.lambda.scale(LAPLACE_RADIUS_MARGIN / time_step)));

@@ -126,7 +126,7 @@ pub(super) fn cells_of_mats(
     for (place, owner) in owners.iter_mut().enumerate() {
         let cell = [place % grid.counts[0], place / grid.counts[0]];
         let mut best_mat = 0;
-        let mut best = MatCell { cell, part: CellPart::EMPTY, inside: 0.0 };
+        let mut best = MatCell { cell, part: CellPart::EMPTY_PART, inside: 0.0 };
         for (mat, area) in areas.iter_mut().enumerate() {
             let part = outer[mat].part(cell);
             if !part.is_empty() {

@@ -101,7 +101,7 @@ impl Region {
 }
 
 impl CellPart {
-    pub(super) const EMPTY: Self = Self { area: 0.0, center: [0.5; 2], is_rectangle: false };
+    pub(super) const EMPTY_PART: Self = Self { area: 0.0, center: [0.5; 2], is_rectangle: false };
 
     pub(super) fn is_cut(&self) -> bool {
         self.area < 1.0 - AREA_TOLERANCE

@@ -44,8 +44,8 @@ impl Reflection {
         }
         let mut images = vec![None; element_count];
         for cell in 0..plan.cells.len() {
-            let [i, j] = mirrored(axes, plan.cells[cell], counts);
-            let other = numbers[j * counts[0] + i]?;
+            let image = mirrored(axes, plan.cells[cell], counts);
+            let other = numbers[image[1] * counts[0] + image[0]]?;
             let arms = plan.arms(cell);
             let other_arms = plan.arms(other);
             for axis in 0..2 {

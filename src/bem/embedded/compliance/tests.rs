@@ -27,7 +27,7 @@ fn doubled_columns_are_columns_side_by_side() {
         inertia: s * s,
     });
     let elements = Elements::new(3, [3, 4]);
-    let column = elements.column(0.4, &stack, &soils, Loads::NONE).unwrap();
+    let column = elements.column(0.4, &stack, &soils, Loads::NO_LOADS).unwrap();
     let nodes = stack.nodes();
     let mut side = SideStiffness { matrix: column.mean(1.0), nodes, loads: 0 };
     for _ in 1..8 {
@@ -137,7 +137,7 @@ fn the_bottom_is_as_deep_as_guided_waves_need() {
         wrong += usize::from(of_depths[0].difference(deepest) > 1e-3);
         let change = of_depths[1].difference(deepest);
         assert!(change < 1e-8, "{k}: {change:e}");
-        let chosen = ground.compliances(s, &ground.mesh(s).unwrap().0).unwrap();
+        let chosen = ground.compliances(s, &ground.mesh(s).unwrap().mesh).unwrap();
         let change = chosen.difference(deepest);
         assert!(change < 1e-6, "{k}: {change:e}");
     }

@@ -41,7 +41,8 @@ fn add_panel(forms: &FormFactors, panel: Panel, sums: &mut [Sums]) {
 fn bessel_functions_are_spherical() {
     for t in [1e-12, 1e-3, 0.5, 0.999_999, 1.0, 3.1, 9.0, 15.9, 16.1, 300.0_f64] {
         let found = spherical_bessel(t);
-        let (sin, cos) = t.sin_cos();
+        let sin = t.sin();
+        let cos = t.cos();
         if t > 0.4 {
             let two = (3.0 / t.powi(3) - 1.0 / t) * sin - 3.0 * cos / (t * t);
             for (found, wanted) in found.iter().zip([sin / t, (sin / t - cos) / t, two]) {

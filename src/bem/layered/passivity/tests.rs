@@ -164,8 +164,8 @@ fn the_check_reports_the_smallest_eigenvalue() {
     assert!(margin(&classes, &values) > 0.0);
     // With the mobilities of the elements scaled to one, the sign of the coupling between elements decides.
     for class in 0..classes.count() {
-        let [source, receiver] = classes.representative(class).unwrap();
-        if source == receiver {
+        let pair = classes.representative(class).unwrap();
+        if pair[0] == pair[1] {
             values[class] = values[class].map(|value| -value);
         }
     }

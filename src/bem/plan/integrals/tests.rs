@@ -11,18 +11,30 @@ use crate::geometry::offset;
 use crate::linalg::gauss::Rule;
 use crate::soil::Soil;
 
+/// Compliances, and what they cost.
+struct CellCompliances {
+    values: Vec<[Complex; SERIES_PER_OFFSET]>,
+    /// Number of wavenumbers at which the ground was evaluated.
+    evaluations: usize,
+}
+
 fn compliances(
     lattice: &Lattice,
     profile: &SoilProfile,
     s: Complex,
     tolerance: f64,
-) -> (Vec<[Complex; SERIES_PER_OFFSET]>, usize) {
+) -> CellCompliances {
     let mut progress = Watch::nobody();
     let integrals = CellIntegrals::new(lattice, profile, [s], tolerance, &mut progress).unwrap();
     let mut work = CellWorkspace::default();
     let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    (values, work.panels.evaluations)
+    CellCompliances { values, evaluations: work.panels.evaluations }
+}
+
+/// The complex number in the first two columns.
+fn number(row: &[&str]) -> Complex {
+    Complex::new(row[0].parse().unwrap(), row[1].parse().unwrap())
 }
 
 fn half_space() -> SoilProfile {
@@ -39,24 +51,24 @@ fn agrees_with_the_table_of_sixteen_cells() {
     for group in rows.chunk_by(|a, b| a[..3] == b[..3]) {
         let layered = group[0][0] == "layer_rock";
         let profile = if layered { p1(gmb(5), gmb(1)) } else { half_space() };
-        let number = |text: &str| text.parse::<f64>().unwrap();
-        let s = Complex::new(number(group[0][1]), number(group[0][2]));
-        let (values, evaluations) = compliances(&lattice, &profile, s, 1e-10);
+        let s = number(&group[0][1..]);
+        let CellCompliances { values, evaluations } = compliances(&lattice, &profile, s, 1e-10);
         let largest = lattice.block(&values, [0, 0])[1][1].abs();
-        let mut own = [0.0_f64; SERIES_PER_OFFSET];
+        let mut errors = [0.0_f64; SERIES_PER_OFFSET];
         for row in group {
             let i = row[4].parse::<isize>().unwrap();
             let j = row[5].parse::<isize>().unwrap();
             let block = lattice.block(&values, [i, j]);
-            let place = |letter: char| "zxy".find(letter).unwrap();
-            let to = place(row[3].chars().nth(0).unwrap());
-            let from = place(row[3].chars().nth(1).unwrap());
-            let wanted = Complex::new(number(row[6]), number(row[7]));
+            let mut components = row[3].chars().map(|letter| "zxy".find(letter).unwrap());
+            let to = components.next().unwrap();
+            let from = components.next().unwrap();
+            let wanted = number(&row[6..]);
             let error = (block[to][from] - wanted).abs() / largest;
-            own[(2 * to + from).min(5)] = own[(2 * to + from).min(5)].max(error);
+            let pair = (2 * to + from).min(5);
+            errors[pair] = errors[pair].max(error);
             worst[usize::from(layered)] = worst[usize::from(layered)].max(error);
         }
-        println!("{} {s:?} {own:?} {evaluations}", group[0][0]);
+        println!("{} {s:?} {errors:?} {evaluations}", group[0][0]);
     }
     println!("{worst:?}");
     assert!(worst[0].max(worst[1]) < 1e-8, "{worst:?}");
@@ -79,10 +91,10 @@ fn cut_half_space_is_whole() {
     for s in
         [Complex::new(0.2, 1.5), Complex::new(3.0, 8.0), Complex::real(12.0), Complex::default()]
     {
-        let (wanted, _) = compliances(&lattice, &one, s, 1e-11);
+        let wanted = compliances(&lattice, &one, s, 1e-11).values;
         for thickness in [0.25, 3.0] {
             let cut = one.clone().with_layer(soil, thickness).unwrap();
-            let (found, _) = compliances(&lattice, &cut.with_layer(soil, 0.6).unwrap(), s, 1e-11);
+            let found = compliances(&lattice, &cut.with_layer(soil, 0.6).unwrap(), s, 1e-11).values;
             let error = largest_difference(&wanted, &found);
             println!("{s:?} {thickness} {error:e}");
             assert!(error < 2e-9, "{s:?} {thickness} {error:e}");
@@ -102,7 +114,7 @@ fn compliances_of_short_waves_are_plain_sums() {
         (half_space(), Complex::new(12.0, 25.0)),
         (p1(gmb(5), gmb(1)), Complex::new(10.0, 40.0)),
     ] {
-        let (found, _) = compliances(&lattice, &profile, s, 3e-12);
+        let found = compliances(&lattice, &profile, s, 3e-12).values;
         let mut ground = LayeredCompliance::default();
         ground.set(&profile, s).unwrap();
         let top = ground.top();
@@ -158,8 +170,8 @@ fn add_products(
 fn statics_are_the_limit_of_slow_motions() {
     let lattice = Lattice { pitch: [0.5; 2], counts: [5, 3] };
     let profile = p1(gmb(5), gmb(1));
-    let (still, _) = compliances(&lattice, &profile, Complex::default(), 1e-11);
-    let (slow, _) = compliances(&lattice, &profile, Complex::real(1e-6), 1e-11);
+    let still = compliances(&lattice, &profile, Complex::default(), 1e-11).values;
+    let slow = compliances(&lattice, &profile, Complex::real(1e-6), 1e-11).values;
     let error = largest_difference(&still, &slow);
     assert!(error < 1e-5, "{error:e}");
     assert!(still.as_flattened().iter().all(|value| value.im == 0.0));
@@ -170,7 +182,7 @@ fn assembled(
     lattice: &Lattice,
     values: &[[Complex; SERIES_PER_OFFSET]],
     factor: Complex,
-) -> (Vec<Complex64>, usize) {
+) -> Vec<Complex64> {
     let count = lattice.counts[0] * lattice.counts[1];
     let cells: Vec<_> =
         (0..count).map(|n| [n % lattice.counts[0], n / lattice.counts[0]]).collect();
@@ -186,7 +198,7 @@ fn assembled(
             }
         }
     }
-    (matrix, order)
+    matrix
 }
 
 /// Herm(sF) ≥ 0 for Re s > 0: random layers, damping, lattices; for masks and unions it is a congruence.
@@ -210,8 +222,9 @@ fn mobility_is_passive() {
         let pitch = [0.5, if case % 2 == 0 { 0.5 } else { random.between(0.25, 1.0) }];
         let lattice = Lattice { pitch, counts: [2 + case % 3, 1 + case % 4] };
         let s = Complex::new(random.between(0.02, 5.0), random.between(0.02, 20.0));
-        let (values, _) = compliances(&lattice, &profile, s, 1e-11);
-        let (matrix, order) = assembled(&lattice, &values, s);
+        let values = compliances(&lattice, &profile, s, 1e-11).values;
+        let matrix = assembled(&lattice, &values, s);
+        let order = 3 * lattice.counts[0] * lattice.counts[1];
         let [low, high] = crate::linalg::hermitian_range(&matrix, order).unwrap();
         smallest_ratio = smallest_ratio.min(low / high);
         assert!(low > -1e-10 * high, "{case} {s:?} {low:e} {high:e}");

@@ -17,8 +17,9 @@ fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
 }
 
 fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
-    let [columns, rows] = lattice.counts;
-    let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
+    let counts = lattice.counts;
+    let mask = vec![true; counts[0] * counts[1]];
+    let plan = Plan::masked([0.0; 2], lattice.pitch, counts[0], &mask).unwrap();
     LatticeKernel::in_plan(profile, &plan, stages, [TIME_STEP, 1e-10], None).unwrap()
 }
 
