@@ -47,7 +47,7 @@ impl ElasticSource {
         let stages = self.stages(time_step).unwrap_or_default();
         let profile = self.profile.clone();
         let file = self.file.clone();
-        LatticeKernel::in_plan(profile, plan, stages, [time_step, self.tolerance], file)
+        LatticeKernel::in_plan(profile, plan, stages, time_step, self.tolerance, file)
     }
 
     /// Convolution weights of strips by convolution quadrature.
@@ -59,8 +59,7 @@ impl ElasticSource {
     ) -> Result<StripWeights> {
         let profile = self.profile.clone();
         let file = self.file.clone();
-        let steps = [time_step, self.tolerance];
-        StripWeights::under_strips(profile, elements, stages, steps, file)
+        StripWeights::under_strips(profile, elements, stages, time_step, self.tolerance, file)
     }
 }
 

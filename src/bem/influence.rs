@@ -242,6 +242,7 @@ impl PairInfluence<'_> {
         breaks[count] = latest;
         let couples = self.couples(begin);
         let duration = self.kernel.travel_per_step;
+        // zz and xx are even in x; zx is odd.
         let mut even = [0.0; 2];
         let mut odd = [0.0; 2];
         for piece in breaks[..=count].windows(2) {

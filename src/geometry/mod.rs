@@ -47,7 +47,7 @@ impl ContactLayout {
         self.components
     }
 
-    /// Whether the ground is one in plan, of three directions.
+    /// Whether the elements are in plan: three components each.
     pub(crate) const fn is_plan(self) -> bool {
         self.components == COMPONENTS_IN_SPACE
     }

@@ -10,7 +10,9 @@ use realfft::num_complex::Complex64;
 use super::compliance::HalfCompliances;
 use super::ground::TrenchGround;
 use super::soil::{FreeFieldAtFaces, TrenchMesh, TrenchSoil};
-use crate::bem::layered::{StripImpedance, impedance_watch, points, stiffnesses};
+use crate::bem::layered::{
+    StripImpedance, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+};
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Block, Complex, DenseFactor};
 use crate::soil::Bedrock;
@@ -161,11 +163,11 @@ impl TrenchSoil {
         for frequency in frequencies {
             let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
             require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
-            variables.push(points(profile, span, *frequency)?);
+            variables.push(laplace_variables(profile, span, *frequency)?);
         }
         // Mesh of one frequency, with its ω.
         let mut mesh: Option<(f64, TrenchMesh)> = None;
-        let lists = stiffnesses(&variables, &[0, 1, 2], watch, |s| {
+        let lists = extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| {
             // All points of a frequency have one mesh. The response is therefore analytic in s.
             let response = match &mesh {
                 Some((omega, mesh)) if *omega == s.im => self.response(s, mesh)?,

@@ -52,8 +52,8 @@ impl TrenchSource {
         let profile = self.soil.profile().clone();
         let stages = self.stages(time_step);
         let self_pairs = self_pair_classes(&classes);
-        let steps = [time_step, WEIGHT_TOLERANCE];
-        let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, steps);
+        let tolerance = WEIGHT_TOLERANCE;
+        let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, time_step, tolerance);
         let mesh = [trench.base(), trench.wall()].concat();
         Ok(QuadratureWeights::new(quadrature, classes, None, mesh, self.file.clone()))
     }

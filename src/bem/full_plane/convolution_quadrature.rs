@@ -23,34 +23,11 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::soil::Soil;
 
 use super::bessel::Complex64;
+use super::cq_method::CqMethod;
 use super::laplace::LaplacePlane;
 use super::laplace_element::{ElementView, ViewBlock, integrate};
 use super::late_weights::{LOG_TERM_COUNT, LogTerms, first_lag, log_terms, weights};
 use super::{BoundaryKernel, Segment};
-
-/// Backward-differentiation formula behind a convolution quadrature.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum CqMethod {
-    /// δ = 1 − ζ: first order, strongly damped.
-    Bdf1,
-    /// δ = (1 − ζ) + (1 − ζ)²/2: second order.
-    #[default]
-    Bdf2,
-}
-
-impl CqMethod {
-    /// δ(ζ).
-    pub(super) fn symbol(self, zeta: Complex64) -> Complex64 {
-        let difference = 1.0 - zeta;
-        match self {
-            Self::Bdf1 => difference,
-            Self::Bdf2 => difference * (1.0 + 0.5 * difference),
-        }
-    }
-}
 
 /// The full-plane boundary equation by convolution quadrature.
 ///

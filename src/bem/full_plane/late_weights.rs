@@ -19,7 +19,7 @@
 //! The leading term −A₀/n is Δt times the impulse response −A₀/t at t = nΔt. BDF2 departs from
 //! Δt·k(nΔt) at relative order n^{−2} and more, BDF1 at n^{−1} where A₁ matters (tractions).
 
-use super::convolution_quadrature::CqMethod;
+use super::cq_method::CqMethod;
 use super::laplace_element::ElementView;
 use crate::linalg::gauss;
 use crate::soil::Soil;

@@ -68,6 +68,7 @@ mod boundary;
 mod boundary_march;
 mod convolution;
 mod convolution_quadrature;
+mod cq_method;
 mod ground;
 mod ground_state;
 mod incident_field;
@@ -87,7 +88,8 @@ mod time_kernel;
 
 pub use boundary::Boundary;
 pub use boundary_march::{BoundaryMarch, Given};
-pub use convolution_quadrature::{ConvolutionQuadrature, CqMethod};
+pub use convolution_quadrature::ConvolutionQuadrature;
+pub use cq_method::CqMethod;
 pub use ground::FullPlaneGround;
 pub use incident_field::{IncidentField, VerticalWaves};
 pub use segment::Segment;

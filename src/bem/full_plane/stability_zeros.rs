@@ -81,7 +81,7 @@ pub(super) fn smallest_zero(symbol: &BoundarySymbol, smallest_growth: f64) -> Re
     Ok(Zeros { count, zero: Some(Complex64::from_polar(modulus, seed.arg())) })
 }
 
-/// What the argument principle tells about a circle.
+/// Result of the argument principle for a circle.
 struct CircleZeros {
     /// Number of zeros inside.
     count: usize,

@@ -73,9 +73,12 @@ impl<'w, 'a> Samples<'w, 'a> {
 #[derive(Debug)]
 pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
+    /// Element compliances F(s).
     pub(crate) integrals: I,
+    /// Number of classes of pairs.
     pub(crate) classes: usize,
     pub(crate) stages: Stages,
+    /// s.
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
@@ -94,7 +97,7 @@ impl Quadrature {
     ) -> Self {
         let integrals = Wavenumbers::new(classes, INTEGRAL_TOLERANCE_FACTOR * tolerance);
         let self_pairs = self_pair_classes(classes);
-        Self::over(profile, integrals, self_pairs, stages, [time_step, tolerance])
+        Self::over(profile, integrals, self_pairs, stages, time_step, tolerance)
     }
 }
 
@@ -107,7 +110,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         integrals: I,
         self_pairs: Vec<[usize; 2]>,
         stages: Stages,
-        [time_step, tolerance]: [f64; 2],
+        time_step: f64,
+        tolerance: f64,
     ) -> Self {
         let classes = self_pairs.len();
         let self_pairs = Arc::from(self_pairs);
@@ -117,24 +121,24 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
 
     /// Overwrites `sums` with the mobility of all classes, Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z).
     ///
-    /// `place`: ln |z| and angle.
+    /// `log_z`: ln |z| and angle.
     pub(crate) fn mobility(
         &self,
-        place: [f64; 2],
+        log_z: [f64; 2],
         work: &mut I::Workspace,
         scratch: &mut [[Complex; KINDS]],
         sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         sums.fill([Complex::default(); KINDS]);
-        for node in self.nodes(place) {
+        for node in self.nodes(log_z) {
             self.add_sample(node, work, scratch, sums)?;
         }
         Ok(())
     }
 
     /// Eigenvalues and weights at a z.
-    pub(crate) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
-        let CirclePoint { z, rest } = on_circle(logarithm, angle);
+    pub(crate) fn nodes(&self, log_z: [f64; 2]) -> impl Iterator<Item = Node> {
+        let CirclePoint { z, rest } = on_circle(log_z[0], log_z[1]);
         self.stages.nodes(z, rest)
     }
 
@@ -227,17 +231,23 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             spectra.resize(count * function, Complex::default());
         }
         for (node, panels) in self.panels.iter().enumerate() {
-            let cover = circle.cover(node, |places| {
-                self.sample_panels(node, panels, places, threads, samples)?;
-                Ok(places.iter().map(|place| panels.is_resolved(*place) == Some(true)).collect())
+            let cover = circle.cover(node, |candidates| {
+                self.sample_panels(node, panels, candidates, threads, samples)?;
+                let are_resolved =
+                    candidates.iter().map(|panel| panels.is_resolved(*panel) == Some(true));
+                Ok(are_resolved.collect())
             })?;
-            for place in cover.panels {
-                let Some(Some(panel)) = panels.stored().get(&place).cloned() else { continue };
-                evaluate(node, &panel, place, circle, &mut spectra, || samples.reach(0))?;
+            for panel in cover.panels {
+                let Some(Some(polynomials)) = panels.stored().get(&panel).cloned() else {
+                    continue;
+                };
+                evaluate(node, &polynomials, panel, circle, &mut spectra, || samples.reach(0))?;
             }
-            let places: Vec<_> =
-                cover.points.iter().map(|point| [circle.logarithm, circle.angle(*point)]).collect();
-            let values = self.contributions(node, &places, threads, samples)?;
+            let mut points = Vec::with_capacity(cover.points.len());
+            for point in &cover.points {
+                points.push([circle.logarithm, circle.angle(*point)]);
+            }
+            let values = self.contributions(node, &points, threads, samples)?;
             for (function, row) in spectra.chunks_exact_mut(count).enumerate() {
                 samples.reach(0)?;
                 let values = values.as_flattened().iter().skip(function).step_by(functions);
@@ -267,12 +277,12 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
     pub(super) fn is_promising(
         &self,
         node: usize,
-        place: CirclePanel,
+        panel: CirclePanel,
         factor: f64,
         work: &mut I::Workspace,
     ) -> Result<bool> {
         let mut values = vec![];
-        for point in place.places() {
+        for point in panel.chebyshev_points() {
             let inverse_factor = panel_factor(node, point).inverse();
             let Some(node) = self.nodes(point).nth(node) else { continue };
             let first = values.len();
@@ -283,33 +293,34 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             }
         }
         let count = values.len() / (CHEBYSHEV_POINTS * OUTLOOK_COMPONENTS);
-        let self_pairs: Vec<_> = (0..count).map(|place| [place; 2]).collect();
+        // Each function is compared with itself.
+        let self_pairs: Vec<_> = (0..count).map(|function| [function; 2]).collect();
         let tolerance = factor * self.tolerance;
         let polynomials =
             PanelPolynomials::through::<OUTLOOK_COMPONENTS>(&values, &self_pairs, tolerance);
         Ok(polynomials.is_some())
     }
 
-    /// Samples those panels at `places` that are new and predicted as resolved.
+    /// Samples those `candidates` that are new and predicted as resolved.
     fn sample_panels(
         &self,
         node: usize,
         panels: &Panels,
-        places: &[CirclePanel],
+        candidates: &[CirclePanel],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
         let mut missing = vec![];
         let mut work = I::Workspace::default();
-        for place in places.iter().filter(|place| panels.is_resolved(**place).is_none()) {
+        for panel in candidates.iter().filter(|panel| panels.is_resolved(**panel).is_none()) {
             samples.reach(0)?;
-            if self.is_promising(node, *place, SAMPLING_TOLERANCE_FACTOR, &mut work)? {
-                missing.push(place);
+            if self.is_promising(node, *panel, SAMPLING_TOLERANCE_FACTOR, &mut work)? {
+                missing.push(panel);
             } else {
-                panels.stored().insert(*place, None);
+                panels.stored().insert(*panel, None);
             }
         }
-        let points: Vec<_> = missing.iter().flat_map(|place| place.places()).collect();
+        let points: Vec<_> = missing.iter().flat_map(|panel| panel.chebyshev_points()).collect();
         let mut values = self.contributions(node, &points, threads, samples)?;
         for (point, row) in points.iter().zip(values.chunks_mut(self.classes)) {
             let inverse_factor = panel_factor(node, *point).inverse();
@@ -319,37 +330,37 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         }
         let mut stored = panels.stored();
         let rows = values.chunks(CHEBYSHEV_POINTS * self.classes);
-        for (place, values) in missing.into_iter().zip(rows) {
+        for (panel, values) in missing.into_iter().zip(rows) {
             let polynomials = PanelPolynomials::through::<KINDS>(
                 values.as_flattened(),
                 &panels.self_pairs,
                 self.tolerance,
             );
-            stored.insert(*place, polynomials.map(Arc::new));
+            stored.insert(*panel, polynomials.map(Arc::new));
         }
         Ok(())
     }
 
-    /// Computes the contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
+    /// Computes the contribution of an eigenvalue to the mobility at points ln |z|, angle; class by class.
     fn contributions(
         &self,
         node: usize,
-        places: &[[f64; 2]],
+        points: &[[f64; 2]],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<Vec<[Complex; KINDS]>> {
-        let mut values = vec![[Complex::default(); KINDS]; places.len() * self.classes];
-        let items = places.iter().zip(values.chunks_mut(self.classes));
+        let mut values = vec![[Complex::default(); KINDS]; points.len() * self.classes];
+        let items = points.iter().zip(values.chunks_mut(self.classes));
         let add_sample = |(work, scratch): &mut (_, Vec<_>),
-                          (place, sums): (&[f64; 2], &mut [_])| {
+                          (point, sums): (&[f64; 2], &mut [_])| {
             scratch.resize(self.classes, [Complex::default(); KINDS]);
-            match self.nodes(*place).nth(node) {
+            match self.nodes(*point).nth(node) {
                 Some(node) => self.add_sample(node, work, scratch, sums),
                 None => Ok(()),
             }
         };
         on_threads(threads, items, add_sample, |done| samples.reach(done))?;
-        samples.done += places.len();
+        samples.done += points.len();
         Ok(values)
     }
 }

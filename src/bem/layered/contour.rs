@@ -130,10 +130,12 @@ pub(crate) struct CirclePanel {
 }
 
 impl CirclePanel {
+    /// Panels of half the width.
     fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
     }
 
+    /// Angle, rad.
     fn width(self) -> f64 {
         PI / (1_usize << self.depth) as f64
     }
@@ -145,7 +147,7 @@ impl CirclePanel {
     }
 
     /// ln |z| and angle of the Chebyshev points of this panel.
-    pub(crate) fn places(self) -> impl Iterator<Item = [f64; 2]> {
+    pub(crate) fn chebyshev_points(self) -> impl Iterator<Item = [f64; 2]> {
         let width = self.width();
         nodes().map(move |x| {
             [-PANEL_OFFSET_RATIO * width, width * (self.index as f64 + 0.5 * (1.0 + x))]
@@ -187,9 +189,9 @@ impl Panels {
         self.stored.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether the panel at `place` is resolved; `None` if it has not been tested.
-    pub(crate) fn is_resolved(&self, place: CirclePanel) -> Option<bool> {
-        self.stored().get(&place).map(Option::is_some)
+    /// Whether `panel` is resolved; `None` if it has not been tested.
+    pub(crate) fn is_resolved(&self, panel: CirclePanel) -> Option<bool> {
+        self.stored().get(&panel).map(Option::is_some)
     }
 }
 
@@ -198,8 +200,8 @@ pub(in crate::bem) fn self_pair_classes(classes: &PairClasses) -> Vec<[usize; 2]
     let mut self_pairs = vec![[0; 2]; classes.count()];
     let pairs = classes.pairs();
     let elements = classes.elements().len();
-    for (place, pair) in pairs.iter().enumerate() {
-        let members = [place / elements, place % elements];
+    for (number, pair) in pairs.iter().enumerate() {
+        let members = [number / elements, number % elements];
         self_pairs[pair.class] = members.map(|element| pairs[element * (elements + 1)].class);
     }
     self_pairs
@@ -233,8 +235,8 @@ fn is_resolved<const KINDS: usize>(
         }
         sizes.push(size);
     }
-    let [.., one, two] = &degrees[..] else { return false };
-    one.iter().zip(*two).zip(self_pairs).all(|((one, two), classes)| {
+    let [.., next_to_last, last] = &degrees[..] else { return false };
+    next_to_last.iter().zip(*last).zip(self_pairs).all(|((one, two), classes)| {
         let max_size = limit * classes.map(|class| sizes[class]).iter().product::<f64>().sqrt();
         one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= max_size)
     })
@@ -250,11 +252,11 @@ pub(crate) struct CircleCover {
 impl Circle {
     /// Covers the upper half of a circle by resolved panels and single points.
     ///
-    /// `resolved` returns for panels of one width which of them are resolved.
+    /// `are_resolved` returns for each of some panels of one width whether it is resolved.
     pub(crate) fn cover(
         self,
         node: usize,
-        mut resolved: impl FnMut(&[CirclePanel]) -> Result<Vec<bool>>,
+        mut are_resolved: impl FnMut(&[CirclePanel]) -> Result<Vec<bool>>,
     ) -> Result<CircleCover> {
         let mut resolved_panels = vec![];
         let mut panels: Vec<_> = (0..1 << COARSEST_DEPTH)
@@ -265,7 +267,7 @@ impl Circle {
             let unresolved_count = usize::from(node == 0 && panels[0].index == 0);
             let mut unresolved = panels[..unresolved_count].to_vec();
             let candidates = &panels[unresolved_count..];
-            for (panel, is_resolved) in candidates.iter().zip(resolved(candidates)?) {
+            for (panel, is_resolved) in candidates.iter().zip(are_resolved(candidates)?) {
                 if is_resolved { &mut resolved_panels } else { &mut unresolved }.push(*panel);
             }
             panels = unresolved.into_iter().flat_map(CirclePanel::halves).collect();
@@ -286,7 +288,7 @@ impl Circle {
 /// Approximate number of values between two calls of `report`: a hundredth of a second.
 const VALUES_PER_REPORT: usize = 1 << 18;
 
-/// Chebyshev polynomials of all degrees at several places.
+/// Chebyshev polynomials of all degrees at several points.
 #[inline]
 fn chebyshev(x: [f64; POINT_LANES]) -> [[f64; POINT_LANES]; CHEBYSHEV_POINTS] {
     let mut polynomials = [[1.0; POINT_LANES]; CHEBYSHEV_POINTS];
@@ -305,17 +307,17 @@ fn chebyshev(x: [f64; POINT_LANES]) -> [[f64; POINT_LANES]; CHEBYSHEV_POINTS] {
 /// `spectra` has one row for each function. An error of `report` ends the evaluation.
 pub(super) fn evaluate(
     node: usize,
-    panel: &PanelPolynomials,
-    place: CirclePanel,
+    polynomials: &PanelPolynomials,
+    panel: CirclePanel,
     circle: Circle,
     spectra: &mut [Complex],
     mut report: impl FnMut() -> Result<()>,
 ) -> Result<()> {
-    let PanelPolynomials { coefficients, phase } = panel;
+    let PanelPolynomials { coefficients, phase } = polynomials;
     let count = coefficients.len() / CHEBYSHEV_POINTS;
-    let points = place.points_of(circle);
+    let points = panel.points_of(circle);
     // Converts the polynomials from the panel's line to the circle's, x − iy.
-    let shift = -(circle.logarithm + PANEL_OFFSET_RATIO * place.width()) / (0.5 * place.width());
+    let shift = -(circle.logarithm + PANEL_OFFSET_RATIO * panel.width()) / (0.5 * panel.width());
     let mut values_on_circle = vec![Complex::default(); coefficients.len()];
     for (x, values) in nodes().zip(values_on_circle.chunks_exact_mut(count)) {
         let x = Complex::new(x, shift);
@@ -325,7 +327,9 @@ pub(super) fn evaluate(
             for (sum, coefficient) in values.iter_mut().zip(row) {
                 *sum += polynomial * *coefficient;
             }
-            (previous, polynomial) = (polynomial, x.scale(2.0) * polynomial - previous);
+            let next = x.scale(2.0) * polynomial - previous;
+            previous = polynomial;
+            polynomial = next;
         }
     }
     let coefficients = chebyshev_coefficients(&values_on_circle);
@@ -337,7 +341,7 @@ pub(super) fn evaluate(
         let x: [f64; POINT_LANES] = std::array::from_fn(|lane| {
             2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
         });
-        let polynomials = chebyshev(x);
+        let chebyshev_values = chebyshev(x);
         let factors: [Complex; POINT_LANES] = std::array::from_fn(|lane| {
             let power = Complex::polar((-phase * shift).exp(), phase * x[lane]);
             power * panel_factor(node, [circle.logarithm, circle.angle(first + lane)])
@@ -346,7 +350,7 @@ pub(super) fn evaluate(
         for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {
             let mut re = [0.0; POINT_LANES];
             let mut im = [0.0; POINT_LANES];
-            for (polynomial, row) in polynomials.iter().zip(coefficients.chunks_exact(count)) {
+            for (polynomial, row) in chebyshev_values.iter().zip(coefficients.chunks_exact(count)) {
                 let coefficient = row[function];
                 for lane in 0..POINT_LANES {
                     re[lane] += coefficient.re * polynomial[lane];

@@ -106,9 +106,10 @@ pub(in crate::bem) fn strip_impedances(
     for frequency in frequencies {
         let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
         require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
-        variables.push(points(profile, strip.classes.span(), *frequency)?);
+        variables.push(laplace_variables(profile, strip.classes.span(), *frequency)?);
     }
-    let stiffnesses = stiffnesses(&variables, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
+    let stiffnesses =
+        extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
     let mut impedances = Vec::with_capacity(frequencies.len());
     for (&frequency, entries) in frequencies.iter().zip(stiffnesses) {
         impedances.push(StripImpedance {
@@ -125,7 +126,7 @@ pub(in crate::bem) fn strip_impedances(
 /// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz) and elements over `span` (m).
 ///
 /// The only variable is iω; with undamped layers, [`POINTS_PER_FREQUENCY`] points next to iω.
-pub(in crate::bem) fn points(
+pub(in crate::bem) fn laplace_variables(
     profile: &SoilProfile,
     span: f64,
     frequency: f64,
@@ -145,20 +146,20 @@ pub(in crate::bem) fn points(
     Ok((1..=POINTS_PER_FREQUENCY).map(|j| Complex::new(spacing * j as f64, omega)).collect())
 }
 
-/// K(iω) of each frequency from its samples at the [`points`] of the frequency.
+/// K(iω) of each frequency from its samples at the [`laplace_variables`] of the frequency.
 ///
 /// `stiffness` returns a sample; `watch` is notified of each. The entries in `checked_entries` must agree between the
 /// extrapolations from all samples and from all but the last.
 ///
 /// # Errors
 /// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) if the entries do not agree; as for `stiffness`.
-pub(in crate::bem) fn stiffnesses<const N: usize>(
+pub(in crate::bem) fn extrapolated_stiffnesses<const N: usize>(
     variables: &[Vec<Complex>],
     checked_entries: &[usize],
     watch: &mut Watch,
     mut stiffness: impl FnMut(Complex) -> Result<[Complex; N]>,
 ) -> Result<Vec<[Complex; N]>> {
-    let mut found = Vec::with_capacity(variables.len());
+    let mut stiffnesses = Vec::with_capacity(variables.len());
     for (number, points) in variables.iter().enumerate() {
         let mut samples = Vec::with_capacity(points.len());
         for s in points {
@@ -167,10 +168,10 @@ pub(in crate::bem) fn stiffnesses<const N: usize>(
                 watch.reach(POINTS_PER_FREQUENCY * number + samples.len())?;
             }
         }
-        found.push(extrapolate(&samples, checked_entries, points[0].im)?);
+        stiffnesses.push(extrapolate(&samples, checked_entries, points[0].im)?);
         watch.reach(POINTS_PER_FREQUENCY * (number + 1))?;
     }
-    Ok(found)
+    Ok(stiffnesses)
 }
 
 /// K(iω) at one frequency from its samples.
@@ -179,8 +180,8 @@ fn extrapolate<const N: usize>(
     checked_entries: &[usize],
     omega: f64,
 ) -> Result<[Complex; N]> {
-    if let [only] = samples {
-        return Ok(*only);
+    if let [sample] = samples {
+        return Ok(*sample);
     }
     let limit = polynomial_at_zero(samples);
     let coarse_limit = polynomial_at_zero(&samples[..samples.len() - 1]);

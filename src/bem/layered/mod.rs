@@ -39,7 +39,9 @@ pub(super) use halving::{
     PANEL_TOLERANCE_EXPONENT, ROUNDING_FLOOR_FACTOR, by_halves, last_coefficients, median,
 };
 pub use impedance::{StripContact, StripImpedance};
-pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
+pub(super) use impedance::{
+    extrapolated_stiffnesses, impedance_watch, laplace_variables, strip_impedances,
+};
 #[cfg(test)]
 pub(super) use passivity::margin;
 pub use runge_kutta::Stages;

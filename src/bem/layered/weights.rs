@@ -46,7 +46,8 @@ impl StripWeights {
         profile: SoilProfile,
         elements: &[ContactElement],
         stages: Stages,
-        [time_step, tolerance]: [f64; 2],
+        time_step: f64,
+        tolerance: f64,
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;

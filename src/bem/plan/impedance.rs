@@ -6,7 +6,9 @@
 use super::cells::Plan;
 use super::integrals::{CellIntegrals, CellWorkspace};
 use super::sectors::{RIGID_MOTION_COUNT, Sectors};
-use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
+use crate::bem::layered::{
+    Compliances, StripContact, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+};
 use crate::error::{Observer, PlanError, Result};
 use crate::geometry::SERIES_PER_OFFSET;
 use crate::linalg::Complex;
@@ -85,7 +87,7 @@ pub fn impedances_in_plan(
     profile.check()?;
     let mut variables = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        variables.push(points(profile, plan.lattice.diagonal(), *frequency)?);
+        variables.push(laplace_variables(profile, plan.lattice.diagonal(), *frequency)?);
         check_resolution(profile, plan, *frequency)?;
     }
     let all_variables = variables.iter().flatten().copied();
@@ -100,7 +102,7 @@ pub fn impedances_in_plan(
         std::array::from_fn(|i| (RIGID_MOTION_COUNT + 1) * i);
     let mut work = CellWorkspace::default();
     let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
-    let stiffnesses = stiffnesses(&variables, &diagonal, progress, |s| {
+    let stiffnesses = extrapolated_stiffnesses(&variables, &diagonal, progress, |s| {
         integrals.compliance(profile, s, &mut work, &mut values)?;
         let matrix = sectors.stiffness(&values, coupled_components)?;
         let mut entries = [Complex::default(); MATRIX_ENTRY_COUNT];

@@ -97,7 +97,8 @@ impl LatticeKernel {
         profile: SoilProfile,
         plan: &Plan,
         stages: Stages,
-        [time_step, tolerance]: [f64; 2],
+        time_step: f64,
+        tolerance: f64,
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
@@ -120,8 +121,8 @@ impl LatticeKernel {
         )?;
         let classes = plan.classes()?;
         let self_pairs = vec![[0; 2]; classes.count()];
-        let steps = [time_step, tolerance];
-        let quadrature = Quadrature::over(profile, integrals, self_pairs, stages, steps);
+        let quadrature =
+            Quadrature::over(profile, integrals, self_pairs, stages, time_step, tolerance);
         let Lattice { pitch, counts } = &plan.lattice;
         let sample = match passivity_sample(plan) {
             Some(_) => {

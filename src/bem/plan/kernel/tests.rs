@@ -20,7 +20,7 @@ fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKer
     let counts = lattice.counts;
     let mask = vec![true; counts[0] * counts[1]];
     let plan = Plan::masked([0.0; 2], lattice.pitch, counts[0], &mask).unwrap();
-    LatticeKernel::in_plan(profile, &plan, stages, [TIME_STEP, 1e-10], None).unwrap()
+    LatticeKernel::in_plan(profile, &plan, stages, TIME_STEP, 1e-10, None).unwrap()
 }
 
 fn half_space() -> SoilProfile {
@@ -142,10 +142,10 @@ fn weights_depend_on_the_offset_alone() {
 fn weights_of_short_steps_are_sums_over_directions() {
     for (profile, step) in [(half_space(), 0.02), (p1(gmb(5), gmb(1)), 0.03)] {
         let plan = Plan::masked([0.0; 2], [0.5, 0.4], 3, &[true; 6]).unwrap();
-        let steps = [step, 1e-10];
         let by_waves =
-            LatticeKernel::in_plan(profile.clone(), &plan, Stages::Two, steps, None).unwrap();
-        let mut by_sums = LatticeKernel::in_plan(profile, &plan, Stages::Two, steps, None).unwrap();
+            LatticeKernel::in_plan(profile.clone(), &plan, Stages::Two, step, 1e-10, None).unwrap();
+        let mut by_sums =
+            LatticeKernel::in_plan(profile, &plan, Stages::Two, step, 1e-10, None).unwrap();
         by_sums.quadrature.integrals.table.direct_panels = usize::MAX;
         let one = weights(&by_waves, 128);
         let two = weights(&by_sums, 128);
@@ -175,12 +175,15 @@ fn errors_of_integrals_halve_no_panels() {
         .map(|[modulus, ratio, density]| Soil::new(modulus, ratio, density).unwrap());
     let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0).unwrap();
     let plan = Plan::rectangle(0.0..10.0, 0.0..10.0, 8).unwrap();
-    let steps = [0.24 * plan.pitch()[0] / soil.pressure_wave_speed(), 1e-10];
-    let variables = [None, Some(steps[1])].map(|tolerance| {
+    let time_step = 0.24 * plan.pitch()[0] / soil.pressure_wave_speed();
+    let weight_tolerance = 1e-10;
+    let variables = [None, Some(weight_tolerance)].map(|tolerance| {
         let count = Arc::default();
         let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0).unwrap();
         let profile = layer.with_damping(Counted(law.clone(), Arc::clone(&count)));
-        let mut kernel = LatticeKernel::in_plan(profile, &plan, Stages::Two, steps, None).unwrap();
+        let mut kernel =
+            LatticeKernel::in_plan(profile, &plan, Stages::Two, time_step, weight_tolerance, None)
+                .unwrap();
         if let Some(tolerance) = tolerance {
             kernel.quadrature.integrals.tolerance = tolerance;
         }
