@@ -92,8 +92,8 @@ impl Strip {
 
     /// Strips of `count` elements under each foundation of `structure`, as wide as the foundation.
     ///
-    /// Under a flexible base a strip has at least one element for each segment, because only the structure holds nodes
-    /// between elements.
+    /// Under a flexible base a strip has at least one element for each segment, because nodes
+    /// between elements are supported by the structure alone.
     ///
     /// ```
     /// use basemat::bem::{Grading, Strip};

@@ -4,8 +4,8 @@ use std::ops::Mul;
 
 use super::{COMPONENTS_IN_SPACE, ContactElement};
 
-/// Largest difference of a cell from its place, relative to its sides.
-const CELL_PLACE_TOLERANCE: f64 = 1e-9;
+/// Largest distance of an element from its cell, relative to the sides of a cell.
+const CELL_POSITION_TOLERANCE: f64 = 1e-9;
 /// Largest number of cells of a lattice for each element.
 const MAX_CELLS_PER_ELEMENT: f64 = 4.0;
 
@@ -134,10 +134,10 @@ pub(crate) fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2
         let sides = element.sides();
         let mut cell = [0; 2];
         for axis in 0..2 {
-            let place = (element.ends()[axis][0] - corner[axis]) / pitch[axis];
-            let has_size = (sides[axis] / pitch[axis] - 1.0).abs() <= CELL_PLACE_TOLERANCE;
-            let has_place = (place - place.round()).abs() <= CELL_PLACE_TOLERANCE;
-            if !has_size || !has_place || place.is_nan() || place >= max_count {
+            let position = (element.ends()[axis][0] - corner[axis]) / pitch[axis];
+            let has_size = (sides[axis] / pitch[axis] - 1.0).abs() <= CELL_POSITION_TOLERANCE;
+            let is_on_grid = (position - position.round()).abs() <= CELL_POSITION_TOLERANCE;
+            if !has_size || !is_on_grid || position.is_nan() || position >= max_count {
                 return None;
             }
             #[allow(
@@ -145,7 +145,7 @@ pub(crate) fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2
                 clippy::cast_sign_loss,
                 reason = "from zero to a few times the number of elements"
             )]
-            let number = place.round() as usize;
+            let number = position.round() as usize;
             cell[axis] = number;
             counts[axis] = counts[axis].max(number + 1);
         }

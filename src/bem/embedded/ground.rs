@@ -169,15 +169,14 @@ impl TrenchGround {
         let walls = self.wall_laws(strengths, gravity)?;
         let elements = self.trench_elements().elements();
         let last = elements.len() - 1;
-        let mut laws: Vec<Box<dyn InterfaceLaw>> = Vec::with_capacity(elements.len());
-        for (e, element) in elements.iter().enumerate() {
+        let laws = elements.iter().enumerate().map(move |(e, element)| -> Box<dyn InterfaceLaw> {
             if element.faces_down() {
-                laws.push(Box::new(base.clone()));
+                Box::new(base.clone())
             } else {
-                laws.push(Box::new(walls[e.min(last - e)]));
+                Box::new(walls[e.min(last - e)])
             }
-        }
-        Ok(laws)
+        });
+        Ok(laws.collect())
     }
 
     /// Laws of the elements of a wall, from the surface down, as in [`interfaces`](Self::interfaces).

@@ -19,11 +19,14 @@ pub(super) struct Moduli {
     pub(super) inertia: Complex64,
 }
 
-/// Element of a stack: its height, stretched below the near field, its soil, and its degree along z.
+/// Element of a stack.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct StackElement {
+    /// Height, m; complex where it is stretched, below the near field.
     pub(super) height: Complex64,
+    /// Number of its soil.
     pub(super) soil: usize,
+    /// Degree along z.
     pub(super) degree: usize,
 }
 

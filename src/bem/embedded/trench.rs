@@ -149,15 +149,10 @@ impl TrenchElements {
         base: impl InterfaceLaw + Clone + 'static,
         walls: impl InterfaceLaw + Clone + 'static,
     ) -> Vec<Box<dyn InterfaceLaw>> {
-        let mut laws: Vec<Box<dyn InterfaceLaw>> = vec![];
-        for element in self.elements() {
-            if element.faces_down() {
-                laws.push(Box::new(base.clone()));
-            } else {
-                laws.push(Box::new(walls.clone()));
-            }
-        }
-        laws
+        let laws = self.elements().into_iter().map(move |element| -> Box<dyn InterfaceLaw> {
+            if element.faces_down() { Box::new(base.clone()) } else { Box::new(walls.clone()) }
+        });
+        laws.collect()
     }
 
     /// Ends of the base elements of the right half, m from the axis.

@@ -27,6 +27,7 @@ const MAX_HINTED_BYTES: usize = 1 << 30;
 pub(super) struct BoundaryHistory {
     pub(super) kernel: Box<dyn BoundaryKernel>,
     pairs: SegmentPairClasses,
+    /// All pairs of an input and an output, with their series.
     links: Vec<SeriesLink>,
     /// For each class, matrix and component: coefficients of the lags below [`DIRECT_STEPS`]; empty if zero.
     direct_series: Vec<Vec<f64>>,
@@ -40,6 +41,7 @@ pub(super) struct BoundaryHistory {
     outputs: Vec<f64>,
     /// Number of steps for which rows and levels are allocated: the leaf times a power of two.
     capacity: usize,
+    /// Number of steps accepted.
     steps: usize,
     /// Whether the contribution of the last input is still missing.
     pending: bool,
@@ -277,9 +279,9 @@ mod tests {
             let mut u = vec![];
             let mut t = vec![];
             for (k, is_loaded) in loaded.into_iter().enumerate() {
-                let place = (n * 8 + k) as f64;
-                u.push((1.7 * place).sin());
-                t.push(if is_loaded { (2.3 * place).sin() } else { 0.0 });
+                let phase = (n * 8 + k) as f64;
+                u.push((1.7 * phase).sin());
+                t.push(if is_loaded { (2.3 * phase).sin() } else { 0.0 });
             }
             history.push(&u, &t);
             past.push([u, t]);

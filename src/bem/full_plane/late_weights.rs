@@ -27,7 +27,7 @@ use crate::soil::Soil;
 /// Number of terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
 pub(super) const LOG_TERM_COUNT: usize = 26;
 
-/// A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::Block).
+/// A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::ViewBlock).
 pub(super) type LogTerms = [[f64; 8]; LOG_TERM_COUNT];
 
 /// Coefficients of s^{2k} ln s; lengths in units of `unit`, and times in units of `unit`/c₂.
@@ -107,7 +107,7 @@ fn radial_terms(soil: Soil) -> RadialTerms {
     terms
 }
 
-/// [ζⁿ] (ρδ)^{2k} ln δ for all k, n > 2·TERMS·2.
+/// [ζⁿ] (ρδ)^{2k} ln δ for all k, and n above four times [`LOG_TERM_COUNT`].
 pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; LOG_TERM_COUNT] {
     let n = lag as f64;
     let mut weights = [0.0; LOG_TERM_COUNT];

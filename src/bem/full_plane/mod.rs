@@ -15,8 +15,8 @@
 //!
 //! # No proof
 //!
-//! Nothing proves that this soil never gives energy: the table below shows where it does. It is for boundaries of other
-//! shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
+//! The soil of this method is not proved passive: the table below shows where it creates energy. The method is for
+//! boundaries of other shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
 #![cfg_attr(feature = "embedded", doc = "([`TrenchGround`](crate::bem::embedded::TrenchGround))")]
 //! are passive at every time step and mesh, by proof.
 //!

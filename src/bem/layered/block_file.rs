@@ -1,4 +1,4 @@
-//! Files of blocks of coefficients.
+//! Files of blocks of convolution weights.
 
 use std::fs::File;
 use std::io::Read;
@@ -62,7 +62,7 @@ fn contents(
     if header.get(1).is_some_and(|format| *format != FILE_FORMAT) {
         return Ok(vec![]);
     }
-    let [_, _, stored_fingerprint, stored_classes, block_count] = header[..] else {
+    let [_magic, _format, stored_fingerprint, stored_classes, block_count] = header[..] else {
         return Err(wrong_length(file_size, None));
     };
     if stored_fingerprint != fingerprint || stored_classes != classes as u64 {
@@ -105,6 +105,8 @@ fn contents(
     Ok(blocks)
 }
 
+/// Fault of a file that the system does not read.
+#[allow(clippy::needless_pass_by_value, reason = "for `map_err`")]
 fn unreadable(error: std::io::Error) -> FileFault {
     FileFault::Unreadable(error.kind())
 }
@@ -116,6 +118,7 @@ fn wrong_length(found: u64, needed: Option<u64>) -> FileFault {
     FileFault::value("number of bytes", found.to_string(), needed)
 }
 
+/// Fault of a file whose check sum differs.
 fn damaged() -> FileFault {
     FileFault::Damaged { quantity: "file".into() }
 }

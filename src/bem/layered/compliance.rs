@@ -91,7 +91,7 @@ impl LaplaceLayer {
     /// Displacements and stresses at the layer's top, from the values at its bottom.
     ///
     /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
-    fn carry(&self, k: f64, bottom: PlaneState) -> PlaneState {
+    fn top_state(&self, k: f64, bottom: PlaneState) -> PlaneState {
         let a2 = self.a2;
         let q2 = self.q2;
         let h = self.thickness;
@@ -202,7 +202,7 @@ impl LayeredCompliance {
         let mut top = if !is_half_plane && lowest.is_thin(k) {
             let rigid =
                 PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
-            lowest.carry(k, rigid)
+            lowest.top_state(k, rigid)
         } else {
             let waves = LayerWaves::new(lowest, k, self.roots[last]);
             if is_half_plane {
@@ -215,8 +215,8 @@ impl LayeredCompliance {
         for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
             let z = top.stress.times_inverse(top.displacement);
             if layer.is_thin(k) {
-                top =
-                    layer.carry(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
+                top = layer
+                    .top_state(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
                 continue;
             }
             let waves = LayerWaves::new(layer, k, *roots);

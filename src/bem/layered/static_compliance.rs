@@ -62,9 +62,9 @@ pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<
         let even = 0.5 / (1.0 - soil.a2) / soil.modulus.re;
         [even, soil.a2 * even]
     });
-    let mut dynamic = compliance.clone();
+    let mut surface = compliance.clone();
     let mut compliance_without_far_field = |k: f64| {
-        let c = dynamic.at(k);
+        let c = surface.at(k);
         let Some([even, odd]) = far_field else { return c };
         let decay = (-k * span).exp() / k;
         let even = Complex::real(even * decay);

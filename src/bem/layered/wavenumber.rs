@@ -173,7 +173,7 @@ pub(crate) fn surface_outlook(
 ) -> usize {
     let mut wavenumbers = &OUTLOOK_WAVENUMBERS[..1];
     if let Some((top, (below, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
-        // A slab carries more along the patch than the ground below it.
+        // A slab stiffer along the patch than the ground below it transmits waves along the patch.
         let slab_stiffness = top.soil.shear_modulus() * top.thickness;
         if slab_stiffness > below.shear_modulus() * span {
             wavenumbers = &OUTLOOK_WAVENUMBERS[..];

@@ -87,14 +87,14 @@ impl FormRows {
 
 /// Forms and their integrals beyond K.
 #[derive(Debug)]
-struct Tabulated {
+struct TabulatedForms {
     /// Forms at the Gauss points, panel by panel.
     values: FormRows,
     /// Number of panels up to K, and rows j of ∫ (k/κ)^(−2j) g dk beyond; j = 0 from zero on.
     tails: Vec<(usize, FormRows)>,
 }
 
-/// Tabulated forms of a lattice.
+/// TabulatedForms forms of a lattice.
 #[derive(Debug)]
 pub(super) struct FormTable {
     lattice: Lattice,
@@ -104,7 +104,7 @@ pub(super) struct FormTable {
     pub(super) rule: Rule,
     /// Legendre polynomials at the Gauss points.
     pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
-    tabulated: OnceLock<Tabulated>,
+    tabulated: OnceLock<TabulatedForms>,
     /// Legendre coefficients of a panel.
     legendre: Vec<OnceLock<FormRows>>,
     /// Smallest K at which the bottom of the top layer does not affect the surface, 1/m.
@@ -248,7 +248,7 @@ impl FormTable {
         let panels_to_k = self.panels(0.0)..=self.max_panels_to_k();
         let max_panels_to_k = *panels_to_k.end();
         let values = FormRows::new(max_panels_to_k * PANEL_POINTS, classes);
-        let mut tabulated = Tabulated { values, tails: vec![] };
+        let mut tabulated = TabulatedForms { values, tails: vec![] };
         let mut sums = FormRows::new(TAIL_TERMS, classes);
         // Sums fade out towards K*: a sharp end would leave a wave of the forms. The removed part is like k⁻³.
         let fade_start = self.width * max_panels_to_k.max(self.panel_count / 2) as f64;
@@ -324,7 +324,7 @@ impl FormTable {
 
     /// Forms at all points, and integrals beyond the last of `panels`; `None` before [`FormTable::tabulate`].
     pub(super) fn tabulated(&self, panels: usize) -> Option<[&FormRows; 2]> {
-        let Tabulated { values, tails } = self.tabulated.get()?;
+        let TabulatedForms { values, tails } = self.tabulated.get()?;
         let (_, tail) = tails.iter().find(|(count, _)| *count == panels)?;
         Some([values, tail])
     }

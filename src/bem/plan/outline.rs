@@ -6,8 +6,8 @@
 //!
 //! Oblique edges of rigid mats are moved outwards by less than the overhang, and by a smaller distance on more cells.
 //! Static stiffnesses of turned squares, polygons and discs then decrease steadily as the number of cells grows. Oblique
-//! edges of flexible mats move further, and further still under softer mats: the soil near a load then carries it, and
-//! pressures at the edge have more influence. The distance is continuous in D, so that results do not jump.
+//! edges of flexible mats move further, and the more so the softer the mat is: a load is then in equilibrium with the
+//! pressure near it, and pressures at the edge have more influence. The distance is continuous in D, and so are results.
 
 use super::boundary::MatBoundary;
 use super::region::{CellPart, PlanGrid, Region};
@@ -184,7 +184,7 @@ pub(super) fn rocking_error(mats: &[MatBoundary], pitch: [f64; 2]) -> f64 {
 impl PlanGrid {
     /// Cuts of the cells of a mat with this area, in cells.
     ///
-    /// The area of slivers and of cells shared with other mats goes to the other cut cells, most of it to half cells.
+    /// The area of slivers and of cells shared with other mats is added to the other cut cells, mostly to half cells.
     fn cuts(&self, cells: &[MatCell], area: f64) -> Vec<CutCell> {
         let missing = area - cells.iter().map(MatCell::first_area).sum::<f64>();
         let weights: f64 = cells.iter().map(MatCell::correction_weight).sum();

@@ -15,10 +15,10 @@ const MAX_RAISED_CELLS: f64 = 1000.0;
 impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
-    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because a right overhang depends on
-    /// the soil ([`Plan::on_soil`]). The plan has at least one cell for each
-    /// flexible face (two triangles count as one): between cells only the structure holds its nodes. This raises the
-    /// number to 1000 cells at most: a base that needs more causes an error or a warning of the build
+    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because the best overhang depends on
+    /// the soil ([`Plan::on_soil`]). The plan has at least one cell for each flexible face (two triangles count as one),
+    /// because nodes between cells are supported by the structure alone. This raises the number to 1000 cells at most: a
+    /// base that needs more causes an error or a warning of the build
     /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
