@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use super::elastic_source::ElasticSource;
 use super::layered::Stages;
-use super::plan::{Plan, gate_sample, static_compliance};
+use super::plan::{Plan, passivity_sample, static_compliance};
 use super::{
     Grading, Ground, GroundDescription, SharedKernels, Strip, WeightsGround, WeightsSource,
 };
 use crate::error::{Observer, Result, require};
-use crate::geometry::{ContactElement, SPACE, check_count, check_order};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, check_count, check_order};
 use crate::history::{ConvolutionHistory, ConvolutionWeights, HistoryChoice, HistoryOptions};
 use crate::motion::FreeField;
 use crate::soil::SoilProfile;
@@ -73,8 +73,8 @@ use crate::structure::Structure;
 /// ```
 pub struct ElasticGround {
     source: ElasticSource,
-    /// Stages of the last [`Ground::prepare`].
-    used: Option<Stages>,
+    /// Runge–Kutta stages since the last [`Ground::prepare`]; `None` for the closed form.
+    prepared_stages: Option<Stages>,
     ground: WeightsGround,
 }
 
@@ -96,7 +96,7 @@ impl ElasticGround {
         check_order(&elements)?;
         let source = ElasticSource::new(profile.into(), None)?;
         let ground = WeightsGround::new(source.clone(), elements)?;
-        Ok(Self { source, used: None, ground })
+        Ok(Self { source, prepared_stages: None, ground })
     }
 
     /// Ground of a [`Soil`](crate::Soil) or a [`SoilProfile`] in three dimensions, under the cells of a [`Plan`].
@@ -124,12 +124,14 @@ impl ElasticGround {
     /// more cells than their matrices allow.
     pub fn in_plan(profile: impl Into<SoilProfile>, plan: Plan) -> Result<Self> {
         let elements = plan.elements();
-        check_count(elements.len(), SPACE)?;
+        check_count(elements.len(), COMPONENTS_IN_SPACE)?;
         let source = ElasticSource::new(profile.into(), Some(plan))?;
-        let unions = source.plan.as_ref().map(|own| own.unions(&source.profile, source.tolerance));
-        let unions = unions.transpose()?.flatten();
+        let unions = match &source.plan {
+            Some(plan) => plan.unions(&source.profile, source.tolerance)?,
+            None => None,
+        };
         let ground = WeightsGround::with_unions(source.clone(), elements, unions);
-        Ok(Self { source, used: None, ground })
+        Ok(Self { source, prepared_stages: None, ground })
     }
 
     /// Ground with `count` elements under each foundation of `structure`.
@@ -139,17 +141,17 @@ impl ElasticGround {
     /// is a ground [in plan](ElasticGround::in_plan), with `count` cells along the shorter side of all faces together:
     /// [`Plan::on_faces`].
     ///
-    /// Cells under a flexible base in plan extend beyond its outline by a part of the overhang under a rigid base: all
-    /// of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The part
-    /// follows from the structure's stiffness matrix. It is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h for
-    /// a bending stiffness D (N·m), the shear modulus G at the surface and cells with sides of h; nothing below x = 0.28, half
-    /// at x = 1. Edges oblique to the cells
-    /// extend by twice as much, at most by 0.12 of a cell, and by 0.03 + 0.15/√n + 0.06/(1 + d/0.15) with n cells along the
-    /// shorter side and d = D/(G R³) on a base of the area π R².
+    /// Cells under a flexible base in plan extend beyond its outline by a fraction of the overhang under a rigid base:
+    /// all of it under a stiff base, nothing under a soft one, which would sink with the soil beyond its edge. The
+    /// fraction is x²/(1 + x²), in steps of a seventh, with x = (D/G)^(1/3)/h. D is the bending stiffness (N·m) in the
+    /// structure's stiffness matrix, G the shear modulus at the surface, and h the side of a cell. The fraction is zero
+    /// below x = 0.28 and half at x = 1. Edges oblique to the cells extend by twice as much, at most by 0.12 of a cell,
+    /// and at most by 0.03 + 0.15/√n + 0.06/(1 + d/0.15) with n cells along the shorter side and d = D/(G R³) on a base of
+    /// the area π R².
     ///
-    /// Moments of round bases under loads on the edge need more cells than moments of square ones: in a circular plate with
-    /// D/(G R³) = 0.02 they are wrong by 38, 16 and 7 % of the largest on 8, 13 and 21 cells across, under an even load by 6,
-    /// 3 and 2 %.
+    /// Moments of round bases under loads on the edge need more cells than moments of square ones. In a circular plate
+    /// with D/(G R³) = 0.02 their errors are 38, 16 and 7 % of the largest moment on 8, 13 and 21 cells across, and 6, 3
+    /// and 2 % under an even load.
     ///
     /// A flexible base gets at least one element for each of its segments, or as many cells as it has faces (two
     /// triangles count as one). Elements receive only means of its displacement, and only the structure resists shapes
@@ -170,15 +172,17 @@ impl ElasticGround {
         }
     }
 
-    fn changed(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
+    /// The ground after a change of its source.
+    fn with_changed_source(mut self, change: impl FnOnce(&mut ElasticSource)) -> Self {
         change(&mut self.source);
-        Self { ground: self.ground.with_source(self.source.clone()), used: None, ..self }
+        let ground = self.ground.with_source(self.source.clone());
+        Self { ground, prepared_stages: None, ..self }
     }
 
     /// Sets the number of Runge–Kutta stages, in place of the rule and of the closed form.
     #[must_use]
     pub fn with_stages(self, stages: Stages) -> Self {
-        self.changed(|source| source.stages = Some(stages))
+        self.with_changed_source(|source| source.stages = Some(stages))
     }
 
     /// Sets the relative `tolerance` (1e-13 to 1e-4) of element compliances in the Laplace domain.
@@ -191,7 +195,7 @@ impl ElasticGround {
     pub fn with_tolerance(self, tolerance: f64) -> Result<Self> {
         let fits = (1e-13..=1e-4).contains(&tolerance);
         require("tolerance of a layered ground", tolerance, fits, "from 1e-13 to 1e-4")?;
-        Ok(self.changed(|source| source.tolerance = tolerance))
+        Ok(self.with_changed_source(|source| source.tolerance = tolerance))
     }
 
     /// Reads convolution weights from the file `path`, and adds missing weights to it.
@@ -221,7 +225,7 @@ impl ElasticGround {
     /// Coefficients may then also fail with [`Error::File`](crate::Error::File).
     #[must_use]
     pub fn with_kernel_file(self, path: impl Into<PathBuf>) -> Self {
-        self.changed(|source| source.file = Some(path.into()))
+        self.with_changed_source(|source| source.file = Some(path.into()))
     }
 
     /// Replaces the options of the ground's history, or its method alone; only the closed form has exponentials.
@@ -311,29 +315,30 @@ impl Ground for ElasticGround {
     ) -> Result<()> {
         self.source.profile.check_causal()?;
         self.ground.prepare(time_step, steps, observer)?;
-        self.used = self.source.stages(time_step);
+        self.prepared_stages = self.source.stages(time_step);
         Ok(())
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         let Some(plan) = &self.source.plan else { return self.ground.finer_compliance() };
-        let (source, plan) = (&self.source, plan.quartered());
-        let mut matrix = vec![0.0; (4 * SPACE * self.elements().len()).pow(2)];
-        let (profile, tolerance) = (&source.profile, source.tolerance);
-        let find = |cells: &mut [f64]| static_compliance(profile, &plan, tolerance, cells);
-        match plan.unions(profile, tolerance)? {
-            Some(unions) => unions.reduce(&mut matrix, 1.0, find)?,
-            None => find(&mut matrix)?,
+        let ElasticSource { profile, tolerance, .. } = &self.source;
+        let plan = plan.quartered();
+        let mut matrix = vec![0.0; (4 * COMPONENTS_IN_SPACE * self.elements().len()).pow(2)];
+        match plan.unions(profile, *tolerance)? {
+            Some(unions) => unions.reduce(&mut matrix, 1.0, |cells| {
+                static_compliance(profile, &plan, *tolerance, cells)
+            })?,
+            None => static_compliance(profile, &plan, *tolerance, &mut matrix)?,
         }
         Ok(Some(matrix))
     }
 
     fn description(&self) -> GroundDescription {
         let description = self.ground.description();
-        let stages = self.used.map(Stages::count);
+        let stages = self.prepared_stages.map(Stages::count);
         GroundDescription {
             soils: self.profile().soils().map(|(soil, _)| soil).collect(),
-            sampled_cells: self.source.plan.as_ref().and_then(gate_sample),
+            sampled_cells: self.source.plan.as_ref().and_then(passivity_sample),
             outline_error: self.source.plan.as_ref().map_or(0.0, Plan::outline_error),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description

@@ -11,8 +11,8 @@ use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 use crate::soil::{Bedrock, SoilProfile};
 
-/// Default tolerance of the wavenumber integrals.
-const TOLERANCE: f64 = 1e-10;
+/// Relative tolerance of the wavenumber integrals unless the user sets another.
+const DEFAULT_INTEGRAL_TOLERANCE: f64 = 1e-10;
 
 /// Soil profile, with the accuracy of its convolution weights.
 #[derive(Debug, Clone)]
@@ -29,22 +29,25 @@ impl ElasticSource {
     /// Source of `profile` under strips, or under the cells of a plan, with default accuracy.
     pub(super) fn new(profile: SoilProfile, plan: Option<Plan>) -> Result<Self> {
         profile.check()?;
-        Ok(Self { profile, plan, stages: None, tolerance: TOLERANCE, file: None })
+        Ok(Self { profile, plan, stages: None, tolerance: DEFAULT_INTEGRAL_TOLERANCE, file: None })
     }
 
     /// Runge–Kutta stages for steps of `time_step` seconds; `None` for the closed form.
     pub(super) fn stages(&self, time_step: f64) -> Option<Stages> {
-        let by_rule = || Stages::for_profile(&self.profile, time_step);
-        let strips = self.plan.is_none();
-        let closed = strips && self.stages.is_none() && self.profile.is_elastic_half_plane();
-        (!closed).then(|| self.stages.unwrap_or_else(by_rule))
+        let has_closed_form =
+            self.plan.is_none() && self.stages.is_none() && self.profile.is_elastic_half_plane();
+        if has_closed_form {
+            return None;
+        }
+        Some(self.stages.unwrap_or_else(|| Stages::for_profile(&self.profile, time_step)))
     }
 
     /// Convolution weights of cells in plan.
     pub(super) fn in_plan(&self, plan: &Plan, time_step: f64) -> Result<LatticeKernel> {
         let stages = self.stages(time_step).unwrap_or_default();
-        let (profile, file) = (self.profile.clone(), self.file.clone());
-        LatticeKernel::in_plan(profile, plan, stages, self.sizes(time_step), file)
+        let profile = self.profile.clone();
+        let file = self.file.clone();
+        LatticeKernel::in_plan(profile, plan, stages, time_step, self.tolerance, file)
     }
 
     /// Convolution weights of strips by convolution quadrature.
@@ -54,12 +57,9 @@ impl ElasticSource {
         time_step: f64,
         stages: Stages,
     ) -> Result<StripWeights> {
-        let (profile, file) = (self.profile.clone(), self.file.clone());
-        StripWeights::under_strips(profile, elements, stages, self.sizes(time_step), file)
-    }
-
-    fn sizes(&self, time_step: f64) -> [f64; 2] {
-        [time_step, self.tolerance]
+        let profile = self.profile.clone();
+        let file = self.file.clone();
+        StripWeights::under_strips(profile, elements, stages, time_step, self.tolerance, file)
     }
 }
 

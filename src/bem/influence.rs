@@ -20,8 +20,8 @@
 use super::strip::Overlap;
 use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::Surface;
-use crate::fundamental::branch::{Branch, Branches, Weight};
-use crate::fundamental::rayleigh::{Rayleigh, TERMS, late_coefficients};
+use crate::fundamental::branch::{Branch, Branches, KernelWeight};
+use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, Rayleigh, late_coefficients};
 use crate::geometry::ContactElement;
 use crate::history::KINDS;
 use crate::linalg::gauss;
@@ -43,15 +43,15 @@ use crate::soil::Soil;
 pub struct InfluenceKernel {
     pub(super) branches: Branches,
     /// `c_k` of zz and xx: 1/(πμ) ∫ Σ `c_k` x^(2k) t^(−2k−1) dt behind the Rayleigh wave.
-    pub(super) late: [[f64; TERMS]; 2],
-    /// `c_S` Δt, m.
-    pub(super) step: f64,
+    pub(super) late_series: [[f64; LATE_SERIES_TERMS]; 2],
+    /// Way of a shear wave in a step, `c_S` Δt, m.
+    pub(super) travel_per_step: f64,
     /// μ, Pa.
-    modulus: f64,
+    shear_modulus: f64,
 }
 
-/// The series is used where t₀/x is at least this many Rayleigh arrivals.
-const LATE: f64 = 3.0;
+/// Smallest t₀/x, in Rayleigh arrivals, from which the series at late times is used.
+const LATE_SERIES_ARRIVALS: f64 = 3.0;
 
 impl InfluenceKernel {
     /// Kernel for a soil and a time step in seconds.
@@ -60,15 +60,20 @@ impl InfluenceKernel {
     /// [`Error::Input`](crate::Error::Input) unless the time step is finite and above zero.
     pub fn new(soil: Soil, time_step: f64) -> Result<Self> {
         positive("time step", time_step)?;
-        let step = positive("shear wave travel in a step", soil.shear_wave_speed() * time_step)?;
+        let travel_per_step = soil.shear_wave_speed() * time_step;
+        positive("shear wave travel in a step", travel_per_step)?;
         let rayleigh = Rayleigh::new(soil);
-        let late = late_coefficients(&rayleigh);
-        Ok(Self { branches: Branches::new(rayleigh), late, step, modulus: soil.shear_modulus() })
+        Ok(Self {
+            branches: Branches::new(rayleigh),
+            late_series: late_coefficients(&rayleigh),
+            travel_per_step,
+            shear_modulus: soil.shear_modulus(),
+        })
     }
 
-    /// 1/(πμ), 1/Pa.
+    /// Unit of the coefficients, 1/(πμ), 1/Pa.
     pub(super) fn unit(&self) -> f64 {
-        1.0 / (std::f64::consts::PI * self.modulus)
+        1.0 / (std::f64::consts::PI * self.shear_modulus)
     }
 
     /// Computes the data of a pair of elements that do not depend on the lag.
@@ -82,10 +87,11 @@ impl InfluenceKernel {
     ) -> Result<PairInfluence<'_>> {
         let overlap = Overlap::new(receiver, source)?;
         let far = overlap.farthest();
-        let mut moments = [0.0; TERMS];
+        let mut moments = [0.0; LATE_SERIES_TERMS];
         let rule = gauss::largest();
         for i in 1..overlap.nodes.len() {
-            let (low, high) = (overlap.nodes[i - 1], overlap.nodes[i]);
+            let low = overlap.nodes[i - 1];
+            let high = overlap.nodes[i];
             let slope = (overlap.even[i] - overlap.even[i - 1]) / (high - low);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 let inside = 0.5 * (high - low) * (1.0 + node);
@@ -114,7 +120,7 @@ impl InfluenceKernel {
         lag: usize,
     ) -> Result<Surface> {
         require("lag", lag as f64, lag > 0, "at least 1")?;
-        Ok(self.pair(receiver, source)?.at(lag))
+        Ok(self.pair(receiver, source)?.coefficients(lag))
     }
 }
 
@@ -124,18 +130,20 @@ pub(super) struct PairInfluence<'a> {
     kernel: &'a InfluenceKernel,
     overlap: Overlap,
     /// `M_k` divided by the 2k-th power of the largest offset.
-    moments: [f64; TERMS],
+    moments: [f64; LATE_SERIES_TERMS],
 }
 
 impl PairInfluence<'_> {
     /// The coefficients of one lag, from 1 on; zero before the pressure wave arrives.
-    fn at(&self, lag: usize) -> Surface {
-        let (step, far) = (self.kernel.step, self.overlap.farthest());
-        let (begin, end) = ((lag - 1) as f64 * step, lag as f64 * step);
-        if begin >= LATE * self.kernel.branches.arrival * far {
-            self.late(begin, end)
+    fn coefficients(&self, lag: usize) -> Surface {
+        let travel_per_step = self.kernel.travel_per_step;
+        let begin = (lag - 1) as f64 * travel_per_step;
+        let end = lag as f64 * travel_per_step;
+        let rayleigh_arrival = self.kernel.branches.rayleigh_arrival;
+        if begin >= LATE_SERIES_ARRIVALS * rayleigh_arrival * self.overlap.farthest() {
+            self.by_late_series(begin, end)
         } else {
-            self.early(begin, end)
+            self.by_quadrature(begin, end)
         }
     }
 
@@ -150,21 +158,24 @@ impl PairInfluence<'_> {
         same_length("xx coefficients", xx.len(), zz.len())?;
         same_length("zx coefficients", zx.len(), zz.len())?;
         for (i, ((zz, xx), zx)) in zz.iter_mut().zip(xx).zip(zx).enumerate() {
-            let influence = self.at(first.saturating_add(i));
-            (*zz, *xx, *zx) = (influence.zz, influence.xx, influence.zx);
+            let influence = self.coefficients(first.saturating_add(i));
+            *zz = influence.zz;
+            *xx = influence.xx;
+            *zx = influence.zx;
         }
         Ok(())
     }
 
     /// The first lag from which zx is exactly zero: the Rayleigh wave has crossed the pair.
-    pub(super) fn coupling_ends(&self) -> usize {
+    pub(super) fn coupling_end(&self) -> usize {
         if !self.overlap.one_sided {
             return 1;
         }
-        let crossing = self.kernel.branches.arrival * self.overlap.farthest() / self.kernel.step;
+        let InfluenceKernel { branches, travel_per_step, .. } = self.kernel;
+        let crossing = branches.rayleigh_arrival * self.overlap.farthest() / travel_per_step;
         let mut lag = lag_from(crossing.floor());
         // A lag too large for an integer stays at the largest integer.
-        while lag < usize::MAX && self.couples((lag.saturating_sub(1)) as f64 * self.kernel.step) {
+        while lag < usize::MAX && self.couples((lag.saturating_sub(1)) as f64 * travel_per_step) {
             lag += 1;
         }
         lag.max(1)
@@ -173,29 +184,31 @@ impl PairInfluence<'_> {
     /// Whether zx may differ from zero in a step that begins at `begin`.
     fn couples(&self, begin: f64) -> bool {
         let branches = &self.kernel.branches;
-        self.overlap.one_sided && begin < branches.arrival * self.overlap.farthest()
+        self.overlap.one_sided && begin < branches.rayleigh_arrival * self.overlap.farthest()
     }
 
     /// Σ `c_k` `M_k` ∫ t^(−2k−1) dt, each factor computed without cancellation.
-    fn late(&self, begin: f64, end: f64) -> Surface {
+    fn by_late_series(&self, begin: f64, end: f64) -> Surface {
         let kernel = self.kernel;
-        let [zz, xx] = &kernel.late;
+        let zz = &kernel.late_series[0];
+        let xx = &kernel.late_series[1];
         let ratio = (begin / end).powi(2);
-        let reach = (self.overlap.farthest() / begin).powi(2);
-        let first = self.moments[0] * (kernel.step / begin).ln_1p();
+        let relative_distance = (self.overlap.farthest() / begin).powi(2);
+        let first = self.moments[0] * (kernel.travel_per_step / begin).ln_1p();
         let mut sum = [zz[0] * first, xx[0] * first];
         // ∫ t^(−2k−1) dt = t₀^(−2k) (1 − r)(1 + r + … + r^(k−1))/(2k), r = (t₀/t₁)².
-        let mut scale = reach * kernel.step * (begin + end) / (end * end);
-        let (mut series, mut power) = (1.0, ratio);
-        let small = 1e-17 * first;
-        for k in 1..TERMS {
+        let mut scale = relative_distance * kernel.travel_per_step * (begin + end) / (end * end);
+        let mut series = 1.0;
+        let mut power = ratio;
+        let negligible = 1e-17 * first;
+        for k in 1..LATE_SERIES_TERMS {
             let term = scale * series / (2 * k) as f64;
             sum[0] += zz[k] * self.moments[k] * term;
             sum[1] += xx[k] * self.moments[k] * term;
-            if (zz[k].abs() + xx[k].abs()) * self.moments[k] * term < small {
+            if (zz[k].abs() + xx[k].abs()) * self.moments[k] * term < negligible {
                 break;
             }
-            scale *= reach;
+            scale *= relative_distance;
             series += power;
             power *= ratio;
         }
@@ -203,11 +216,14 @@ impl PairInfluence<'_> {
         Surface { zz: sum[0] * unit, xx: sum[1] * unit, zx: 0.0 }
     }
 
-    fn early(&self, begin: f64, end: f64) -> Surface {
-        let (branches, overlap) = (&self.kernel.branches, &self.overlap);
-        let (near, far) = (overlap.nearest(), overlap.farthest());
+    /// 1/(π μ l) ∫ f(τ) A(τ) dτ, between the τ at which the polynomial A changes.
+    fn by_quadrature(&self, begin: f64, end: f64) -> Surface {
+        let branches = &self.kernel.branches;
+        let overlap = &self.overlap;
+        let near = overlap.nearest();
+        let far = overlap.farthest();
         let latest = if near > 0.0 { end / near } else { f64::INFINITY };
-        let earliest = (begin / far).max(branches.first);
+        let earliest = (begin / far).max(branches.pressure_arrival);
         if latest <= earliest {
             return Surface::default();
         }
@@ -225,27 +241,32 @@ impl PairInfluence<'_> {
         breaks[..count].sort_unstable_by(f64::total_cmp);
         breaks[count] = latest;
         let couples = self.couples(begin);
-        let (mut even, mut odd) = ([0.0; 2], [0.0; 2]);
+        let duration = self.kernel.travel_per_step;
+        // zz and xx are even in x; zx is odd.
+        let mut even = [0.0; 2];
+        let mut odd = [0.0; 2];
         for piece in breaks[..=count].windows(2) {
-            let (from, to) = (piece[0], piece[1]);
-            if to <= from {
+            let start = piece[0];
+            let stop = piece[1];
+            if stop <= start {
                 continue;
             }
-            let middle = 0.5 / from + 0.5 / to;
-            let covered = overlap.covered([begin, end], self.kernel.step, middle, false);
-            for part in [Branch::Pressure, Branch::Shear, Branch::Tail] {
-                branches.add(part, from, to, &covered, &mut even);
+            let middle = 0.5 / start + 0.5 / stop;
+            let passed = overlap.passed_overlap([begin, end], duration, middle, false);
+            for branch in [Branch::Pressure, Branch::Shear, Branch::Tail] {
+                branches.add_integral(branch, start, stop, &passed, &mut even);
             }
-            if couples && from <= branches.arrival {
-                let covered = overlap.covered([begin, end], self.kernel.step, middle, true);
-                branches.add(Branch::OddLow, from, to, &covered, &mut odd);
-                branches.add(Branch::OddHigh, from, to, &covered, &mut odd);
-                if to > branches.arrival {
-                    odd[0] += branches.pulse * covered.at(1.0 / branches.arrival);
+            if couples && start <= branches.rayleigh_arrival {
+                let passed = overlap.passed_overlap([begin, end], duration, middle, true);
+                branches.add_integral(Branch::OddLow, start, stop, &passed, &mut odd);
+                branches.add_integral(Branch::OddHigh, start, stop, &passed, &mut odd);
+                if stop > branches.rayleigh_arrival {
+                    let pulse_overlap = passed.value(1.0 / branches.rayleigh_arrival);
+                    odd[0] += branches.rayleigh_pulse * pulse_overlap;
                 }
             }
         }
-        let unit = 1.0 / (std::f64::consts::PI * self.kernel.modulus * overlap.length);
+        let unit = 1.0 / (std::f64::consts::PI * self.kernel.shear_modulus * overlap.length);
         Surface { zz: even[0] * unit, xx: even[1] * unit, zx: odd[0] * unit }
     }
 }

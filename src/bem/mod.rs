@@ -192,10 +192,12 @@ pub trait Ground: Any + Send {
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
         let count = self.elements().len();
         for (e, element) in self.elements().iter().enumerate() {
-            let [x, y, _] = element.center();
-            let moved = element.components(motion.displacement_at([x, y], time));
-            let places = displacement.iter_mut().skip(e).step_by(count);
-            places.zip(moved).for_each(|(value, moved)| *value = moved);
+            let center = element.center();
+            let surface_motion = motion.displacement_at([center[0], center[1]], time);
+            let components = displacement.iter_mut().skip(e).step_by(count);
+            for (value, component) in components.zip(element.components(surface_motion)) {
+                *value = component;
+            }
         }
     }
 }

@@ -51,7 +51,7 @@ impl ConvolutionWeights for PatchKernel {
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
         let [source, receiver] = self.classes.representative(class)?;
-        Ok(Some(self.kernel.pair(receiver, source)?.coupling_ends() - 1))
+        Ok(Some(self.kernel.pair(receiver, source)?.coupling_end() - 1))
     }
 
     fn late_weights(&self) -> Option<&dyn LateWeights> {

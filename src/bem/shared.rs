@@ -9,8 +9,8 @@ use crate::error::{Error, Result};
 use crate::geometry::ContactElement;
 use crate::history::ConvolutionWeights;
 
-/// Largest number of kernels stored: the ones used last.
-const KEPT: usize = 8;
+/// Largest number of kernels stored: the most recently used ones.
+const MAX_STORED_KERNELS: usize = 8;
 
 /// Store of weights and spectra for grounds of one soil, mesh and time step.
 ///
@@ -46,46 +46,48 @@ pub struct SharedKernels {
 
 #[derive(Debug, Default)]
 struct Store {
-    kernels: Mutex<Kernels>,
+    kernels: Mutex<KernelTable>,
     /// Notifies waiting threads that a kernel is ready or has failed.
     ended: Condvar,
 }
 
 #[derive(Debug, Default)]
-struct Kernels {
-    entries: Vec<Entry>,
-    /// Kernels that threads are computing now; in `waiting`, kernels that other threads wait for.
-    being_made: Vec<(Arc<Key>, ThreadId)>,
-    waiting: Vec<(Arc<Key>, ThreadId)>,
+struct KernelTable {
+    entries: Vec<StoredKernel>,
+    /// Kernels that are being computed, each with its thread.
+    in_progress: Vec<(Arc<KernelKey>, ThreadId)>,
+    /// Threads that wait, each with the kernel for which it waits.
+    waiting: Vec<(Arc<KernelKey>, ThreadId)>,
 }
 
 /// Soil, time step and elements that determine a kernel.
 #[derive(Debug, PartialEq)]
-struct Key {
+struct KernelKey {
     source: TypeId,
     identity: Vec<f64>,
     time_step: f64,
     elements: Vec<ContactElement>,
 }
 
-struct Entry {
-    key: Arc<Key>,
+struct StoredKernel {
+    key: Arc<KernelKey>,
     kernel: Arc<dyn ConvolutionWeights>,
 }
 
-short_debug! { Entry; self; identity: self.key.identity, time_step: self.key.time_step }
+short_debug! { StoredKernel; self; identity: self.key.identity, time_step: self.key.time_step }
 
-impl Kernels {
-    fn maker(&self, key: &Key) -> Option<ThreadId> {
-        self.being_made.iter().find(|(other, _)| **other == *key).map(|(_, maker)| *maker)
+impl KernelTable {
+    /// Thread that is computing the kernel of `key`.
+    fn computing_thread(&self, key: &KernelKey) -> Option<ThreadId> {
+        self.in_progress.iter().find(|(other, _)| **other == *key).map(|(_, thread)| *thread)
     }
 
-    /// Whether `maker` is `thread`, or waits for it directly or through other threads.
-    fn leads_to(&self, mut maker: ThreadId, thread: ThreadId) -> bool {
-        while maker != thread {
-            let wanted = self.waiting.iter().find(|(_, waits)| *waits == maker);
-            match wanted.and_then(|(key, _)| self.maker(key)) {
-                Some(next) => maker = next,
+    /// Whether `waiting` is `thread`, or waits for it directly or through other threads.
+    fn waits_for(&self, mut waiting: ThreadId, thread: ThreadId) -> bool {
+        while waiting != thread {
+            let entry = self.waiting.iter().find(|(_, other)| *other == waiting);
+            match entry.and_then(|(key, _)| self.computing_thread(key)) {
+                Some(next) => waiting = next,
                 None => return false,
             }
         }
@@ -94,14 +96,14 @@ impl Kernels {
 }
 
 /// Kernel that is being computed; when dropped, ends the wait of other threads.
-struct Making<'a> {
+struct KernelInProgress<'a> {
     store: &'a SharedKernels,
-    key: &'a Arc<Key>,
+    key: &'a Arc<KernelKey>,
 }
 
-impl Drop for Making<'_> {
+impl Drop for KernelInProgress<'_> {
     fn drop(&mut self) {
-        self.store.kernels().being_made.retain(|(key, _)| !Arc::ptr_eq(key, self.key));
+        self.store.kernels().in_progress.retain(|(key, _)| !Arc::ptr_eq(key, self.key));
         self.store.store.ended.notify_all();
     }
 }
@@ -112,11 +114,13 @@ impl SharedKernels {
         self.kernels().entries.len()
     }
 
-    fn kernels(&self) -> MutexGuard<'_, Kernels> {
+    fn kernels(&self) -> MutexGuard<'_, KernelTable> {
         self.store.kernels.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the kernel of these elements; makes it if it is not stored or `source` has no identity.
+    /// Returns the kernel of these elements.
+    ///
+    /// It is computed if it is not stored or `source` has no identity.
     pub(super) fn kernel(
         &self,
         source: &dyn WeightsSource,
@@ -125,55 +129,55 @@ impl SharedKernels {
     ) -> Result<Arc<dyn ConvolutionWeights>> {
         let Some(identity) = source.identity() else { return source.kernel(elements, time_step) };
         let any: &dyn Any = source;
-        let key = Arc::new(Key {
+        let key = Arc::new(KernelKey {
             source: any.type_id(),
             identity,
             time_step,
             elements: elements.to_vec(),
         });
-        if let Some(kernel) = self.kept_or_begun(&key)? {
+        if let Some(kernel) = self.stored_or_begun(&key)? {
             return Ok(kernel);
         }
-        // The store is not locked while the kernel is made: the kernel may need other kernels.
-        let making = Making { store: self, key: &key };
+        // The store is not locked while the kernel is computed: the kernel may need other kernels.
+        let in_progress = KernelInProgress { store: self, key: &key };
         let kernel = source.kernel(elements, time_step)?;
         let mut kernels = self.kernels();
-        if kernels.entries.len() == KEPT {
+        if kernels.entries.len() == MAX_STORED_KERNELS {
             kernels.entries.remove(0);
         }
-        kernels.entries.push(Entry { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
+        kernels.entries.push(StoredKernel { key: Arc::clone(&key), kernel: Arc::clone(&kernel) });
         drop(kernels);
-        drop(making);
+        drop(in_progress);
         Ok(kernel)
     }
 
-    /// Returns the stored kernel of `key`, after waiting for another thread that makes it.
+    /// Returns the stored kernel of `key`, after waiting for another thread that computes it.
     ///
-    /// Returns none if the caller has to make it.
-    fn kept_or_begun(&self, key: &Arc<Key>) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
-        let own = thread::current().id();
+    /// Returns `None` if the caller has to compute it.
+    fn stored_or_begun(&self, key: &Arc<KernelKey>) -> Result<Option<Arc<dyn ConvolutionWeights>>> {
+        let this_thread = thread::current().id();
         let mut kernels = self.kernels();
         loop {
             if let Some(place) = kernels.entries.iter().position(|entry| entry.key == *key) {
-                // The kernel used last is removed last.
+                // The kernel used last moves to the end, because the first one is removed first.
                 let entry = kernels.entries.remove(place);
                 let kernel = Arc::clone(&entry.kernel);
                 kernels.entries.push(entry);
                 return Ok(Some(kernel));
             }
-            let Some(maker) = kernels.maker(key) else {
-                kernels.being_made.push((Arc::clone(key), own));
+            let Some(computing) = kernels.computing_thread(key) else {
+                kernels.in_progress.push((Arc::clone(key), this_thread));
                 return Ok(None);
             };
-            if kernels.leads_to(maker, own) {
+            if kernels.waits_for(computing, this_thread) {
                 return Err(Error::Scene {
                     quantity: "kernel source",
                     needed: "must not ask the shared kernels for the kernel that it is making",
                 });
             }
-            kernels.waiting.push((Arc::clone(key), own));
+            kernels.waiting.push((Arc::clone(key), this_thread));
             kernels = self.store.ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
-            kernels.waiting.retain(|(_, waits)| *waits != own);
+            kernels.waiting.retain(|(_, thread)| *thread != this_thread);
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Winkler's spring bed: a ground without history.
+//! Winkler bed: independent springs and dashpots, without waves.
 
 use super::plan::Plan;
 use super::{DiagonalCompliance, Grading, Ground, NOT_PREPARED, Strip};
 use crate::error::{
     CheckpointError, Observer, Result, not_negative, positive, require, same_length,
 };
-use crate::geometry::{ContactElement, ContactLayout, Patch, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, ContactLayout, Patch};
 use crate::structure::Structure;
 
 /// Independent springs and dashpots under each element (Winkler bed).
@@ -86,7 +86,7 @@ impl SpringGround {
         tangential_stiffness: f64,
     ) -> Result<Self> {
         let elements: Vec<_> = strips.iter().flat_map(Strip::elements).collect();
-        Self::bed(elements, [normal_stiffness, tangential_stiffness, tangential_stiffness])
+        Self::uniform_bed(elements, [normal_stiffness, tangential_stiffness, tangential_stiffness])
     }
 
     /// Bed in three dimensions under the contact elements of a [`Plan`].
@@ -107,8 +107,8 @@ impl SpringGround {
     /// [`Error::Input`](crate::Error::Input) for a stiffness not finite and above zero;
     /// [`Error::Memory`](crate::Error::Memory) for more cells than the memory allows; as for
     /// [`Plan::without_overhang`].
-    pub fn in_plan(plan: Plan, stiffness: [f64; SPACE]) -> Result<Self> {
-        Self::bed(plan.without_overhang()?.elements(), stiffness)
+    pub fn in_plan(plan: Plan, stiffness: [f64; COMPONENTS_IN_SPACE]) -> Result<Self> {
+        Self::uniform_bed(plan.without_overhang()?.elements(), stiffness)
     }
 
     /// Bed of any elements, with a spring and a dashpot for each number of a [contact vector](crate::bem).
@@ -158,7 +158,11 @@ impl SpringGround {
         })
     }
 
-    fn bed(elements: Vec<ContactElement>, stiffness: [f64; SPACE]) -> Result<Self> {
+    /// Bed of equal springs, with their stiffness down, along x and along y.
+    fn uniform_bed(
+        elements: Vec<ContactElement>,
+        stiffness: [f64; COMPONENTS_IN_SPACE],
+    ) -> Result<Self> {
         positive("normal stiffness of the spring bed", stiffness[0])?;
         positive("tangential stiffness of the spring bed", stiffness[1])?;
         positive("tangential stiffness of the spring bed along y", stiffness[2])?;
@@ -199,6 +203,7 @@ impl SpringGround {
         self.theta * self.stiffness[index] + self.dashpot[index] / self.time_step
     }
 
+    /// Overwrites `matrix` with a diagonal matrix of `value` of each diagonal place.
     fn fill_diagonal(&self, matrix: &mut [f64], value: impl Fn(usize) -> f64) -> Result<()> {
         let size = self.displacement.len();
         same_length("matrix of the spring bed", matrix.len(), size * size)?;
@@ -211,7 +216,7 @@ impl SpringGround {
 }
 
 /// Values down, along x and along y, for each number of a contact vector.
-fn each_number(layout: ContactLayout, values: [f64; SPACE]) -> Vec<f64> {
+fn each_number(layout: ContactLayout, values: [f64; COMPONENTS_IN_SPACE]) -> Vec<f64> {
     (0..layout.len()).map(|index| values[layout.origin(index)[0]]).collect()
 }
 
@@ -250,8 +255,8 @@ impl Ground for SpringGround {
         for i in 0..self.displacement.len() {
             let traction = traction.get(i).copied().unwrap_or(0.0);
             let impedance = self.impedance(i);
-            let kept = (impedance - self.stiffness[i]) / impedance * self.displacement[i];
-            self.displacement[i] = kept + traction / impedance;
+            let history = (impedance - self.stiffness[i]) / impedance * self.displacement[i];
+            self.displacement[i] = history + traction / impedance;
         }
     }
 
@@ -295,7 +300,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_held_traction_tends_to_the_static_displacement() {
+    fn a_constant_traction_leads_to_the_static_displacement() {
         let mut bed =
             SpringGround::new(0.0..1.0, 1, 100.0, 50.0).unwrap().with_dashpots(10.0, 5.0).unwrap();
         bed.prepare(0.01, None, &mut crate::unobserved).unwrap();

@@ -14,24 +14,28 @@ use crate::soil::Soil;
 /// load to the receiver, z down.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StaticKernel {
-    logarithm: f64,
-    jump: f64,
-    reference: f64,
+    /// Factor of ln(|x|/L₀), 1/Pa.
+    logarithm_factor: f64,
+    /// Factor of sgn x, 1/Pa.
+    sign_factor: f64,
+    /// L₀, m.
+    reference_length: f64,
 }
 
 impl StaticKernel {
-    /// Kernel of a soil; displacements vanish at the distance `reference` (L₀, m).
+    /// Kernel of a soil; displacements vanish at the distance `reference_length` (L₀, m).
     ///
     /// The distance can be chosen freely because a half-plane has no static datum.
     ///
     /// # Errors
     /// [`crate::Error::Input`] unless the reference length is finite and above zero.
-    pub(crate) fn new(soil: Soil, reference: f64) -> Result<Self> {
-        positive("reference length", reference)?;
+    pub(crate) fn new(soil: Soil, reference_length: f64) -> Result<Self> {
+        positive("reference length", reference_length)?;
+        let modulus = soil.shear_modulus();
         Ok(Self {
-            logarithm: -(1.0 - soil.poisson()) / (std::f64::consts::PI * soil.shear_modulus()),
-            jump: (1.0 - 2.0 * soil.poisson()) / (4.0 * soil.shear_modulus()),
-            reference,
+            logarithm_factor: -(1.0 - soil.poisson()) / (std::f64::consts::PI * modulus),
+            sign_factor: (1.0 - 2.0 * soil.poisson()) / (4.0 * modulus),
+            reference_length,
         })
     }
 
@@ -54,27 +58,28 @@ impl StaticKernel {
         source: ContactElement,
     ) -> Result<Surface> {
         let overlap = Overlap::new(receiver, source)?;
-        let (mut even, mut odd) = (0.0, 0.0);
+        let mut even = 0.0;
+        let mut odd = 0.0;
         for i in 1..overlap.nodes.len() {
-            let (low, high) = (overlap.nodes[i - 1], overlap.nodes[i]);
-            let (w0, w1) = (overlap.even[i - 1], overlap.even[i]);
-            even += self.segment([low, high], [w0, w1]);
+            let low = overlap.nodes[i - 1];
+            let high = overlap.nodes[i];
+            even += self.logarithm_integral([low, high], [overlap.even[i - 1], overlap.even[i]]);
             odd += 0.5 * (high - low) * (overlap.odd[i - 1] + overlap.odd[i]);
         }
-        let diagonal = self.logarithm * even / overlap.length;
-        Ok(Surface { zz: diagonal, xx: diagonal, zx: self.jump * odd / overlap.length })
+        let diagonal = self.logarithm_factor * even / overlap.length;
+        Ok(Surface { zz: diagonal, xx: diagonal, zx: self.sign_factor * odd / overlap.length })
     }
 
     /// Overwrites `matrix` (2Q × 2Q, row-major) with the means of all pairs of elements.
     pub(super) fn compliance(&self, elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
         let classes = PairClasses::new(elements.to_vec())?;
         same_length("static compliance", matrix.len(), classes.layout().square())?;
-        let means = elements
-            .iter()
-            .flat_map(|receiver| {
-                elements.iter().map(|source| self.coefficients(*receiver, *source))
-            })
-            .collect::<Result<Vec<_>>>()?;
+        let mut means = Vec::with_capacity(elements.len() * elements.len());
+        for receiver in elements {
+            for source in elements {
+                means.push(self.coefficients(*receiver, *source)?);
+            }
+        }
         classes.scatter(matrix, |[receiver, source], pair| {
             let Surface { zz, xx, zx } = means[receiver * elements.len() + source];
             [zz, xx, zx * pair.sign]
@@ -83,7 +88,7 @@ impl StaticKernel {
     }
 
     /// ∫ w ln(x/L₀) dx for w linear between `low` and `high`.
-    fn segment(&self, [low, high]: [f64; 2], [w0, w1]: [f64; 2]) -> f64 {
+    fn logarithm_integral(&self, [low, high]: [f64; 2], [w0, w1]: [f64; 2]) -> f64 {
         let length = high - low;
         let slope = (w1 - w0) / length;
         if low >= 0.5 * length {
@@ -92,19 +97,23 @@ impl StaticKernel {
             let mut sum = 0.0;
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 let inside = 0.5 * length * (1.0 + node);
-                sum += weight * (w0 + slope * inside) * ((low + inside) / self.reference).ln();
+                let logarithm = ((low + inside) / self.reference_length).ln();
+                sum += weight * (w0 + slope * inside) * logarithm;
             }
             return 0.5 * length * sum;
         }
-        let primitive = |x: f64| {
-            if x == 0.0 {
-                return [0.0, 0.0];
-            }
-            let log = (x / self.reference).ln();
-            [x * (log - 1.0), 0.5 * x * x * (log - 0.5)]
-        };
-        let (one, two) = (primitive(low), primitive(high));
-        (w0 - slope * low) * (two[0] - one[0]) + slope * (two[1] - one[1])
+        let at_low = self.primitives(low);
+        let at_high = self.primitives(high);
+        (w0 - slope * low) * (at_high[0] - at_low[0]) + slope * (at_high[1] - at_low[1])
+    }
+
+    /// Primitives of ln(x/L₀) and of x ln(x/L₀).
+    fn primitives(&self, x: f64) -> [f64; 2] {
+        if x == 0.0 {
+            return [0.0, 0.0];
+        }
+        let log = (x / self.reference_length).ln();
+        [x * (log - 1.0), 0.5 * x * x * (log - 0.5)]
     }
 }
 
@@ -139,11 +148,10 @@ mod tests {
             (element(0.0, 1.0), element(400.0, 401.0)),
         ] {
             let count = 4000;
-            let inner = |x: f64| if x == 0.0 { 0.0 } else { x * ((x.abs() / 3.0).ln() - 1.0) };
             let mut sum = 0.0;
             for i in 0..count {
                 let x = p.left() + p.length() * (f64::from(i) + 0.5) / f64::from(count);
-                sum += inner(x - q.left()) - inner(x - q.right());
+                sum += line_integral(x - q.left()) - line_integral(x - q.right());
             }
             let expected = -0.7 / (std::f64::consts::PI * 2.0) * sum / f64::from(count);
             let found = kernel.coefficients(p, q).unwrap();
@@ -152,6 +160,11 @@ mod tests {
             let jump = -0.4 / 8.0 * q.length();
             assert!((found.zx - jump).abs() < 1e-15, "{} {jump}", found.zx);
         }
+    }
+
+    /// ∫₀^x ln(|ξ|/3) dξ.
+    fn line_integral(x: f64) -> f64 {
+        if x == 0.0 { 0.0 } else { x * ((x.abs() / 3.0).ln() - 1.0) }
     }
 
     #[test]

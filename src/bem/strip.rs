@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::error::{Error, Result, at_least, finite, positive, require};
-use crate::fundamental::branch::Weight;
-use crate::geometry::{ContactElement, PLANE, check_count};
+use crate::fundamental::branch::KernelWeight;
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::structure::{Base, BaseNode, Structure, check_line, from_the_left};
 
 /// Variation of element lengths along a strip.
@@ -57,23 +57,21 @@ impl Strip {
         finite("right end of the strip", range.end)?;
         positive("length of the strip", range.end - range.start)?;
         require("number of contact elements", count as f64, count > 0, "1 or more")?;
-        check_count(count, PLANE)?;
+        check_count(count, COMPONENTS_IN_PLANE)?;
         let middle = 0.5 * (range.start + range.end);
-        let half = 0.5 * (range.end - range.start);
-        let node = |k: usize| {
+        let half_length = 0.5 * (range.end - range.start);
+        let mut nodes = vec![range.start];
+        for k in 1..count {
             let fraction = k as f64 / count as f64;
             // The sine of the distance from the middle keeps both halves mirror images to rounding.
-            let place = match grading {
+            let relative_position = match grading {
                 Grading::Uniform => 2.0 * fraction - 1.0,
                 Grading::Cosine => (std::f64::consts::PI * (fraction - 0.5)).sin(),
             };
-            match k {
-                0 => range.start,
-                k if k == count => range.end,
-                _ => middle + half * place,
-            }
-        };
-        Self::from_nodes((0..=count).map(node).collect())
+            nodes.push(middle + half_length * relative_position);
+        }
+        nodes.push(range.end);
+        Self::from_nodes(nodes)
     }
 
     /// Strip of `count` elements over `range` (m), graded towards its ends ([`Grading::Cosine`]).
@@ -94,8 +92,8 @@ impl Strip {
 
     /// Strips of `count` elements under each foundation of `structure`, as wide as the foundation.
     ///
-    /// Under a flexible base a strip has at least one element for each segment, because only the structure holds nodes
-    /// between elements.
+    /// Under a flexible base a strip has at least one element for each segment, because nodes
+    /// between elements are supported by the structure alone.
     ///
     /// ```
     /// use basemat::bem::{Grading, Strip};
@@ -118,14 +116,16 @@ impl Strip {
             return Err(Error::Scene { quantity: "structure", needed });
         };
         at_least("list of foundations", lines.len(), 1)?;
-        let strip = |nodes: &Vec<BaseNode>| {
+        let mut strips = Vec::with_capacity(lines.len());
+        for nodes in &lines {
             check_line(nodes)?;
-            let (first, last) = (nodes[0].x, nodes[nodes.len() - 1].x);
+            let first = nodes[0].x;
+            let last = nodes[nodes.len() - 1].x;
             from_the_left(first, last)?;
-            let segments = BaseNode::segments(nodes);
-            Self::new(first..last, if count == 0 { 0 } else { count.max(segments) }, grading)
-        };
-        lines.iter().map(strip).collect()
+            let element_count = if count == 0 { 0 } else { count.max(BaseNode::segments(nodes)) };
+            strips.push(Self::new(first..last, element_count, grading)?);
+        }
+        Ok(strips)
     }
 
     /// Strip whose elements lie between neighbouring `nodes` (m).
@@ -155,7 +155,7 @@ impl Strip {
 
     /// The elements, from left to right.
     pub fn elements(&self) -> Vec<ContactElement> {
-        self.nodes.windows(2).map(|n| ContactElement::new(n[0], n[1])).collect()
+        self.nodes.windows(2).map(|ends| ContactElement::new(ends[0], ends[1])).collect()
     }
 }
 
@@ -167,7 +167,7 @@ impl AsRef<[Strip]> for Strip {
 }
 
 // Geometry of a pair of elements: the length of overlap at every offset, and its integral over the offsets that a wave
-// of given slowness passes during a step.
+// of a certain speed passes during a step.
 
 /// Overlap lengths w(x) of a receiver and a source shifted by x, folded to x ≥ 0.
 ///
@@ -196,24 +196,31 @@ fn checked(element: ContactElement) -> Result<ContactElement> {
 
 impl Overlap {
     pub(crate) fn new(receiver: ContactElement, source: ContactElement) -> Result<Self> {
-        let (p, q) = (checked(receiver)?, checked(source)?);
-        let (first, last) = (p.left() - q.right(), p.right() - q.left());
-        let (one, two) = (p.left() - q.left(), p.right() - q.right());
-        let plateau = p.length().min(q.length());
-        let width = |x: f64| (x - first).min(last - x).min(plateau).max(0.0);
-        let scale =
+        let p = checked(receiver)?;
+        let q = checked(source)?;
+        let first = p.left() - q.right();
+        let last = p.right() - q.left();
+        let left_offset = p.left() - q.left();
+        let right_offset = p.right() - q.right();
+        let max_overlap = p.length().min(q.length());
+        let largest_coordinate =
             [p.left(), p.right(), q.left(), q.right()].iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let close = 8.0 * f64::EPSILON * scale;
-        let mut nodes = vec![first.abs(), one.abs(), two.abs(), last.abs()];
-        if first < close && last > -close {
+        let rounding = 8.0 * f64::EPSILON * largest_coordinate;
+        let mut nodes = vec![first.abs(), left_offset.abs(), right_offset.abs(), last.abs()];
+        if first < rounding && last > -rounding {
             nodes.push(0.0);
         }
         nodes.sort_by(f64::total_cmp);
         // Nodes that differ only by rounding of the coordinates are one node.
-        nodes.dedup_by(|next, kept| *next - *kept <= close);
-        let fold = |sign: f64| nodes.iter().map(|&x| width(x) + sign * width(-x)).collect();
-        let (even, odd): (Vec<f64>, Vec<f64>) = (fold(1.0), fold(-1.0));
-        let one_sided = odd.iter().any(|w| w.abs() > close);
+        nodes.dedup_by(|next, previous| *next - *previous <= rounding);
+        let overlap_length = |x: f64| (x - first).min(last - x).min(max_overlap).max(0.0);
+        let mut even = Vec::with_capacity(nodes.len());
+        let mut odd = Vec::with_capacity(nodes.len());
+        for &x in &nodes {
+            even.push(overlap_length(x) + overlap_length(-x));
+            odd.push(overlap_length(x) - overlap_length(-x));
+        }
+        let one_sided = odd.iter().any(|w: &f64| w.abs() > rounding);
         Ok(Self { nodes, even, odd, length: p.length(), one_sided })
     }
 
@@ -227,102 +234,127 @@ impl Overlap {
         self.nodes.first().copied().unwrap_or(0.0)
     }
 
-    /// Number of the segment that contains `x`; otherwise whether x lies beyond the end.
-    fn segment(&self, x: f64) -> std::result::Result<usize, bool> {
+    /// Segment between nodes that contains the offset `x`.
+    fn segment(&self, x: f64) -> SegmentOfOffset {
         if x < self.nearest() {
-            return Err(false);
+            return SegmentOfOffset::BeforeFirst;
         }
-        (1..self.nodes.len()).find(|&i| x < self.nodes[i]).map(|i| i - 1).ok_or(true)
+        match (1..self.nodes.len()).find(|&i| x < self.nodes[i]) {
+            Some(end_node) => SegmentOfOffset::Inside(end_node - 1),
+            None => SegmentOfOffset::BeyondLast,
+        }
     }
 
-    /// The polynomial A(u) on the piece that contains `middle`, for the even or the odd folding.
-    pub(crate) fn covered(&self, step: [f64; 2], span: f64, middle: f64, odd: bool) -> Covered {
+    /// The polynomial A(u) on the piece that contains the speed `middle`.
+    ///
+    /// `step`: t₀ and t₁; `duration`: t₁ − t₀, rounded once; `odd`: of the odd folding instead of the even one.
+    pub(crate) fn passed_overlap(
+        &self,
+        step: [f64; 2],
+        duration: f64,
+        middle: f64,
+        odd: bool,
+    ) -> PassedOverlap {
         let w = if odd { &self.odd } else { &self.even };
         let x = &self.nodes;
         let slope = |i: usize| (w[i + 1] - w[i]) / (x[i + 1] - x[i]);
-        let mut covered = Covered {
-            same: false,
-            span,
-            begin: step[0],
+        let mut passed = PassedOverlap {
+            same_segment: false,
+            duration,
+            start: step[0],
             end: step[1],
-            base: 0.0,
+            whole_segments: 0.0,
             low: [0.0; 3],
             high: [0.0; 3],
         };
-        let (low, high) = (self.segment(step[0] * middle), self.segment(step[1] * middle));
-        if let (Ok(i), Ok(j)) = (low, high)
+        let low = self.segment(step[0] * middle);
+        let high = self.segment(step[1] * middle);
+        if let (SegmentOfOffset::Inside(i), SegmentOfOffset::Inside(j)) = (low, high)
             && i == j
         {
             // Measured from the end where w is smaller, so that w keeps its relative precision there.
             let k = if w[i].abs() <= w[i + 1].abs() { i } else { i + 1 };
-            covered.same = true;
-            covered.low = [x[k], w[k], slope(i)];
-            return covered;
+            passed.same_segment = true;
+            passed.low = [x[k], w[k], slope(i)];
+            return passed;
         }
-        let mut from = 0;
-        match low {
-            Ok(i) => {
-                from = i + 1;
-                covered.low = [x[from], w[from], slope(i)];
+        let first_node = match low {
+            SegmentOfOffset::Inside(i) => {
+                passed.low = [x[i + 1], w[i + 1], slope(i)];
+                i + 1
             }
-            Err(false) => {}
-            Err(true) => return covered,
-        }
-        let to = match high {
-            Ok(j) => {
-                covered.high = [x[j], w[j], slope(j)];
+            SegmentOfOffset::BeforeFirst => 0,
+            SegmentOfOffset::BeyondLast => return passed,
+        };
+        let last_node = match high {
+            SegmentOfOffset::Inside(j) => {
+                passed.high = [x[j], w[j], slope(j)];
                 j
             }
-            Err(true) => x.len() - 1,
-            Err(false) => return covered,
+            SegmentOfOffset::BeyondLast => x.len() - 1,
+            SegmentOfOffset::BeforeFirst => return passed,
         };
-        for i in from..to {
-            covered.base += 0.5 * (x[i + 1] - x[i]) * (w[i] + w[i + 1]);
+        for i in first_node..last_node {
+            passed.whole_segments += 0.5 * (x[i + 1] - x[i]) * (w[i] + w[i + 1]);
         }
-        covered
+        passed
     }
 }
 
-/// A(u) = ∫ w(x) dx over u·t₀ < x < u·t₁ as a polynomial in u, valid while both limits stay in
-/// their segments of w.
+/// Place of an offset among the segments between the nodes of an [`Overlap`].
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Covered {
+enum SegmentOfOffset {
+    BeforeFirst,
+    /// Number of the segment.
+    Inside(usize),
+    BeyondLast,
+}
+
+/// Overlap that a wave of speed u passes during a step, a polynomial in u.
+///
+/// A(u) = ∫ w(x) dx over u·t₀ < x < u·t₁, valid while both limits stay in their segments of w.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PassedOverlap {
     /// Whether both limits lie in the same segment.
-    same: bool,
-    span: f64,
-    begin: f64,
+    same_segment: bool,
+    /// t₁ − t₀.
+    duration: f64,
+    /// t₀.
+    start: f64,
+    /// t₁.
     end: f64,
-    base: f64,
+    /// Integral over the segments that lie between the limits as a whole.
+    whole_segments: f64,
     /// Node, width there and slope, of the segment that both limits share or of the lower limit's segment.
     low: [f64; 3],
     /// Node, width there and slope, of the upper limit's segment.
     high: [f64; 3],
 }
 
-impl Weight for Covered {
+impl KernelWeight for PassedOverlap {
     /// A(u), m².
-    fn at(&self, u: f64) -> f64 {
-        if self.same {
-            return u * self.over(u);
+    fn value(&self, u: f64) -> f64 {
+        if self.same_segment {
+            return u * self.value_over_speed(u);
         }
-        let below = self.low[0] - self.begin * u;
+        let below = self.low[0] - self.start * u;
         let above = self.end * u - self.high[0];
-        self.base
+        self.whole_segments
             + below * (self.low[1] - 0.5 * self.low[2] * below)
             + above * (self.high[1] + 0.5 * self.high[2] * above)
     }
 
     /// A(u)/u, m².
-    fn over(&self, u: f64) -> f64 {
-        if self.same {
-            let middle = 0.5 * (self.begin + self.end);
-            self.span * (self.low[1] + self.low[2] * (middle * u - self.low[0]))
+    fn value_over_speed(&self, u: f64) -> f64 {
+        if self.same_segment {
+            let middle = 0.5 * (self.start + self.end);
+            self.duration * (self.low[1] + self.low[2] * (middle * u - self.low[0]))
         } else {
-            self.at(u) / u
+            self.value(u) / u
         }
     }
 
-    fn vanishes(&self) -> bool {
-        self.same
+    fn vanishes_at_zero(&self) -> bool {
+        self.same_segment
     }
 }

@@ -54,7 +54,7 @@ impl ElasticGround {
                 needed: "`bem::plan::impedances_in_plan`: these are impedances of strips",
             });
         }
-        let watch = &mut impedance_watch(frequencies, observer);
-        strip_impedances(self.profile(), self.elements(), frequencies, contact, watch)
+        let progress = &mut impedance_watch(frequencies, observer);
+        strip_impedances(self.profile(), self.elements(), frequencies, contact, progress)
     }
 }

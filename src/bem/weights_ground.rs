@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::plan::{AT_END, Unions};
+use super::plan::{STEP_END_SPRING_RATIO, Unions};
 use super::{Ground, GroundDescription, NOT_PREPARED, SharedKernels, WeightsSource};
 use crate::error::{CheckpointError, Observer, Result};
-use crate::geometry::{ContactElement, PLANE, check_order};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_order};
 use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, HistoryOptions};
 
 /// Ground for any soil that has convolution weights and a static compliance.
@@ -106,9 +106,10 @@ pub struct WeightsGround {
     /// Cells of the elements in plan that consist of several cells.
     unions: Option<Unions>,
     options: HistoryOptions,
-    own_history: Option<Box<MakeHistory>>,
+    /// Makes the user's history; `None` for a history by `options`.
+    custom_history: Option<Box<MakeHistory>>,
     shared: SharedKernels,
-    prepared: Option<Prepared>,
+    prepared: Option<PreparedHistory>,
 }
 
 short_debug! {
@@ -120,7 +121,7 @@ short_debug! {
 }
 
 /// Weights and history for one time step.
-struct Prepared {
+struct PreparedHistory {
     time_step: f64,
     weights: Arc<dyn ConvolutionWeights>,
     chosen: ChosenHistory,
@@ -151,7 +152,7 @@ impl WeightsGround {
             elements,
             unions,
             options: HistoryOptions::default(),
-            own_history: None,
+            custom_history: None,
             shared: SharedKernels::default(),
             prepared: None,
         }
@@ -162,7 +163,8 @@ impl WeightsGround {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a tolerance not from 1e-12 to 1e-2.
     pub fn with_history(mut self, options: impl Into<HistoryOptions>) -> Result<Self> {
-        (self.options, self.own_history) = (options.into().checked()?, None);
+        self.options = options.into().checked()?;
+        self.custom_history = None;
         Ok(self)
     }
 
@@ -174,7 +176,7 @@ impl WeightsGround {
         mut self,
         make: impl Fn(Arc<dyn ConvolutionWeights>) -> Box<dyn ConvolutionHistory> + Send + 'static,
     ) -> Self {
-        self.own_history = Some(Box::new(make));
+        self.custom_history = Some(Box::new(make));
         self
     }
 
@@ -193,12 +195,12 @@ impl WeightsGround {
     }
 
     /// Makes an empty history of `weights` for `steps` steps.
-    fn begin(
+    fn empty_history(
         &self,
         weights: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<ChosenHistory> {
-        match &self.own_history {
+        match &self.custom_history {
             Some(make) => Ok(ChosenHistory::own(make(Arc::clone(weights)))),
             None => self.options.history(weights, steps),
         }
@@ -216,32 +218,39 @@ impl Ground for WeightsGround {
         steps: Option<usize>,
         observer: &mut Observer<'_>,
     ) -> Result<()> {
-        let known = self.prepared.as_ref().filter(|prepared| prepared.time_step == time_step);
-        let weights = match known {
-            Some(prepared) => Arc::clone(&prepared.weights),
-            None => self.shared.kernel(&*self.source, &self.elements, time_step)?,
+        let weights = match &self.prepared {
+            Some(prepared) if prepared.time_step == time_step => Arc::clone(&prepared.weights),
+            _ => self.shared.kernel(&*self.source, &self.elements, time_step)?,
         };
-        let mut chosen = self.begin(&weights, steps)?;
+        let mut chosen = self.empty_history(&weights, steps)?;
         match steps {
             Some(steps) => chosen.history.prepare(steps, observer)?,
-            // The step compliance is the first lag.
+            // The step compliance needs the first lag alone.
             None => weights.prepare(1, observer)?,
         }
-        self.prepared = Some(Prepared { time_step, weights, chosen });
-        self.unions.iter_mut().for_each(|unions| unions.last.fill(0.0));
+        self.prepared = Some(PreparedHistory { time_step, weights, chosen });
+        if let Some(unions) = &mut self.unions {
+            unions.last_traction.fill(0.0);
+        }
         Ok(())
     }
 
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let Some(Prepared { weights, .. }) = &self.prepared else { return Err(NOT_PREPARED) };
+        let Some(PreparedHistory { weights, .. }) = &self.prepared else {
+            return Err(NOT_PREPARED);
+        };
         match &self.unions {
-            Some(unions) => unions.reduce(matrix, AT_END, |cells| weights.step_compliance(cells)),
+            Some(unions) => {
+                unions.reduce(matrix, STEP_END_SPRING_RATIO, |cells| weights.step_compliance(cells))
+            }
             None => weights.step_compliance(matrix),
         }
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
-        let Some(Prepared { chosen, .. }) = &mut self.prepared else { return Err(NOT_PREPARED) };
+        let Some(PreparedHistory { chosen, .. }) = &mut self.prepared else {
+            return Err(NOT_PREPARED);
+        };
         match &mut self.unions {
             Some(unions) => unions.gather(displacement, |cells| chosen.history.evaluate(cells)),
             None => chosen.history.evaluate(displacement),
@@ -249,7 +258,7 @@ impl Ground for WeightsGround {
     }
 
     fn commit(&mut self, traction: &[f64]) {
-        let Some(Prepared { chosen, .. }) = &mut self.prepared else { return };
+        let Some(PreparedHistory { chosen, .. }) = &mut self.prepared else { return };
         let traction = self.unions.as_mut().map_or(traction, |unions| unions.spread(traction));
         chosen.history.push(traction);
     }
@@ -269,37 +278,42 @@ impl Ground for WeightsGround {
     }
 
     fn save(&self) -> Result<Vec<f64>> {
-        let saved = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
-        Ok([&saved[..], self.unions.as_ref().map_or(&[], |unions| &unions.last)].concat())
+        let history = self.prepared.as_ref().ok_or(NOT_PREPARED)?.chosen.save()?;
+        let last_traction = self.unions.as_ref().map_or(&[][..], |unions| &unions.last_traction);
+        Ok([&history[..], last_traction].concat())
     }
 
     /// Restores a history of the same kind; exponentials are fitted again if they had another horizon.
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let prepared = self.prepared.as_mut().ok_or(NOT_PREPARED)?;
-        let last = self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last);
-        let (values, kept) = values.split_at(values.len().saturating_sub(last.len()));
-        if let Some(horizon) = prepared.chosen.restore(steps, values)? {
+        let last_traction =
+            self.unions.as_mut().map_or(&mut [][..], |unions| &mut unions.last_traction);
+        let history_length = values.len().saturating_sub(last_traction.len());
+        let history = &values[..history_length];
+        if let Some(horizon) = prepared.chosen.restore(steps, history)? {
             let mut chosen = self.options.history(&prepared.weights, Some(horizon))?;
-            if chosen.restore(steps, values)?.is_some() {
+            if chosen.restore(steps, history)?.is_some() {
                 return Err(CheckpointError::OtherScene { quantity: "kind of history" }.into());
             }
             prepared.chosen = chosen;
         }
-        last.copy_from_slice(kept);
+        last_traction.copy_from_slice(&values[history_length..]);
         Ok(())
     }
 
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
-        let find = |matrix: &mut [f64]| self.source.static_compliance(&self.elements, matrix);
+        let elements = &self.elements;
         match &self.unions {
-            Some(unions) => unions.reduce(matrix, 1.0, find),
-            None => find(matrix),
+            Some(unions) => {
+                unions.reduce(matrix, 1.0, |cells| self.source.static_compliance(elements, cells))
+            }
+            None => self.source.static_compliance(elements, matrix),
         }
     }
 
     fn finer_compliance(&self) -> Result<Option<Vec<f64>>> {
         let halves: Vec<_> = self.elements.iter().flat_map(ContactElement::parts).collect();
-        let mut matrix = vec![0.0; (PLANE * halves.len()).pow(2)];
+        let mut matrix = vec![0.0; (COMPONENTS_IN_PLANE * halves.len()).pow(2)];
         self.source.static_compliance(&halves, &mut matrix)?;
         Ok(Some(matrix))
     }

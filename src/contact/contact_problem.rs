@@ -2,7 +2,7 @@
 
 use super::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch, SearchMethod};
 use crate::error::{Error, Result, StepError, finite, positive, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list,
     state_variable_ends,
@@ -122,11 +122,13 @@ impl ContactProblem {
     /// [`Error::Scene`] for a law without modes, [`Error::Input`] for entries that are not finite or laws
     /// with more than ten million state variables.
     pub fn new(delassus: Vec<f64>, laws: Vec<Box<dyn InterfaceLaw>>) -> Result<Self> {
-        let count = delassus.len().isqrt() / PLANE;
-        let layout = ContactLayout::new(PLANE, count);
+        let count = delassus.len().isqrt() / COMPONENTS_IN_PLANE;
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
         if count == 0 || layout.square() != delassus.len() {
-            let (quantity, needed) =
-                ("Delassus operator", ContactLayout::new(PLANE, count.max(1)).square());
+            let (quantity, needed) = (
+                "Delassus operator",
+                ContactLayout::new(COMPONENTS_IN_PLANE, count.max(1)).square(),
+            );
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
         check_list(&laws, count)?;

@@ -1,7 +1,7 @@
 //! The contact problem of one element, with the tractions of the others fixed.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` with the tractions of the others fixed, and returns its mode.
@@ -11,7 +11,7 @@ pub(super) fn local_mode(
     e: usize,
     current: Mode,
 ) -> Mode {
-    let layout = ContactLayout::new(PLANE, solver.states.len());
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, solver.states.len());
     let (size, [n, t]) = (layout.len(), layout.places(e));
     let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
     let others = |i: usize| {

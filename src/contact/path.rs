@@ -15,7 +15,7 @@
 //! of the path. After a break, the next attempt begins elsewhere, also with all elements pressed shut.
 
 use super::problem::{ContactInput, ContactSolver};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 
@@ -45,7 +45,7 @@ pub(crate) struct Path {
 
 impl Path {
     pub(crate) fn new(count: usize) -> Self {
-        let size = ContactLayout::new(PLANE, count).len();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, count).len();
         Self {
             offset: vec![0.0; size],
             jump: vec![0.0; size],
@@ -158,11 +158,11 @@ impl Path {
         spread: impl Fn(usize) -> f64,
         modes: &mut [Mode],
     ) {
-        let layout = ContactLayout::new(PLANE, modes.len());
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, modes.len());
         let size = layout.len();
         let mut pressure = 0.0_f64;
         for e in 0..modes.len() {
-            for i in layout.places::<PLANE>(e) {
+            for i in layout.places::<COMPONENTS_IN_PLANE>(e) {
                 pressure = pressure.max(input.free_jump[i].abs() / input.delassus[i * (size + 1)]);
             }
             pressure = pressure.max(input.start.state(e).pressure.abs());

@@ -11,7 +11,7 @@
 
 use super::delassus::Delassus;
 use crate::error::{Error, LawError};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{
     Condition, ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, Tolerance,
     law_of,
@@ -168,7 +168,7 @@ impl ContactSolver {
     pub(crate) fn new(layout: ContactLayout) -> Self {
         let (size, count) = (layout.len(), layout.elements());
         // In plan the search has its own system.
-        let system = if layout.components() == PLANE { size } else { 0 };
+        let system = if layout.components() == COMPONENTS_IN_PLANE { size } else { 0 };
         Self {
             layout,
             conditions: vec![[Condition::default(); 2]; count],
@@ -191,7 +191,7 @@ impl ContactSolver {
 
     /// Whether the problem has a ground in plan.
     pub(super) fn is_plan(&self) -> bool {
-        self.layout.components() != PLANE
+        self.layout.components() != COMPONENTS_IN_PLANE
     }
 
     /// Discards the factors; call this when W has changed.
@@ -278,7 +278,7 @@ impl ContactSolver {
         self.dofs.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
             let fixed = pair.map(|condition| condition.fixed_component());
-            for component in 0..PLANE {
+            for component in 0..COMPONENTS_IN_PLANE {
                 if !fixed.contains(&Some(component)) {
                     self.dofs.push(layout.place(component, e));
                 }

@@ -11,7 +11,7 @@ use crate::coupled::state::State;
 use crate::coupled::state::energy_balance::EnergyBalance;
 use crate::coupled::step::energy_accumulator::EnergyAccumulator;
 use crate::error::{CheckpointError, Result};
-use crate::geometry::SPACE;
+use crate::geometry::COMPONENTS_IN_SPACE;
 use crate::interface::{ContactState, LawForm, Mode, PreviousContact};
 use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
@@ -318,7 +318,7 @@ fn numbers<'a>(
         across.extend([slip_across, shear_across]);
     }
     all.extend(start.slip_rates_mut());
-    if directions == SPACE {
+    if directions == COMPONENTS_IN_SPACE {
         all.push(free_field_across);
         all.extend(across);
     }

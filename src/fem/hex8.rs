@@ -6,7 +6,7 @@ use super::element_face::ElementFace;
 use super::material::Material;
 use super::vector::{add, cross, dot};
 use crate::error::{Result, require, same_length};
-use crate::geometry::{Direction, IN_SPACE};
+use crate::geometry::{Direction, SPACE_DIRECTIONS};
 use crate::linalg::gauss;
 
 /// Shape functions and inner modes.
@@ -140,7 +140,7 @@ impl Element for Hex8 {
     }
 
     fn directions(&self) -> &[Direction] {
-        &IN_SPACE[..3]
+        &SPACE_DIRECTIONS[..3]
     }
 
     fn faces(&self) -> Vec<ElementFace> {

@@ -2,7 +2,7 @@
 
 use super::element::{Element, MassKind};
 use crate::error::{Result, not_negative, positive, require_part};
-use crate::geometry::{Direction, FRAME, IN_SPACE, TRANSLATIONS};
+use crate::geometry::{Direction, PLANE_DIRECTIONS, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
 /// Mass at a node, with or without rotary inertia.
 ///
@@ -31,7 +31,7 @@ impl LumpedMass {
     /// [`Error::Input`](crate::Error::Input) unless the mass is positive.
     pub fn new(node: usize, mass: f64) -> Result<Self> {
         let mass = positive("lumped mass", mass)?;
-        Ok(Self { node: [node], mass, directions: TRANSLATIONS, rotary_inertia: [0.0; 3] })
+        Ok(Self { node: [node], mass, directions: PLANE_TRANSLATIONS, rotary_inertia: [0.0; 3] })
     }
 
     /// Point mass of a mesh in space, kg, with the rotary inertias about x, y and z, kg m².
@@ -57,7 +57,7 @@ impl LumpedMass {
             not_negative("rotary inertia of the lumped mass", inertia)?;
         }
         let turns = rotary_inertia.iter().any(|&inertia| inertia > 0.0);
-        let directions = if turns { IN_SPACE } else { &IN_SPACE[..3] };
+        let directions = if turns { SPACE_DIRECTIONS } else { &SPACE_DIRECTIONS[..3] };
         Ok(Self { directions, rotary_inertia, ..Self::new(node, mass)? })
     }
 
@@ -74,7 +74,7 @@ impl LumpedMass {
         let needed = "in space given by LumpedMass::in_space, about three axes";
         let is_plane = !self.directions.contains(&Direction::Z);
         require_part("rotary inertia of the lumped mass", is_plane, needed)?;
-        let directions = if rotary_inertia > 0.0 { FRAME } else { TRANSLATIONS };
+        let directions = if rotary_inertia > 0.0 { PLANE_DIRECTIONS } else { PLANE_TRANSLATIONS };
         Ok(Self { directions, rotary_inertia: [rotary_inertia, 0.0, 0.0], ..self })
     }
 }

@@ -9,7 +9,7 @@ use super::force_rotation::ForceRotation;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
 };
-use crate::geometry::{Direction, FRAME, IN_SPACE};
+use crate::geometry::{Direction, PLANE_DIRECTIONS, SPACE_DIRECTIONS};
 
 /// Largest distance of a node from a given point at which it counts as the same point, relative to the mesh's size.
 ///
@@ -86,7 +86,7 @@ impl Mesh {
 
     /// Directions of the mesh's degrees of freedom: X, Y and Rotation, or the six of space.
     pub fn directions(&self) -> &'static [Direction] {
-        if self.has_depth { IN_SPACE } else { FRAME }
+        if self.has_depth { SPACE_DIRECTIONS } else { PLANE_DIRECTIONS }
     }
 
     /// Adds a node at (`x`, `y`), m, and returns its index.

@@ -5,7 +5,7 @@ use super::element::{Element, MassKind, add_square};
 use super::element_face::ElementFace;
 use super::material::Material;
 use crate::error::{Result, require, same_length};
-use crate::geometry::{Direction, TRANSLATIONS};
+use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
 
 /// Formulation of the stiffness of a [`Quad4`].
@@ -154,7 +154,7 @@ impl Element for Quad4 {
     }
 
     fn directions(&self) -> &[Direction] {
-        TRANSLATIONS
+        PLANE_TRANSLATIONS
     }
 
     fn faces(&self) -> Vec<ElementFace> {

@@ -5,7 +5,7 @@ use super::element_face::ElementFace;
 use super::material::Material;
 use super::quad4::{derivatives, integrate, strains};
 use crate::error::{Result, require, same_length};
-use crate::geometry::{Direction, TRANSLATIONS};
+use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
 
 /// Integration of the stiffness of a [`Quad8`].
@@ -135,7 +135,7 @@ impl Element for Quad8 {
     }
 
     fn directions(&self) -> &[Direction] {
-        TRANSLATIONS
+        PLANE_TRANSLATIONS
     }
 
     fn faces(&self) -> Vec<ElementFace> {

@@ -3,7 +3,7 @@
 use super::element::{Element, MassKind, add_square};
 use super::line::Line;
 use crate::error::{Result, positive};
-use crate::geometry::{Direction, IN_SPACE, TRANSLATIONS};
+use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
 /// Linear spring between two nodes.
 ///
@@ -43,7 +43,7 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(TRANSLATIONS), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(PLANE_TRANSLATIONS), coefficient }))
     }
 
     /// Spring of a mesh in space, against the change of distance between two nodes.
@@ -54,7 +54,7 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(&IN_SPACE[..3]), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(&SPACE_DIRECTIONS[..3]), coefficient }))
     }
 }
 
@@ -169,7 +169,7 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(TRANSLATIONS), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(PLANE_TRANSLATIONS), coefficient }))
     }
 
     /// Dashpot of a mesh in space, against the rate of the distance between two nodes.
@@ -180,7 +180,7 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(&IN_SPACE[..3]), coefficient }))
+        Ok(Self(Pair { nodes, action: Action::Line(&SPACE_DIRECTIONS[..3]), coefficient }))
     }
 }
 

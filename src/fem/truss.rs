@@ -3,7 +3,7 @@
 use super::element::{Element, MassKind};
 use super::line::Line;
 use crate::error::{Result, not_negative, positive};
-use crate::geometry::{Direction, IN_SPACE, TRANSLATIONS};
+use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
 /// Straight bar between two nodes, hinged at both, in the plane or [in space](Truss::in_space).
 ///
@@ -42,7 +42,7 @@ impl Truss {
         positive("area of the truss", area)?;
         not_negative("density of the truss", density)?;
         positive("axial stiffness of the truss", young_modulus * area)?;
-        let directions = TRANSLATIONS;
+        let directions = PLANE_TRANSLATIONS;
         Ok(Self { nodes, young_modulus, area, density, directions, compression: 0.0 })
     }
 
@@ -56,7 +56,7 @@ impl Truss {
         area: f64,
         density: f64,
     ) -> Result<Self> {
-        let directions = &IN_SPACE[..3];
+        let directions = &SPACE_DIRECTIONS[..3];
         Ok(Self { directions, ..Self::new(nodes, young_modulus, area, density)? })
     }
 }

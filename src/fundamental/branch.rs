@@ -1,4 +1,4 @@
-//! Quadrature of the half-plane surface kernel against a polynomial in the slowness.
+//! Quadrature of the half-plane surface kernel against a polynomial in the speed of waves.
 //!
 //! The kernel is a sum of branches, each a square root times a rational function whose poles are
 //! the roots of the Rayleigh polynomial. On each branch a variable s removes the square root, and
@@ -9,42 +9,42 @@
 //!
 //! | symbol | meaning |
 //! |---|---|
-//! | τ, u | `c_S` t/x and 1/τ |
+//! | τ, u | `c_S` t/x, and the speed 1/τ = x/(`c_S` t) |
 //! | z | τ² − a² |
 //! | s | √(τ²−a²), √(τ²−1), √(1−τ²), or u in the tail |
 
 use crate::fundamental::rayleigh::Rayleigh;
 use crate::linalg::{Complex, gauss};
 
-/// Weight under which the kernel is integrated: a smooth function A of the slowness u.
-pub(crate) trait Weight {
+/// Weight under which the kernel is integrated: a smooth function A of the speed u.
+pub(crate) trait KernelWeight {
     /// A(u).
-    fn at(&self, u: f64) -> f64;
+    fn value(&self, u: f64) -> f64;
     /// A(u)/u.
-    fn over(&self, u: f64) -> f64;
+    fn value_over_speed(&self, u: f64) -> f64;
     /// Whether A(u)/u is smooth at u = 0.
-    fn vanishes(&self) -> bool;
+    fn vanishes_at_zero(&self) -> bool;
 }
 
 /// A = τ^power.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Power(pub(crate) i32);
 
-impl Weight for Power {
-    fn at(&self, u: f64) -> f64 {
+impl KernelWeight for Power {
+    fn value(&self, u: f64) -> f64 {
         u.powi(-self.0)
     }
 
-    fn over(&self, u: f64) -> f64 {
+    fn value_over_speed(&self, u: f64) -> f64 {
         u.powi(-self.0 - 1)
     }
 
-    fn vanishes(&self) -> bool {
+    fn vanishes_at_zero(&self) -> bool {
         self.0 < 0
     }
 }
 
-/// Branch of the kernel, in its own variable.
+/// Branch of the kernel, with the variable s that removes its square root.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Branch {
     /// zz and xx behind the pressure wave: s = √(τ²−a²).
@@ -63,36 +63,36 @@ pub(crate) enum Branch {
 #[derive(Debug, Clone)]
 pub(crate) struct Branches {
     pub(crate) rayleigh: Rayleigh,
-    /// a.
-    pub(crate) first: f64,
+    /// a: τ when the pressure wave arrives.
+    pub(crate) pressure_arrival: f64,
     /// τ between `OddLow` and `OddHigh`.
-    pub(crate) middle: f64,
+    odd_division: f64,
     /// τ where the tail begins.
-    pub(crate) tail: f64,
-    /// `c_S`/`c_R`.
-    pub(crate) arrival: f64,
+    tail_start: f64,
+    /// `c_S`/`c_R`: τ when the Rayleigh wave arrives.
+    pub(crate) rayleigh_arrival: f64,
     /// Strength of the Rayleigh pulse of zx.
-    pub(crate) pulse: f64,
+    pub(crate) rayleigh_pulse: f64,
     /// a² − y for the root near the pressure wave, when it is subtracted.
-    near: Option<f64>,
+    near_root: Option<f64>,
     /// Singularities of each branch for which pieces are subdivided, and which are not subtracted.
-    regular: [[[f64; 2]; 4]; 5],
+    distant_singularities: [[[f64; 2]; 4]; 5],
     /// The Rayleigh pole in the variables of `Pressure` and `Shear`.
-    pole: [f64; 2],
+    rayleigh_poles: [f64; 2],
 }
 
 /// Singularities that are subtracted on a piece and integrated in closed form.
 #[derive(Default)]
-struct Singular {
+struct SubtractedTerms {
     /// Residue at the Rayleigh pole.
     residue: Option<[f64; 2]>,
     /// Factor of s²/(s²+c) at the root beside the path, and c.
-    near: Option<([f64; 2], f64)>,
+    near_root: Option<([f64; 2], f64)>,
 }
 
-impl Singular {
-    /// Adds the integrals over the piece.
-    fn add(&self, pole: Option<f64>, [low, high]: [f64; 2], sum: &mut [f64; 2]) {
+impl SubtractedTerms {
+    /// Adds the integrals of the subtracted terms over the piece.
+    fn add_integrals(&self, pole: Option<f64>, [low, high]: [f64; 2], sum: &mut [f64; 2]) {
         if let (Some(residue), Some(s)) = (self.residue, pole) {
             // The lower limit 1e-30 replaces a zero distance when a piece ends at the pole; the next piece cancels
             // it.
@@ -100,73 +100,99 @@ impl Singular {
             sum[0] += residue[0] * log;
             sum[1] += residue[1] * log;
         }
-        if let Some((side, c)) = self.near {
+        if let Some((factor, c)) = self.near_root {
             let delta = c.sqrt();
             let angle = ((high - low) * delta).atan2(c + low * high);
-            sum[0] -= side[0] * delta * angle;
-            sum[1] -= side[1] * delta * angle;
+            sum[0] -= factor[0] * delta * angle;
+            sum[1] -= factor[1] * delta * angle;
         }
     }
 }
 
-/// A root nearer than this to a² is subtracted.
-const NEAR: f64 = 0.01;
+/// A root whose distance from a² is below this is subtracted.
+const NEAR_ROOT_DISTANCE: f64 = 0.01;
 
-/// A pole within this reach of a piece is subtracted.
-const SUBTRACT: f64 = 3.0;
+/// A pole within this reach of a piece, in the sense of [`gauss::reach`], is subtracted.
+const SUBTRACTION_REACH: f64 = 3.0;
+
+/// Largest number of successive halvings of a piece.
+const MAX_PIECE_HALVINGS: u32 = 60;
+
+/// Kernel of a branch at one point.
+struct BranchKernel {
+    /// zz and xx; or zx and 0.
+    values: [f64; 2],
+    u: f64,
+}
+
+/// √(sign·z + offset) as a point of the complex plane.
+fn root_of_shifted(z: Complex, sign: f64, offset: f64) -> [f64; 2] {
+    let s = (z.scale(sign) + Complex::real(offset)).sqrt();
+    [s.re, s.im]
+}
 
 impl Branches {
+    /// Branches for a soil with these roots of the Rayleigh polynomial.
     pub(crate) fn new(rayleigh: Rayleigh) -> Self {
         let r = rayleigh;
-        let first = r.a2.sqrt();
-        let arrival = r.arrival();
+        let pressure_arrival = r.a2.sqrt();
+        let rayleigh_arrival = r.arrival();
         let discriminant = r.discriminant();
-        let (one, two) = r.shifted_roots(discriminant, 0.0);
-        let near = (discriminant > 0.0 && -one.re < NEAR).then_some(-one.re);
-        let at = |z: Complex| {
-            let s = z.sqrt();
-            [s.re, s.im]
-        };
-        let shifted =
-            |z: Complex, sign: f64, offset: f64| at(z.scale(sign) + Complex::real(offset));
-        let one_pressure = if near.is_some() { at(two) } else { at(one) };
-        let (zp, zs, h) = (r.z.sqrt(), r.excess.sqrt(), r.h);
-        let regular = [
-            [[0.0, first], one_pressure, at(two), [-zp, 0.0]],
-            [[0.0, 1.0], shifted(one, 1.0, -h), shifted(two, 1.0, -h), [-zs, 0.0]],
-            [[0.0, first], one_pressure, at(two), [h.sqrt(), 0.0]],
-            [[0.0, zs], shifted(one, -1.0, h), shifted(two, -1.0, h), [h.sqrt(), 0.0]],
-            [[1.0 / arrival, 0.0]; 4],
+        let roots = r.shifted_roots(discriminant, 0.0);
+        let is_near = discriminant > 0.0 && -roots[0].re < NEAR_ROOT_DISTANCE;
+        let near_root = is_near.then_some(-roots[0].re);
+        let second_point = root_of_shifted(roots[1], 1.0, 0.0);
+        let first_point =
+            if near_root.is_some() { second_point } else { root_of_shifted(roots[0], 1.0, 0.0) };
+        let pressure_pole = r.z.sqrt();
+        let shear_pole = r.excess.sqrt();
+        let h = r.h;
+        let distant_singularities = [
+            [[0.0, pressure_arrival], first_point, second_point, [-pressure_pole, 0.0]],
+            [
+                [0.0, 1.0],
+                root_of_shifted(roots[0], 1.0, -h),
+                root_of_shifted(roots[1], 1.0, -h),
+                [-shear_pole, 0.0],
+            ],
+            [[0.0, pressure_arrival], first_point, second_point, [h.sqrt(), 0.0]],
+            [
+                [0.0, shear_pole],
+                root_of_shifted(roots[0], -1.0, h),
+                root_of_shifted(roots[1], -1.0, h),
+                [h.sqrt(), 0.0],
+            ],
+            [[1.0 / rayleigh_arrival, 0.0]; 4],
         ];
         Self {
             rayleigh,
-            first,
-            middle: (r.a2 + 0.5 * h).sqrt(),
-            tail: 1.6 * arrival,
-            arrival,
-            pulse: r.pulse(),
-            near,
-            regular,
-            pole: [zp, zs],
+            pressure_arrival,
+            odd_division: (r.a2 + 0.5 * h).sqrt(),
+            tail_start: 1.6 * rayleigh_arrival,
+            rayleigh_arrival,
+            rayleigh_pulse: r.pulse(),
+            near_root,
+            distant_singularities,
+            rayleigh_poles: [pressure_pole, shear_pole],
         }
     }
 
-    /// Interval of τ that belongs to a part.
-    fn range(&self, part: Branch) -> [f64; 2] {
-        match part {
-            Branch::Pressure => [self.first, self.tail],
-            Branch::Shear => [1.0, self.tail],
-            Branch::OddLow => [self.first, self.middle],
-            Branch::OddHigh => [self.middle, 1.0],
-            Branch::Tail => [self.tail, f64::INFINITY],
+    /// Interval of τ on which a branch is integrated.
+    fn interval(&self, branch: Branch) -> [f64; 2] {
+        match branch {
+            Branch::Pressure => [self.pressure_arrival, self.tail_start],
+            Branch::Shear => [1.0, self.tail_start],
+            Branch::OddLow => [self.pressure_arrival, self.odd_division],
+            Branch::OddHigh => [self.odd_division, 1.0],
+            Branch::Tail => [self.tail_start, f64::INFINITY],
         }
     }
 
-    /// The variable s of a part at τ.
-    fn variable(&self, part: Branch, tau: f64) -> f64 {
-        match part {
+    /// The variable s of a branch at τ.
+    fn variable(&self, branch: Branch, tau: f64) -> f64 {
+        match branch {
             Branch::Pressure | Branch::OddLow => {
-                ((tau - self.first).max(0.0) * (tau + self.first)).sqrt()
+                ((tau - self.pressure_arrival).max(0.0) * (tau + self.pressure_arrival)).sqrt()
             }
             Branch::Shear => ((tau - 1.0).max(0.0) * (tau + 1.0)).sqrt(),
             Branch::OddHigh => ((1.0 - tau).max(0.0) * (1.0 + tau)).sqrt(),
@@ -174,39 +200,43 @@ impl Branches {
         }
     }
 
-    /// Adds ∫ f(τ) A(1/τ) dτ over `from` < τ < `to` (the part of it inside this branch) to `sum`:
-    /// zz and xx, or zx first.
-    pub(crate) fn add(
+    /// Adds the integral of a branch under a weight to `sum`.
+    ///
+    /// ∫ f(τ) A(1/τ) dτ over the part of `start` < τ < `end` inside the branch; zz and xx, or zx first.
+    pub(crate) fn add_integral(
         &self,
-        part: Branch,
-        from: f64,
-        to: f64,
-        a: &impl Weight,
+        branch: Branch,
+        start: f64,
+        end: f64,
+        weight: &impl KernelWeight,
         sum: &mut [f64; 2],
     ) {
-        let [begin, end] = self.range(part);
-        let (from, to) = (from.max(begin), to.min(end));
-        if from >= to {
+        let [branch_start, branch_end] = self.interval(branch);
+        let start = start.max(branch_start);
+        let end = end.min(branch_end);
+        if start >= end {
             return;
         }
-        let (one, two) = (self.variable(part, from), self.variable(part, to));
-        self.piece(part, [one.min(two), one.max(two)], a, sum, 0);
+        let one = self.variable(branch, start);
+        let two = self.variable(branch, end);
+        self.add_piece(branch, [one.min(two), one.max(two)], weight, sum, 0);
     }
 
-    fn piece(
+    /// Adds the integral over a piece of s, which is halved until a Gauss rule is accurate.
+    fn add_piece(
         &self,
-        part: Branch,
+        branch: Branch,
         [low, high]: [f64; 2],
-        a: &impl Weight,
+        weight: &impl KernelWeight,
         sum: &mut [f64; 2],
-        depth: u32,
+        halvings: u32,
     ) {
         if high <= low {
             return;
         }
-        let pole = match part {
-            Branch::Pressure => Some(self.pole[0]),
-            Branch::Shear => Some(self.pole[1]),
+        let pole = match branch {
+            Branch::Pressure => Some(self.rayleigh_poles[0]),
+            Branch::Shear => Some(self.rayleigh_poles[1]),
             _ => None,
         };
         // No node may come near the pole: end the piece there.
@@ -214,30 +244,34 @@ impl Branches {
             && s > low
             && s < high
         {
-            self.piece(part, [low, s], a, sum, depth);
-            self.piece(part, [s, high], a, sum, depth);
+            self.add_piece(branch, [low, s], weight, sum, halvings);
+            self.add_piece(branch, [s, high], weight, sum, halvings);
             return;
         }
-        let (singular, reach) = self.singularities(part, [low, high], a, pole);
+        let (subtracted, reach) = self.singularities(branch, [low, high], weight, pole);
         let rule = match gauss::rule_for(reach) {
             Some(rule) => rule,
-            None if depth < 60 => {
+            None if halvings < MAX_PIECE_HALVINGS => {
                 let middle = 0.5 * (low + high);
-                self.piece(part, [low, middle], a, sum, depth + 1);
-                self.piece(part, [middle, high], a, sum, depth + 1);
+                self.add_piece(branch, [low, middle], weight, sum, halvings + 1);
+                self.add_piece(branch, [middle, high], weight, sum, halvings + 1);
                 return;
             }
             None => gauss::largest(),
         };
-        let Singular { residue, near, .. } = singular;
-        let (center, half) = (0.5 * (low + high), 0.5 * (high - low));
-        for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-            let s = center + half * node;
-            let weight = weight * half;
-            let [one, two, u] = self.smooth(part, s, pole);
-            let covered = if part == Branch::Tail { a.over(u) } else { a.at(u) };
-            let mut value = [one * covered, two * covered];
-            if let Some(residue) = residue {
+        let center = 0.5 * (low + high);
+        let half_length = 0.5 * (high - low);
+        for (node, node_weight) in rule.nodes.iter().zip(&rule.weights) {
+            let s = center + half_length * node;
+            let node_weight = node_weight * half_length;
+            let kernel = self.kernel_without_pole(branch, s, pole);
+            let weight_value = if branch == Branch::Tail {
+                weight.value_over_speed(kernel.u)
+            } else {
+                weight.value(kernel.u)
+            };
+            let mut value = kernel.values.map(|value| value * weight_value);
+            if let Some(residue) = subtracted.residue {
                 value[0] -= residue[0];
                 value[1] -= residue[1];
             }
@@ -246,101 +280,106 @@ impl Branches {
                 value[0] *= inverse;
                 value[1] *= inverse;
             }
-            if let Some((side, c)) = near {
-                let factor = if c == 0.0 { 0.0 } else { c / (s * s + c) };
-                value[0] += factor * side[0];
-                value[1] += factor * side[1];
+            if let Some((factor, c)) = subtracted.near_root {
+                let ratio = if c == 0.0 { 0.0 } else { c / (s * s + c) };
+                value[0] += ratio * factor[0];
+                value[1] += ratio * factor[1];
             }
-            sum[0] += weight * value[0];
-            sum[1] += weight * value[1];
+            sum[0] += node_weight * value[0];
+            sum[1] += node_weight * value[1];
         }
-        singular.add(pole, [low, high], sum);
+        subtracted.add_integrals(pole, [low, high], sum);
     }
 
     /// Singularities that are subtracted on a piece, and the reach of the nearest other one.
     fn singularities(
         &self,
-        part: Branch,
+        branch: Branch,
         [low, high]: [f64; 2],
-        a: &impl Weight,
+        weight: &impl KernelWeight,
         pole: Option<f64>,
-    ) -> (Singular, f64) {
+    ) -> (SubtractedTerms, f64) {
         let mut reach = f64::INFINITY;
-        for &point in &self.regular[part as usize] {
+        for &point in &self.distant_singularities[branch as usize] {
             reach = reach.min(gauss::reach(point, low, high));
         }
-        if part == Branch::Tail && !a.vanishes() {
+        if branch == Branch::Tail && !weight.vanishes_at_zero() {
             reach = reach.min(gauss::reach([0.0, 0.0], low, high));
         }
-        let mut singular = Singular::default();
+        let mut subtracted = SubtractedTerms::default();
         if let Some(s) = pole {
-            let distance = gauss::reach([s, 0.0], low, high);
-            if distance < SUBTRACT {
-                let [one, two, u] = self.smooth(part, s, pole);
-                let weight = a.at(u);
-                singular.residue = Some([one * weight, two * weight]);
+            let pole_reach = gauss::reach([s, 0.0], low, high);
+            if pole_reach < SUBTRACTION_REACH {
+                let kernel = self.kernel_without_pole(branch, s, pole);
+                let weight_value = weight.value(kernel.u);
+                subtracted.residue = Some(kernel.values.map(|value| value * weight_value));
             } else {
-                reach = reach.min(distance);
+                reach = reach.min(pole_reach);
             }
         }
-        if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near, part) {
-            let distance = gauss::reach([0.0, c.sqrt()], low, high);
-            if distance < SUBTRACT {
-                singular.near = Some((self.beside(part, c, a), c));
+        if let (Some(c), Branch::Pressure | Branch::OddLow) = (self.near_root, branch) {
+            let root_reach = gauss::reach([0.0, c.sqrt()], low, high);
+            if root_reach < SUBTRACTION_REACH {
+                subtracted.near_root = Some((self.near_root_factor(branch, c, weight), c));
             } else {
-                reach = reach.min(distance);
+                reach = reach.min(root_reach);
             }
         }
-        (singular, reach)
+        (subtracted, reach)
     }
 
     /// Kernel times dτ/ds at `s`, and u; the kernel's factor 1/(s − pole) is left out if there is a pole.
-    fn smooth(&self, part: Branch, s: f64, pole: Option<f64>) -> [f64; 3] {
+    fn kernel_without_pole(&self, branch: Branch, s: f64, pole: Option<f64>) -> BranchKernel {
         let r = &self.rayleigh;
-        let (square, sixteen) = (s * s, 16.0 * r.h);
-        match part {
+        let square = s * s;
+        let sixteen = 16.0 * r.h;
+        match branch {
             Branch::Pressure | Branch::Shear => {
-                let (z, y) = if part == Branch::Pressure {
-                    (square, square + r.a2)
-                } else {
-                    (square + r.h, square + 1.0)
-                };
+                let behind_pressure = branch == Branch::Pressure;
+                let z = if behind_pressure { square } else { square + r.h };
+                let y = if behind_pressure { square + r.a2 } else { square + 1.0 };
                 let u = 1.0 / y.sqrt();
                 let common = square * u / (sixteen * (s + pole.unwrap_or(0.0)) * r.pair(z));
                 let k2 = (r.g - 2.0 * z).powi(2);
-                if part == Branch::Pressure {
-                    [common * k2, common * 4.0 * y * (z - r.h), u]
+                let values = if behind_pressure {
+                    [common * k2, common * 4.0 * y * (z - r.h)]
                 } else {
-                    [common * 4.0 * y * z, common * k2, u]
-                }
+                    [common * 4.0 * y * z, common * k2]
+                };
+                BranchKernel { values, u }
             }
             Branch::OddLow | Branch::OddHigh => {
-                let low = part == Branch::OddLow;
+                let low = branch == Branch::OddLow;
                 let z = if low { square } else { r.h - square };
                 let root = if low { r.h - square } else { z }.max(0.0).sqrt();
                 let value =
                     2.0 * (r.g - 2.0 * z) * square * root / (sixteen * (z - r.z) * r.pair(z));
-                [value, 0.0, 1.0 / (z + r.a2).sqrt()]
+                BranchKernel { values: [value, 0.0], u: 1.0 / (z + r.a2).sqrt() }
             }
             Branch::Tail => {
-                let (ka, kb) = (1.0 - r.a2 * square, 1.0 - square);
+                let ka = 1.0 - r.a2 * square;
+                let kb = 1.0 - square;
                 let pair = (ka + r.sum * square) * ka + r.product * square * square;
                 let common = 1.0 / (sixteen * (1.0 - r.square * square) * pair);
-                let (sa, sb, k2) = (ka.sqrt(), kb.sqrt(), (2.0 - square).powi(2));
-                [common * (k2 * sa + 4.0 * ka * sb), common * (4.0 * kb * sa + k2 * sb), s]
+                let sa = ka.sqrt();
+                let sb = kb.sqrt();
+                let k2 = (2.0 - square).powi(2);
+                let zz = common * (k2 * sa + 4.0 * ka * sb);
+                let xx = common * (4.0 * kb * sa + k2 * sb);
+                BranchKernel { values: [zz, xx], u: s }
             }
         }
     }
 
     /// Factor of s²/(s²+c) at the root s² = −c beside the path.
-    fn beside(&self, part: Branch, c: f64, a: &impl Weight) -> [f64; 2] {
+    fn near_root_factor(&self, branch: Branch, c: f64, weight: &impl KernelWeight) -> [f64; 2] {
         let r = &self.rayleigh;
         let y = r.a2 - c;
         let u = 1.0 / y.sqrt();
         // The other factor of the pair at z = −c is c₂ − c, with c + c₂ = σ.
-        let common = a.at(u) / (16.0 * r.h * (-c - r.z) * (r.sum - 2.0 * c));
+        let common = weight.value(u) / (16.0 * r.h * (-c - r.z) * (r.sum - 2.0 * c));
         let k = r.g + 2.0 * c;
-        if part == Branch::Pressure {
+        if branch == Branch::Pressure {
             [common * u * k * k, common * u * 4.0 * y * (-c - r.h)]
         } else {
             [common * 2.0 * k * (r.h + c).sqrt(), 0.0]

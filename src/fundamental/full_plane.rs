@@ -20,29 +20,37 @@ use crate::soil::Soil;
 #[derive(Debug, Clone, Copy)]
 pub struct FullPlane {
     soil: Soil,
-    pressure: f64,
-    shear: f64,
+    pressure_wave_speed: f64,
+    shear_wave_speed: f64,
 }
 
-/// Time functions of one load: Z₁−Z₂, L₁+L₂, Q₂ and 2(Z₁−Z₂)+Q₁−Q₂.
-struct Functions {
-    difference: f64,
-    logarithm: f64,
-    shear: f64,
+/// Time functions of one load history.
+struct TimeFunctions {
+    /// Z₁−Z₂.
+    z_difference: f64,
+    /// L₁+L₂.
+    l_sum: f64,
+    /// Q₂.
+    q_shear: f64,
+    /// 2(Z₁−Z₂)+Q₁−Q₂.
     slope: f64,
 }
 
 impl FullPlane {
     /// The full plane of a soil.
     pub fn new(soil: Soil) -> Self {
-        Self { soil, pressure: soil.pressure_wave_speed(), shear: soil.shear_wave_speed() }
+        let pressure_wave_speed = soil.pressure_wave_speed();
+        let shear_wave_speed = soil.shear_wave_speed();
+        Self { soil, pressure_wave_speed, shear_wave_speed }
     }
 
-    fn functions(&self, r: f64, time: f64, load: LoadHistory) -> Functions {
-        let mut out = Functions { difference: 0.0, logarithm: 0.0, shear: 0.0, slope: 0.0 };
+    /// Time functions at the distance `r` and at `time` after the load began.
+    fn time_functions(&self, r: f64, time: f64, load: LoadHistory) -> TimeFunctions {
+        let mut functions =
+            TimeFunctions { z_difference: 0.0, l_sum: 0.0, q_shear: 0.0, slope: 0.0 };
         // Once both waves have passed, terms of Z that do not depend on the wave speed cancel in Z₁ − Z₂.
-        let both = self.shear * time / r > 1.0;
-        for (c, sign) in [(self.pressure, 1.0), (self.shear, -1.0)] {
+        let both_passed = self.shear_wave_speed * time / r > 1.0;
+        for (c, sign) in [(self.pressure_wave_speed, 1.0), (self.shear_wave_speed, -1.0)] {
             let z = c * time / r;
             if z.is_nan() || z <= 1.0 {
                 continue;
@@ -50,47 +58,67 @@ impl FullPlane {
             let s = ((z - 1.0) * (z + 1.0)).sqrt();
             let square = 1.0 / (c * c);
             let sum = z + s;
-            // Z, L, Q and 2Z + Q, without their common terms if `both`.
-            let (unit, zed, log, cue, slope) = match load {
+            // Z, L, Q and 2Z + Q, without their common terms if `both_passed`; all times `unit`.
+            let unit;
+            let z_term;
+            let l_term;
+            let q_term;
+            let slope;
+            match load {
                 LoadHistory::Impulse => {
-                    let unit = square * c / r;
-                    let cue = -1.0 / (s * s * s);
-                    let zed = if both { 1.0 / (s * sum * sum) } else { z / s * z + s };
-                    (unit, zed, 1.0 / s, cue, 2.0 * zed + cue)
+                    unit = square * c / r;
+                    q_term = -1.0 / (s * s * s);
+                    z_term = if both_passed { 1.0 / (s * sum * sum) } else { z / s * z + s };
+                    l_term = 1.0 / s;
+                    slope = 2.0 * z_term + q_term;
                 }
                 LoadHistory::Step => {
-                    let cue = z / s;
-                    let zed = if both { -z / sum } else { z * s };
-                    let slope = if both { z / (s * sum * sum) } else { 2.0 * zed + cue };
-                    (square, zed, s.asinh(), cue, slope)
+                    unit = square;
+                    q_term = z / s;
+                    z_term = if both_passed { -z / sum } else { z * s };
+                    l_term = s.asinh();
+                    slope = if both_passed { z / (s * sum * sum) } else { 2.0 * z_term + q_term };
                 }
                 LoadHistory::Ramp => {
-                    let unit = square * r / c;
+                    unit = square * r / c;
+                    q_term = s;
                     // s³ − z³ = −(z² + zs + s²)/(z + s)
-                    let zed =
-                        if both { -(z * z + z * s + s * s) / (3.0 * sum) } else { s * s * s / 3.0 };
-                    let slope =
-                        if both { -(s + 2.0 * z) / (3.0 * sum * sum) } else { 2.0 * zed + s };
-                    (unit, zed, z * s.asinh() - s, s, slope)
+                    z_term = if both_passed {
+                        -(z * z + z * s + s * s) / (3.0 * sum)
+                    } else {
+                        s * s * s / 3.0
+                    };
+                    l_term = z * s.asinh() - s;
+                    slope = if both_passed {
+                        -(s + 2.0 * z) / (3.0 * sum * sum)
+                    } else {
+                        2.0 * z_term + s
+                    };
                 }
-            };
-            out.difference += sign * unit * zed;
-            out.logarithm += unit * log;
-            out.slope += sign * unit * slope;
+            }
+            functions.z_difference += sign * unit * z_term;
+            functions.l_sum += unit * l_term;
+            functions.slope += sign * unit * slope;
             if sign < 0.0 {
-                out.shear = unit * cue;
+                functions.q_shear = unit * q_term;
             }
         }
-        out
+        functions
     }
 }
 
-/// Distance and direction of an offset.
-fn polar(offset: [f64; 2]) -> Result<(f64, [f64; 2])> {
+/// Distance r and direction e of an offset.
+struct PolarOffset {
+    r: f64,
+    e: [f64; 2],
+}
+
+/// Distance and direction of an offset; an error at the load.
+fn polar(offset: [f64; 2]) -> Result<PolarOffset> {
     finite("x component of the offset", offset[0])?;
     finite("z component of the offset", offset[1])?;
     let r = positive("distance", offset[0].hypot(offset[1]))?;
-    Ok((r, offset.map(|x| x / r)))
+    Ok(PolarOffset { r, e: offset.map(|x| x / r) })
 }
 
 impl FundamentalSolution for FullPlane {
@@ -104,14 +132,14 @@ impl FundamentalSolution for FullPlane {
         time: f64,
         load: LoadHistory,
     ) -> Result<[[f64; 2]; 2]> {
-        let (r, e) = polar(offset)?;
+        let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
-        let f = self.functions(r, time, load);
+        let functions = self.time_functions(r, time, load);
         let unit = 1.0 / (4.0 * std::f64::consts::PI * self.soil.density());
-        let psi = unit * (f.logarithm - f.difference);
-        let chi = -2.0 * unit * f.difference;
-        let off = -chi * e[0] * e[1];
-        Ok([[psi - chi * e[0] * e[0], off], [off, psi - chi * e[1] * e[1]]])
+        let psi = unit * (functions.l_sum - functions.z_difference);
+        let chi = -2.0 * unit * functions.z_difference;
+        let coupling = -chi * e[0] * e[1];
+        Ok([[psi - chi * e[0] * e[0], coupling], [coupling, psi - chi * e[1] * e[1]]])
     }
 
     /// [`LoadHistory::Impulse`] gives the function away from the fronts; at a front it is a
@@ -123,19 +151,20 @@ impl FundamentalSolution for FullPlane {
         time: f64,
         load: LoadHistory,
     ) -> Result<[[f64; 2]; 2]> {
-        let (r, e) = polar(offset)?;
+        let PolarOffset { r, e } = polar(offset)?;
         finite("time", time)?;
         finite("x component of the normal", normal[0])?;
         finite("z component of the normal", normal[1])?;
-        let f = self.functions(r, time, load);
+        let functions = self.time_functions(r, time, load);
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
-        let chi = -unit * f.difference;
-        let psi_slope = unit * (f.difference - f.shear);
-        let chi_slope = unit * f.slope;
+        let chi = -unit * functions.z_difference;
+        let psi_slope = unit * (functions.z_difference - functions.q_shear);
+        let chi_slope = unit * functions.slope;
         let n = normal;
         let along = e[0] * n[0] + e[1] * n[1];
         let nu = self.soil.poisson();
-        let lame = 2.0 * nu / (1.0 - 2.0 * nu);
+        // λ/μ.
+        let lame_ratio = 2.0 * nu / (1.0 - 2.0 * nu);
         let scale = self.soil.shear_modulus() / r;
         let mut t = [[0.0; 2]; 2];
         for i in 0..2 {
@@ -145,7 +174,7 @@ impl FundamentalSolution for FullPlane {
                     * ((psi_slope - chi) * (delta + e[i] * n[j])
                         - 2.0 * chi * (n[i] * e[j] - 2.0 * e[i] * e[j] * along)
                         - 2.0 * chi_slope * e[i] * e[j] * along
-                        + lame * (psi_slope - chi_slope - chi) * e[j] * n[i]);
+                        + lame_ratio * (psi_slope - chi_slope - chi) * e[j] * n[i]);
             }
         }
         Ok(t)

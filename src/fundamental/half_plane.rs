@@ -17,7 +17,7 @@
 
 use crate::error::{Result, finite, positive, require};
 use crate::fundamental::branch::{Branch, Branches, Power};
-use crate::fundamental::rayleigh::{TERMS, late_coefficients};
+use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, late_coefficients};
 use crate::fundamental::{FundamentalSolution, LoadHistory, Rayleigh};
 use crate::geometry::ContactElement;
 use crate::linalg::Complex;
@@ -39,18 +39,31 @@ pub struct Surface {
 pub struct HalfPlane {
     soil: Soil,
     branches: Branches,
-    late: [[f64; TERMS]; 2],
+    /// Coefficients of the series at late times, zz and xx.
+    late_series: [[f64; LATE_SERIES_TERMS]; 2],
     /// ∫ f/η² over all times, zz and xx.
-    total: [f64; 2],
-    /// Regular ∫ f η^m of zx, m = 1, 0, −1, −2.
-    total_odd: [f64; 4],
+    second_tail_total: [f64; 2],
+    /// Regular ∫ f η^m of zx over all times, m = 1, 0, −1, −2.
+    odd_totals: [f64; 4],
 }
 
-/// Weights of the primitives: η, 1, 1/η, 1/η².
-const POWERS: [i32; 4] = [1, 0, -1, -2];
+/// Powers m of the weights η^m of the primitives: η, 1, 1/η, 1/η².
+const PRIMITIVE_POWERS: [i32; 4] = [1, 0, -1, -2];
+
+/// Index in [`PRIMITIVE_POWERS`] of m = 1, the first moment.
+const FIRST_MOMENT: usize = 0;
+/// Index in [`PRIMITIVE_POWERS`] of m = 0, the primitive F.
+const PLAIN_PRIMITIVE: usize = 1;
+/// Index in [`PRIMITIVE_POWERS`] of m = −1, the primitive Q.
+const FIRST_TAIL: usize = 2;
+/// Index in [`PRIMITIVE_POWERS`] of m = −2, the primitive W.
+const SECOND_TAIL: usize = 3;
 
 /// Discriminants below this are averaged over a circle, where the two roots never meet.
-const CLOSE: f64 = 1e-4;
+const DOUBLE_ROOT_DISCRIMINANT: f64 = 1e-4;
+/// Points and radius of this circle in the plane of the discriminant.
+const AVERAGING_POINTS: u32 = 16;
+const AVERAGING_RADIUS: f64 = 2e-4;
 
 impl HalfPlane {
     /// The half-plane of a soil.
@@ -59,12 +72,12 @@ impl HalfPlane {
         let mut plane = Self {
             soil,
             branches: Branches::new(rayleigh),
-            late: late_coefficients(&rayleigh),
-            total: [0.0; 2],
-            total_odd: [0.0; 4],
+            late_series: late_coefficients(&rayleigh),
+            second_tail_total: [0.0; 2],
+            odd_totals: [0.0; 4],
         };
-        plane.total = plane.even(1e100)[3];
-        plane.total_odd = plane.odd(1.0);
+        plane.second_tail_total = plane.even_primitives(1e100)[SECOND_TAIL];
+        plane.odd_totals = PRIMITIVE_POWERS.map(|power| plane.odd_primitive(1.0, power));
         plane
     }
 
@@ -76,16 +89,17 @@ impl HalfPlane {
     /// f(τ), dimensionless, without the pulse D δ(τ−`τ_R`) of zx; infinite at the Rayleigh arrival.
     pub fn impulse(&self, tau: f64) -> Surface {
         let r = self.rayleigh();
-        let a = self.branches.first;
+        let a = self.branches.pressure_arrival;
         if tau.is_nan() || tau <= a {
             return Surface::default();
         }
         let y = tau * tau;
         let z = (tau - a) * (tau + a);
         let excess = (tau - 1.0) * (tau + 1.0);
-        let arrival = self.branches.arrival;
+        let arrival = self.branches.rayleigh_arrival;
         let p = -16.0 * r.h * (tau - arrival) * (tau + arrival) * r.pair(z);
-        let (sa, k) = (z.sqrt(), 1.0 - 2.0 * y);
+        let sa = z.sqrt();
+        let k = 1.0 - 2.0 * y;
         if excess < 0.0 {
             return Surface {
                 zz: -sa * k * k / p,
@@ -103,44 +117,48 @@ impl HalfPlane {
 
     /// F(τ) = ∫₀^τ f dη: a load H(t) gives u = F/(πμ).
     pub fn heaviside(&self, tau: f64) -> Surface {
-        let even = self.even(tau)[1];
-        Surface { zz: even[0], xx: even[1], zx: self.odd_sum(tau, 1) }
+        let even = self.even_primitives(tau)[PLAIN_PRIMITIVE];
+        Surface { zz: even[0], xx: even[1], zx: self.odd_with_pulse(tau, PLAIN_PRIMITIVE) }
     }
 
     /// Q(τ) = ∫_τ^∞ f/η dη.
     pub fn first_tail(&self, tau: f64) -> Surface {
-        self.tail(tau, 2)
+        self.tail(tau, FIRST_TAIL)
     }
 
     /// W(τ) = ∫_τ^∞ f/η² dη.
     pub fn second_tail(&self, tau: f64) -> Surface {
-        self.tail(tau, 3)
+        self.tail(tau, SECOND_TAIL)
     }
 
-    fn tail(&self, tau: f64, which: usize) -> Surface {
-        let arrival = self.branches.arrival;
+    /// The primitive Q or W, by its index [`FIRST_TAIL`] or [`SECOND_TAIL`].
+    fn tail(&self, tau: f64, primitive: usize) -> Surface {
+        let arrival = self.branches.rayleigh_arrival;
         let even = if tau > 3.0 * arrival {
-            self.late.map(|series| {
+            self.late_series.map(|series| {
                 let mut sum = 0.0;
                 for (k, c) in series.iter().enumerate().rev() {
-                    sum = sum / (tau * tau) + c / (2 * k + which - 1) as f64;
+                    sum = sum / (tau * tau) + c / (2 * k + primitive - 1) as f64;
                 }
-                sum / tau.powi(if which == 2 { 1 } else { 2 })
+                sum / tau.powi(if primitive == FIRST_TAIL { 1 } else { 2 })
             })
         } else {
-            let part = self.even(tau)[which];
-            let total = if which == 2 {
-                [0.5 * std::f64::consts::PI * self.branches.first, 0.5 * std::f64::consts::PI]
+            let before = self.even_primitives(tau)[primitive];
+            let total = if primitive == FIRST_TAIL {
+                [
+                    0.5 * std::f64::consts::PI * self.branches.pressure_arrival,
+                    0.5 * std::f64::consts::PI,
+                ]
             } else {
-                self.total
+                self.second_tail_total
             };
-            [total[0] - part[0], total[1] - part[1]]
+            [total[0] - before[0], total[1] - before[1]]
         };
         let zx = if tau >= arrival {
             0.0
         } else {
-            let pulse = self.branches.pulse * arrival.powi(POWERS[which]);
-            self.total_odd[which] + pulse - self.odd_sum(tau, which)
+            let pulse = self.branches.rayleigh_pulse * arrival.powi(PRIMITIVE_POWERS[primitive]);
+            self.odd_totals[primitive] + pulse - self.odd_with_pulse(tau, primitive)
         };
         Surface { zz: even[0], xx: even[1], zx }
     }
@@ -152,12 +170,13 @@ impl HalfPlane {
             return Surface::default();
         }
         let tau = path / r;
-        let (f, q, w) = (self.heaviside(tau), self.first_tail(tau), self.second_tail(tau));
-        let join = |f: f64, q: f64, w: f64| r * (0.5 * r * f + path * q) - 0.5 * path * path * w;
+        let f = self.heaviside(tau);
+        let q = self.first_tail(tau);
+        let w = self.second_tail(tau);
         Surface {
-            zz: join(f.zz, q.zz, w.zz),
-            xx: join(f.xx, q.xx, w.xx),
-            zx: join(f.zx, q.zx, w.zx) * x.signum(),
+            zz: r * (0.5 * r * f.zz + path * q.zz) - 0.5 * path * path * w.zz,
+            xx: r * (0.5 * r * f.xx + path * q.xx) - 0.5 * path * path * w.xx,
+            zx: (r * (0.5 * r * f.zx + path * q.zx) - 0.5 * path * path * w.zx) * x.signum(),
         }
     }
 
@@ -183,10 +202,11 @@ impl HalfPlane {
         }
         let path = time * self.soil.shear_wave_speed();
         let gap = (source.left() - receiver.right()).max(receiver.left() - source.right()).max(0.0);
-        if path <= gap * self.branches.first {
+        if path <= gap * self.branches.pressure_arrival {
             return Ok(Surface::default());
         }
-        let (p, q) = (receiver, source);
+        let p = receiver;
+        let q = source;
         let mut sum = Surface::default();
         for (x, sign) in [
             (p.right() - q.left(), 1.0),
@@ -203,92 +223,110 @@ impl HalfPlane {
         Ok(Surface { zz: sum.zz * unit, xx: sum.xx * unit, zx: sum.zx * unit })
     }
 
-    /// ∫₀^τ f η^m dη of zz and xx for every weight.
-    fn even(&self, tau: f64) -> [[f64; 2]; 4] {
+    /// ∫₀^τ f η^m dη of zz and xx for the four powers m.
+    fn even_primitives(&self, tau: f64) -> [[f64; 2]; 4] {
         let mut sum = [[0.0; 2]; 4];
-        if tau.is_nan() || tau <= self.branches.first {
+        if tau.is_nan() || tau <= self.branches.pressure_arrival {
             return sum;
         }
         let r = self.rayleigh();
-        let real = Complex::real(r.z);
-        let weight = r.residue(1.0);
-        Self::add_root(r, tau, real, Complex::real(weight), 1.0, &mut sum);
+        let rayleigh_root = Complex::real(r.z);
+        let inverse_slope = r.residue(1.0);
+        Self::add_root(r, tau, rayleigh_root, Complex::real(inverse_slope), 1.0, &mut sum);
         let discriminant = r.discriminant();
-        let (count, radius) = if discriminant.abs() < CLOSE { (16, 2e-4) } else { (1, 0.0) };
-        for i in 0..count {
-            let angle = std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count);
-            let (sin, cos) = if count == 1 { (0.0, 0.0) } else { angle.sin_cos() };
-            let (one, two) = r.shifted_roots(discriminant + radius * cos, radius * sin);
-            let share = 1.0 / f64::from(count);
-            for (z, other) in [(one, two), (two, one)] {
-                let slope = ((z - real) * (z - other)).scale(-16.0 * r.h);
-                Self::add_root(r, tau, z, Complex::real(1.0) / slope, share, &mut sum);
+        if discriminant.abs() < DOUBLE_ROOT_DISCRIMINANT {
+            for i in 0..AVERAGING_POINTS {
+                let angle =
+                    std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(AVERAGING_POINTS);
+                let sin = angle.sin();
+                let cos = angle.cos();
+                let fraction = 1.0 / f64::from(AVERAGING_POINTS);
+                let roots =
+                    r.shifted_roots(discriminant + AVERAGING_RADIUS * cos, AVERAGING_RADIUS * sin);
+                Self::add_root_pair(r, tau, roots, fraction, &mut sum);
             }
+        } else {
+            Self::add_root_pair(r, tau, r.shifted_roots(discriminant, 0.0), 1.0, &mut sum);
         }
         sum
     }
 
-    /// Adds the part of one root y = a² + z; `weight` is 1/P'.
+    /// Adds `fraction` of the contributions of the two roots that are not the Rayleigh wave.
+    fn add_root_pair(
+        r: &Rayleigh,
+        tau: f64,
+        roots: [Complex; 2],
+        fraction: f64,
+        sum: &mut [[f64; 2]; 4],
+    ) {
+        for (z, other) in [(roots[0], roots[1]), (roots[1], roots[0])] {
+            let slope = ((z - Complex::real(r.z)) * (z - other)).scale(-16.0 * r.h);
+            Self::add_root(r, tau, z, Complex::real(1.0) / slope, fraction, sum);
+        }
+    }
+
+    /// Adds `fraction` of the contribution of one root y = a² + z; `inverse_slope` is 1/P'.
     fn add_root(
         r: &Rayleigh,
         tau: f64,
         z: Complex,
-        weight: Complex,
-        share: f64,
+        inverse_slope: Complex,
+        fraction: f64,
         sum: &mut [[f64; 2]; 4],
     ) {
         let y = z + Complex::real(r.a2);
         let k = Complex::real(r.g) - z.scale(2.0);
         let k2 = k * k;
         let shear = z - Complex::real(r.h);
-        let (four_z, four_s) = ((y * z).scale(4.0), (y * shear).scale(4.0));
+        let four_z = (y * z).scale(4.0);
+        let four_s = (y * shear).scale(4.0);
         for (speed, root, zz, xx) in [(r.a2.sqrt(), z, k2, four_s), (1.0, shear, four_z, k2)] {
             if tau <= speed {
                 continue;
             }
             let s = ((tau - speed) * (tau + speed)).sqrt();
-            let (w0, v0) = ((root / y).sqrt(), root.sqrt());
-            let (mut near, mut path) = (Complex::real(0.0), Complex::real(0.0));
+            let ratio_root = (root / y).sqrt();
+            let plain_root = root.sqrt();
+            let mut ratio_term = Complex::real(0.0);
+            let mut plain_term = Complex::real(0.0);
             if root.abs() > 0.0 {
-                near = w0 * (Complex::real(s / tau) / w0).atanh();
-                path = v0 * (Complex::real(s) / v0).atanh();
+                ratio_term = ratio_root * (Complex::real(s / tau) / ratio_root).atanh();
+                plain_term = plain_root * (Complex::real(s) / plain_root).atanh();
             }
             let integrals = [
-                Complex::real(s) - path,
-                Complex::real((s / speed).asinh()) - near,
-                (Complex::real(speed * (s / speed).atan()) - path) / y,
-                (Complex::real(s / tau) - near) / y,
+                Complex::real(s) - plain_term,
+                Complex::real((s / speed).asinh()) - ratio_term,
+                (Complex::real(speed * (s / speed).atan()) - plain_term) / y,
+                (Complex::real(s / tau) - ratio_term) / y,
             ];
             for (sum, integral) in sum.iter_mut().zip(integrals) {
-                let value = weight * integral;
-                sum[0] -= share * (zz * value).re;
-                sum[1] -= share * (xx * value).re;
+                let value = inverse_slope * integral;
+                sum[0] -= fraction * (zz * value).re;
+                sum[1] -= fraction * (xx * value).re;
             }
         }
     }
 
-    /// Regular ∫ f η^m dη of zx up to τ for every weight; elliptic integrals (m = ±1) by Gauss rules.
-    fn odd(&self, tau: f64) -> [f64; 4] {
-        POWERS.map(|power| self.odd_power(tau, power))
-    }
-
-    fn odd_power(&self, tau: f64, power: i32) -> f64 {
+    /// Regular ∫ f η^m dη of zx up to τ, m = `power`; elliptic integrals (m = ±1) by Gauss rules.
+    fn odd_primitive(&self, tau: f64, power: i32) -> f64 {
+        let start = self.branches.pressure_arrival;
         let mut sum = [0.0; 2];
-        for part in [Branch::OddLow, Branch::OddHigh] {
-            self.branches.add(part, self.branches.first, tau.min(1.0), &Power(power), &mut sum);
+        for branch in [Branch::OddLow, Branch::OddHigh] {
+            self.branches.add_integral(branch, start, tau.min(1.0), &Power(power), &mut sum);
         }
         sum[0]
     }
 
-    /// Odd sum over the branches, with the Rayleigh pulse once it has passed.
-    fn odd_sum(&self, tau: f64, which: usize) -> f64 {
-        if tau.is_nan() || tau <= self.branches.first {
+    /// ∫ f η^m dη of zx up to τ, with the Rayleigh pulse once it has passed.
+    fn odd_with_pulse(&self, tau: f64, primitive: usize) -> f64 {
+        if tau.is_nan() || tau <= self.branches.pressure_arrival {
             return 0.0;
         }
+        let power = PRIMITIVE_POWERS[primitive];
         let regular =
-            if tau >= 1.0 { self.total_odd[which] } else { self.odd_power(tau, POWERS[which]) };
-        if tau >= self.branches.arrival {
-            regular + self.branches.pulse * self.branches.arrival.powi(POWERS[which])
+            if tau >= 1.0 { self.odd_totals[primitive] } else { self.odd_primitive(tau, power) };
+        if tau >= self.branches.rayleigh_arrival {
+            regular + self.branches.rayleigh_pulse * self.branches.rayleigh_arrival.powi(power)
         } else {
             regular
         }
@@ -313,21 +351,26 @@ impl FundamentalSolution for HalfPlane {
         let speed = self.soil.shear_wave_speed();
         let tau = time * speed / r;
         let unit = 1.0 / (std::f64::consts::PI * self.soil.shear_modulus());
-        let (value, unit) = match load {
-            LoadHistory::Impulse => (self.impulse(tau), unit * speed / r),
-            LoadHistory::Step => (self.heaviside(tau), unit),
+        let unit = match load {
+            LoadHistory::Impulse => unit * speed / r,
+            LoadHistory::Step => unit,
+            LoadHistory::Ramp => unit * r / speed,
+        };
+        let value = match load {
+            LoadHistory::Impulse => self.impulse(tau),
+            LoadHistory::Step => self.heaviside(tau),
             LoadHistory::Ramp => {
-                let (f, moment) = (self.heaviside(tau), self.even(tau)[0]);
-                let value = Surface {
+                let f = self.heaviside(tau);
+                let moment = self.even_primitives(tau)[FIRST_MOMENT];
+                Surface {
                     zz: tau * f.zz - moment[0],
                     xx: tau * f.xx - moment[1],
-                    zx: tau * f.zx - self.odd_sum(tau, 0),
-                };
-                (value, unit * r / speed)
+                    zx: tau * f.zx - self.odd_with_pulse(tau, FIRST_MOMENT),
+                }
             }
         };
-        let coupled = value.zx * unit * offset[0].signum();
-        Ok([[value.xx * unit, -coupled], [coupled, value.zz * unit]])
+        let coupling = value.zx * unit * offset[0].signum();
+        Ok([[value.xx * unit, -coupling], [coupling, value.zz * unit]])
     }
 
     /// The surface is free of traction: zero for a vertical normal.
@@ -349,7 +392,8 @@ impl FundamentalSolution for HalfPlane {
 
 /// |x| of an offset along the surface.
 fn surface_distance(offset: [f64; 2]) -> Result<f64> {
-    let [x, z] = offset;
+    let x = offset[0];
+    let z = offset[1];
     require("z component of the offset", z, z == 0.0, "0: load and receiver on the surface")?;
     let fits = x.is_finite() && x != 0.0;
     require("x component of the offset", x, fits, "finite and not zero").map(f64::abs)

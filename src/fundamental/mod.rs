@@ -23,7 +23,7 @@ use crate::soil::Soil;
 pub enum LoadHistory {
     /// δ(t): an impulse.
     Impulse,
-    /// H(t): switched on at t = 0 and held.
+    /// H(t): switched on at t = 0 and then constant.
     Step,
     /// t·H(t): growing linearly from t = 0.
     Ramp,
@@ -34,15 +34,18 @@ pub trait FundamentalSolution: Send + Sync {
     /// The soil.
     fn soil(&self) -> Soil;
 
-    /// `u[i][j]`: displacement i at `offset` (x, z) from a load in direction j, `time` after it
-    /// began; zero before the first arrival.
+    /// Displacements (m) at `offset` (x, z) from the load, `time` after it began.
+    ///
+    /// `u[i][j]` is displacement i due to a load in direction j; zero before the first arrival.
     ///
     /// # Errors
     /// [`crate::Error::Input`] if the offset is zero, not finite, or not where the solution holds.
     fn displacement(&self, offset: [f64; 2], time: f64, load: LoadHistory)
     -> Result<[[f64; 2]; 2]>;
 
-    /// `t[i][j]`: traction i at `offset` on the plane with unit normal `normal`, load direction j.
+    /// Tractions (Pa) at `offset` on the plane with unit normal `normal`.
+    ///
+    /// `t[i][j]` is traction i due to a load in direction j.
     ///
     /// # Errors
     /// As for [`FundamentalSolution::displacement`].

@@ -54,13 +54,12 @@ impl Rayleigh {
         // The cubic in w = y − 1, whose one positive root is the Rayleigh wave:
         // −16 h w³ + (24 − 16a² − 48h) w² + (40 − 32a² − 48h) w + 1.
         let cubic = [-16.0 * h, 32.0 * a2 - 24.0, 16.0 * a2 - 8.0, 1.0];
-        let value = |w: f64| ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3];
-        let slope = |w: f64| (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2];
-        // P(1) = 1 > 0 and P → −∞: bisect, then polish.
-        let (mut low, mut high) = (0.0, 4.0);
+        // P(1) = 1 > 0 and P → −∞: bisect, then polish by Newton's method.
+        let mut low = 0.0;
+        let mut high = 4.0;
         for _ in 0..30 {
             let middle = 0.5 * (low + high);
-            if value(middle) > 0.0 {
+            if cubic_value(cubic, middle) > 0.0 {
                 low = middle;
             } else {
                 high = middle;
@@ -68,7 +67,7 @@ impl Rayleigh {
         }
         let mut excess = 0.5 * (low + high);
         for _ in 0..3 {
-            excess -= value(excess) / slope(excess);
+            excess -= cubic_value(cubic, excess) / cubic_slope(cubic, excess);
         }
         let z = excess + h;
         // In c = a² − y: 16h c³ + C₂ c² − C₁ c + g⁴ with C₂ = 48a⁴ − 64a² + 24; its roots sum to
@@ -95,20 +94,22 @@ impl Rayleigh {
     }
 
     /// Roots of z² + σ z + (σ/2)² − d, for a complex discriminant d = `real` + i `imaginary`.
-    pub(crate) fn shifted_roots(&self, real: f64, imaginary: f64) -> (Complex, Complex) {
+    pub(crate) fn shifted_roots(&self, real: f64, imaginary: f64) -> [Complex; 2] {
         let root = Complex::new(real, imaginary).sqrt();
         let middle = Complex::real(-0.5 * self.sum);
         if imaginary == 0.0 && real > 0.0 && self.sum > 0.0 {
             let far = middle - root;
-            return (Complex::real(self.product / far.re), far);
+            return [Complex::real(self.product / far.re), far];
         }
-        (middle + root, middle - root)
+        [middle + root, middle - root]
     }
 
     /// The strength D of the Rayleigh pulse in `f_zx`: `f_zx` = … + D δ(τ − `τ_R`).
     pub(crate) fn pulse(&self) -> f64 {
-        let (y, tau) = (self.square, self.arrival());
-        let (sa, sb) = (self.z.sqrt(), self.excess.sqrt());
+        let y = self.square;
+        let tau = self.arrival();
+        let sa = self.z.sqrt();
+        let sb = self.excess.sqrt();
         let k = 1.0 - 2.0 * y;
         let slope = -8.0 * tau * (k + sa * sb) - 4.0 * y * tau * (sb / sa + sa / sb);
         std::f64::consts::PI * tau * (k + 2.0 * sa * sb) / slope
@@ -120,6 +121,16 @@ impl Rayleigh {
     }
 }
 
+/// A cubic at `w`, coefficients from the highest power down.
+fn cubic_value(cubic: [f64; 4], w: f64) -> f64 {
+    ((cubic[0] * w + cubic[1]) * w + cubic[2]) * w + cubic[3]
+}
+
+/// Derivative of the cubic at `w`.
+fn cubic_slope(cubic: [f64; 4], w: f64) -> f64 {
+    (3.0 * cubic[0] * w + 2.0 * cubic[1]) * w + cubic[2]
+}
+
 impl Soil {
     /// Rayleigh (R) wave speed, m/s: the speed of the surface wave (Achenbach 1973, § 5.11).
     pub fn rayleigh_wave_speed(&self) -> f64 {
@@ -127,31 +138,28 @@ impl Soil {
     }
 }
 
-/// Number of terms: enough for an error at rounding level from three Rayleigh arrivals on.
-pub(crate) const TERMS: usize = 20;
-
-/// `c_k` of f = Σ `c_k` τ^(−2k−1), for zz and xx; converges for τ above the Rayleigh arrival.
+/// Number of terms of the series at late times.
 ///
+/// They suffice for an error at rounding level from three Rayleigh arrivals on.
+pub(crate) const LATE_SERIES_TERMS: usize = 20;
+
+/// Coefficients of the kernel's series at late times, zz and xx.
+///
+/// `c_k` of f = Σ `c_k` τ^(−2k−1), which converges for τ above the Rayleigh arrival.
 /// f = τ⁻¹ n(v)/p(v) with v = τ⁻² and p(v) = v³ P(1/v): the numerators are binomial series, and
 /// the division by the cubic is a recurrence, stable because the Rayleigh root dominates.
-pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; TERMS]; 2] {
+pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; LATE_SERIES_TERMS]; 2] {
     let a2 = rayleigh.a2;
-    let root = |k2: f64| {
-        let mut series = [1.0; TERMS];
-        for k in 1..TERMS {
-            series[k] = series[k - 1] * k2 * (k as f64 - 1.5) / k as f64;
-        }
-        series
-    };
-    let (sa, sb) = (root(a2), root(1.0));
-    let mut result = [[0.0; TERMS]; 2];
+    let sa = square_root_series(a2);
+    let sb = square_root_series(1.0);
+    let mut result = [[0.0; LATE_SERIES_TERMS]; 2];
     let p = [-16.0 * rayleigh.h, 24.0 - 16.0 * a2, -8.0, 1.0];
-    for k in 0..TERMS {
-        let at = |s: &[f64; TERMS], back: usize| if k >= back { s[k - back] } else { 0.0 };
-        let square = |s: &[f64; TERMS]| 4.0 * at(s, 0) - 4.0 * at(s, 1) + at(s, 2);
+    for k in 0..LATE_SERIES_TERMS {
+        let sa_k = last_three(&sa, k);
+        let sb_k = last_three(&sb, k);
         let numerator = [
-            square(&sa) + 4.0 * (at(&sb, 0) - a2 * at(&sb, 1)),
-            4.0 * (at(&sa, 0) - at(&sa, 1)) + square(&sb),
+            (4.0 * sa_k[0] - 4.0 * sa_k[1] + sa_k[2]) + 4.0 * (sb_k[0] - a2 * sb_k[1]),
+            4.0 * (sa_k[0] - sa_k[1]) + (4.0 * sb_k[0] - 4.0 * sb_k[1] + sb_k[2]),
         ];
         for (series, numerator) in result.iter_mut().zip(numerator) {
             let mut value = -numerator;
@@ -162,6 +170,20 @@ pub(crate) fn late_coefficients(rayleigh: &Rayleigh) -> [[f64; TERMS]; 2] {
         }
     }
     result
+}
+
+/// Coefficients of √(1 − `factor` v) in powers of v.
+fn square_root_series(factor: f64) -> [f64; LATE_SERIES_TERMS] {
+    let mut series = [1.0; LATE_SERIES_TERMS];
+    for k in 1..LATE_SERIES_TERMS {
+        series[k] = series[k - 1] * factor * (k as f64 - 1.5) / k as f64;
+    }
+    series
+}
+
+/// Coefficients k, k − 1 and k − 2 of a series; zero before its first.
+fn last_three(series: &[f64], k: usize) -> [f64; 3] {
+    [0, 1, 2].map(|back| if k >= back { series[k - back] } else { 0.0 })
 }
 
 #[cfg(test)]
@@ -177,8 +199,9 @@ mod tests {
         // nu = 1/4: y = (3 + sqrt 3)/4 exactly; nu = 0: c_R^2 = 3 - sqrt 5.
         let quarter = Rayleigh::new(soil(0.25));
         assert!((quarter.square - (3.0 + 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
-        let (first, second) = quarter.shifted_roots(quarter.discriminant(), 0.0);
-        let [first, second] = [first, second].map(|root| quarter.a2 + root.re);
+        let roots = quarter.shifted_roots(quarter.discriminant(), 0.0);
+        let first = quarter.a2 + roots[0].re;
+        let second = quarter.a2 + roots[1].re;
         assert!((first - (3.0 - 3.0_f64.sqrt()) / 4.0).abs() < 4e-16);
         assert!((second - 0.25).abs() < 4e-16);
         let speed = soil(0.0).rayleigh_wave_speed();
@@ -190,8 +213,7 @@ mod tests {
         // c (C1 - C2 c + ...) = g^4 with C1 = -P'(a^2).
         for nu in [1e-1, 1e-3, 1e-6, -1e-4] {
             let r = Rayleigh::new(soil(nu));
-            let (near, _) = r.shifted_roots(r.discriminant(), 0.0);
-            let c = -near.re;
+            let c = -r.shifted_roots(r.discriminant(), 0.0)[0].re;
             let k = r.g + 2.0 * c;
             let residual = k.powi(4) - 16.0 * (r.a2 - c).powi(2) * c * (r.h + c);
             assert!(residual.abs() < 1e-14 * r.g.powi(4), "{nu} {c:e} {residual:e}");

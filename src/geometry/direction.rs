@@ -38,11 +38,11 @@ words! { pub(crate) Direction, "direction", {
 impl Direction {
     /// Displacement or rotation in this direction in a rigid `motion` by one unit.
     ///
-    /// `arm`: place relative to the point about which a rotation turns, m. The right-hand rule holds in the plane
-    /// too.
+    /// `[x, y, z]`: position relative to the point about which a rotation turns, m. The right-hand rule holds in the
+    /// plane too.
     pub(crate) fn in_rigid_motion(self, motion: Self, [x, y, z]: [f64; 3]) -> f64 {
         match (self, motion) {
-            // A difference, which is not −0.
+            // The difference is never −0, unlike the negative of zero.
             (Self::X, Self::Rotation | Self::RotationZ) => 0.0 - y,
             (Self::Y, Self::Rotation | Self::RotationZ) => x,
             (Self::Z, Self::RotationX) => y,
@@ -60,13 +60,14 @@ impl Direction {
 }
 
 /// Directions of elements of the plane without rotations.
-pub(crate) const TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
+pub(crate) const PLANE_TRANSLATIONS: &[Direction] = &[Direction::X, Direction::Y];
 
 /// All directions of the plane, as of beams and of masses with rotary inertia.
-pub(crate) const FRAME: &[Direction] = &[Direction::X, Direction::Y, Direction::Rotation];
+pub(crate) const PLANE_DIRECTIONS: &[Direction] =
+    &[Direction::X, Direction::Y, Direction::Rotation];
 
 /// All directions in space.
-pub(crate) const IN_SPACE: &[Direction] = &[
+pub(crate) const SPACE_DIRECTIONS: &[Direction] = &[
     Direction::X,
     Direction::Y,
     Direction::Z,

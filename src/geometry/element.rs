@@ -6,15 +6,15 @@ use super::middle;
 use crate::error::{Result, finite, positive, require};
 
 /// Directions of an element on the flat surface: down, to the right, away from the reader.
-const FLAT: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+const SURFACE_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 /// Ends along y of an element in the plane, m: a metre of depth.
-const METRE: [f64; 2] = [-0.5, 0.5];
+const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
 
-/// Contact element between base and soil: a flat rectangle with directions of its own.
+/// Contact element between base and soil: a flat rectangle.
 ///
-/// Coordinates: x to the right, y away from the reader, z up, m. Numbers of an element count along its
-/// [`directions`](ContactElement::directions): the normal into the soil, and the tangents. An element in the plane has
-/// one tangent and is one metre deep.
+/// Coordinates: x to the right, y away from the reader, z up, m. Tractions and displacements of an element have one
+/// component along each of its [`directions`](ContactElement::directions): the normal into the soil, and the tangents.
+/// An element in the plane has one tangent and is one metre deep.
 ///
 /// ```
 /// use basemat::bem::ContactElement;
@@ -40,13 +40,13 @@ pub struct ContactElement {
 impl ContactElement {
     /// Element in the plane: the interval from `left` to `right` of the surface, m.
     pub const fn new(left: f64, right: f64) -> Self {
-        Self { in_plan: false, ..Self::in_plan([left, right], METRE) }
+        Self { in_plan: false, ..Self::in_plan([left, right], UNIT_DEPTH_ENDS) }
     }
 
     /// Element in plan: a rectangle of the surface by its ends along x and along y, m.
     pub const fn in_plan([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Self {
         let corners = [[left, front, 0.0], [right, back, 0.0]];
-        Self { corners, directions: FLAT, in_plan: true, inside: 1.0 }
+        Self { corners, directions: SURFACE_DIRECTIONS, in_plan: true, inside: 1.0 }
     }
 
     /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
@@ -75,7 +75,8 @@ impl ContactElement {
 
     /// Lower and upper end along z, m; equal unless the element is of a wall.
     pub const fn heights(&self) -> [f64; 2] {
-        let [first, last] = [self.corners[0][2], self.corners[1][2]];
+        let first = self.corners[0][2];
+        let last = self.corners[1][2];
         // A zero without sign.
         [first.min(last) + 0.0, first.max(last) + 0.0]
     }
@@ -97,10 +98,9 @@ impl ContactElement {
 
     /// Sides along the tangents, m; the second is one metre in the plane.
     pub fn sides(&self) -> [f64; 2] {
-        let [low, high] = self.corners;
-        let diagonal = [0, 1, 2].map(|k| high[k] - low[k]);
-        let [_, along, across] = self.components(diagonal);
-        [along, across]
+        let diagonal = [0, 1, 2].map(|k| self.corners[1][k] - self.corners[0][k]);
+        let components = self.components(diagonal);
+        [components[1], components[2]]
     }
 
     /// Centre `[x, y, z]`, m.
@@ -122,7 +122,7 @@ impl ContactElement {
 
     /// Whether some of the elements are of walls.
     pub(crate) fn any_wall<'a>(elements: impl IntoIterator<Item = &'a Self>) -> bool {
-        elements.into_iter().any(|own| !own.faces_down())
+        elements.into_iter().any(|element| !element.faces_down())
     }
 
     /// Elements of the left wall, those that face down, and elements of the right wall, of a list along an outline.
@@ -139,7 +139,7 @@ impl ContactElement {
             let [x, y, up] = vector;
             return [0.0 - up, 0.0 + x, 0.0 + y];
         }
-        self.directions.map(|own| own[0] * vector[0] + own[1] * vector[1] + own[2] * vector[2])
+        self.directions.map(|unit| unit[0] * vector[0] + unit[1] * vector[1] + unit[2] * vector[2])
     }
 
     /// The vector `[x, y, z]` with these components along the normal and both sides.
@@ -148,9 +148,10 @@ impl ContactElement {
             let [normal, along, across] = components;
             return [0.0 + along, 0.0 + across, 0.0 - normal];
         }
-        let [n, t, b] = self.directions;
-        let [along_n, along_t, along_b] = components;
-        [0, 1, 2].map(|k| n[k] * along_n + t[k] * along_t + b[k] * along_b)
+        let unit = self.directions;
+        [0, 1, 2].map(|k| {
+            unit[0][k] * components[0] + unit[1][k] * components[1] + unit[2][k] * components[2]
+        })
     }
 
     /// Fraction of the area that is inside the outline of the base.
@@ -160,27 +161,26 @@ impl ContactElement {
 
     /// Area inside the outline of the base, m²; in the plane the length, m.
     pub fn area(&self) -> f64 {
-        let [along, across] = self.sides();
-        along * across * self.inside
+        let sides = self.sides();
+        sides[0] * sides[1] * self.inside
     }
 
     /// Corners in order, m; in the plane both ends.
     #[cfg(feature = "io")]
     pub(crate) fn outline(&self) -> impl Iterator<Item = [f64; 3]> {
         // A coordinate changes along the first side, or else along the second.
-        let side = |k: usize| usize::from(self.directions[1][k] == 0.0);
-        let corner = move |ends: [usize; 2]| [0, 1, 2].map(|k| self.corners[ends[side(k)]][k]);
-        let corners = [[0, 0], [1, 0], [1, 1], [0, 1]].map(corner);
+        let side = [0, 1, 2].map(|k| usize::from(self.directions[1][k] == 0.0));
+        let ends = [[0, 0], [1, 0], [1, 1], [0, 1]];
+        let corners = ends.map(|ends| [0, 1, 2].map(|k| self.corners[ends[side[k]]][k]));
         corners.into_iter().take(2 * (self.directions().len() - 1))
     }
 
     /// Halves of the element; in plan its quarters: left front, right front, left back, right back.
     pub(crate) fn parts(&self) -> impl Iterator<Item = Self> {
-        let sides = self.directions().len() - 1;
-        let part = move |part: usize| {
-            (0..sides).fold(*self, |own, side| own.half(1 + side, part >> side & 1))
-        };
-        (0..1 << sides).map(part)
+        let side_count = self.directions().len() - 1;
+        (0..1 << side_count).map(move |part: usize| {
+            (0..side_count).fold(*self, |element, side| element.half(1 + side, part >> side & 1))
+        })
     }
 
     /// First (0) or second (1) half along a direction.
@@ -194,41 +194,42 @@ impl ContactElement {
 
     /// Error unless ends are finite, the sides positive, and the fraction inside above 0 and at most 1.
     pub(super) fn check(&self) -> Result<()> {
-        let [[left, right], [front, back]] = self.ends();
-        finite("left end of a contact element", left)?;
-        finite("right end of a contact element", right)?;
-        finite("front end of a contact element", front)?;
-        finite("back end of a contact element", back)?;
+        let ends = self.ends();
+        finite("left end of a contact element", ends[0][0])?;
+        finite("right end of a contact element", ends[0][1])?;
+        finite("front end of a contact element", ends[1][0])?;
+        finite("back end of a contact element", ends[1][1])?;
         positive("length of a contact element", self.length())?;
         positive("depth of a contact element", self.sides()[1])?;
         let quantity = "fraction of an element inside the outline";
-        require(
-            quantity,
-            self.inside,
-            self.inside > 0.0 && self.inside <= 1.0,
-            "above 0 and at most 1",
-        )
-        .map(drop)
+        let fits = self.inside > 0.0 && self.inside <= 1.0;
+        require(quantity, self.inside, fits, "above 0 and at most 1").map(drop)
     }
 
     /// Fraction of an element's side by which neighbours may overlap, for the rounding of a common node.
-    pub(super) const OVERLAP: f64 = 1e-9;
+    pub(super) const MAX_OVERLAP_FRACTION: f64 = 1e-9;
 
     /// Whether the ends of two elements along `axis` (x 0, y 1) overlap by more than rounding.
     pub(super) fn overlaps(&self, other: &Self, axis: usize) -> bool {
-        let ([low, high], [least, most]) = (self.ends()[axis], other.ends()[axis]);
-        let rounding = Self::OVERLAP * self.sides()[axis].min(other.sides()[axis]);
-        high.min(most) - low.max(least) > rounding
+        let ends = self.ends()[axis];
+        let other_ends = other.ends()[axis];
+        let overlap = ends[1].min(other_ends[1]) - ends[0].max(other_ends[0]);
+        overlap > Self::MAX_OVERLAP_FRACTION * self.sides()[axis].min(other.sides()[axis])
     }
 }
 
 #[cfg(any(test, feature = "embedded"))]
 impl ContactElement {
-    /// Element of a wall in the plane, `[x, z]` from and to, m; the soil is on the right of this way.
-    pub(crate) fn wall(from: [f64; 2], to: [f64; 2]) -> Self {
-        let [x, z] = [0, 1].map(|k| to[k] - from[k]);
-        let [x, z] = [x, z].map(|part| part / x.hypot(z));
-        let corners = [[from[0], METRE[0], from[1]], [to[0], METRE[1], to[1]]];
+    /// Element of a wall in the plane between two points `[x, z]`, m.
+    ///
+    /// The soil is on the right of the way from `start` to `end`.
+    pub(crate) fn wall(start: [f64; 2], end: [f64; 2]) -> Self {
+        let step = [end[0] - start[0], end[1] - start[1]];
+        let length = step[0].hypot(step[1]);
+        let x = step[0] / length;
+        let z = step[1] / length;
+        let corners =
+            [[start[0], UNIT_DEPTH_ENDS[0], start[1]], [end[0], UNIT_DEPTH_ENDS[1], end[1]]];
         let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
         Self { corners, directions, in_plan: false, inside: 1.0 }
     }

@@ -2,10 +2,10 @@
 
 use std::ops::Range;
 
-use super::{ContactElement, Patch, far_ends, middle, span};
+use super::{Patch, far_ends, middle, span};
 
 /// Ratio of the two components of an edge's normal from which they count as equal.
-const ALIKE: f64 = 1.0 - 1e-9;
+const EQUAL_COMPONENT_RATIO: f64 = 1.0 - 1e-9;
 
 /// Edge of a polygon whose corners go counter-clockwise.
 #[derive(Debug)]
@@ -26,8 +26,10 @@ impl Edge {
     /// Edges of a base: of its outline, or without one its two ends along x.
     pub(crate) fn of_base(outline: &[[f64; 2]], [left, right]: [f64; 2]) -> Vec<Self> {
         if outline.is_empty() {
-            let end = |x, along| Self { start: [x, 0.0], normal: [along, 0.0] };
-            return vec![end(left, -1.0), end(right, 1.0)];
+            return vec![
+                Self { start: [left, 0.0], normal: [-1.0, 0.0] },
+                Self { start: [right, 0.0], normal: [1.0, 0.0] },
+            ];
         }
         Self::all(outline).collect()
     }
@@ -38,8 +40,13 @@ impl Edge {
     }
 
     /// Distance of the edge from a point inside the polygon, times the length of the edge.
-    pub(crate) fn reach(&self, from: [f64; 2]) -> f64 {
-        self.outward([0, 1].map(|axis| self.start[axis] - from[axis]))
+    pub(crate) fn reach(&self, point: [f64; 2]) -> f64 {
+        self.outward([0, 1].map(|axis| self.start[axis] - point[axis]))
+    }
+
+    /// Whether the normal has its larger component, or two equal ones, along `axis`.
+    fn faces_along(&self, axis: usize) -> bool {
+        self.normal[axis].abs() >= EQUAL_COMPONENT_RATIO * self.normal[1 - axis].abs()
     }
 }
 
@@ -52,8 +59,9 @@ pub(crate) struct Footing {
     pub(crate) center: [f64; 2],
     /// Middle of each element relative to the foundation's centre, m.
     pub(crate) arms: Vec<[f64; 3]>,
-    /// Base moment and rotation over those about y by the right-hand rule: −1 in the plane, where they count
-    /// counter-clockwise, 1 in plan.
+    /// Sign of base moment and rotation relative to the right-hand rule about y.
+    ///
+    /// −1 in the plane, where they count counter-clockwise; 1 in plan.
     pub(crate) turn: f64,
     /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the centre.
     pub(crate) edges: [Vec<(Edge, f64)>; 2],
@@ -71,26 +79,27 @@ impl Footing {
         origin: [f64; 2],
     ) -> Self {
         let ends = if outline.is_empty() {
-            [far_ends(patch[elements.clone()].iter().map(|own| own.ends()[0])), [0.0; 2]]
+            let intervals = patch[elements.clone()].iter().map(|element| element.ends()[0]);
+            [far_ends(intervals), [0.0; 2]]
         } else {
             [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])))
         };
         let center = ends.map(middle);
-        let edges = [0, 1].map(|axis| {
-            let faces =
-                |edge: &Edge| edge.normal[axis].abs() >= ALIKE * edge.normal[1 - axis].abs();
-            let with_reach = |edge: Edge| {
-                let reach = edge.reach(center);
-                (edge, reach)
-            };
-            Edge::of_base(outline, ends[0]).into_iter().filter(faces).map(with_reach).collect()
-        });
+        let mut edges = [vec![], vec![]];
+        for (axis, list) in edges.iter_mut().enumerate() {
+            for edge in Edge::of_base(outline, ends[0]) {
+                if edge.faces_along(axis) {
+                    let reach = edge.reach(center);
+                    list.push((edge, reach));
+                }
+            }
+        }
         let bottom = patch[patch.floor().start].center()[2];
-        let arm = |own: &ContactElement| {
-            let [x, y, z] = own.center();
-            [x - center[0], y - center[1], z - bottom]
-        };
-        let arms = patch[elements].iter().map(arm).collect();
+        let mut arms = Vec::with_capacity(elements.len());
+        for element in &patch[elements] {
+            let position = element.center();
+            arms.push([position[0] - center[0], position[1] - center[1], position[2] - bottom]);
+        }
         let turn = patch.layout().turn();
         let center = [0, 1].map(|axis| center[axis] - origin[axis]);
         Self { ends, center, arms, turn, edges }
@@ -105,10 +114,11 @@ mod tests {
     #[test]
     fn edges_by_hand() {
         let edges: Vec<Edge> = Edge::all(&[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).collect();
-        let all = |of: &dyn Fn(&Edge) -> f64| edges.iter().map(of).collect::<Vec<_>>();
-        assert_eq!(all(&|edge| edge.normal[0]), [0.0, 3.0, -3.0]);
-        assert_eq!(all(&|edge| edge.normal[1]), [-4.0, 4.0, 0.0]);
-        assert_eq!(all(&|edge| edge.reach([1.0; 2])), [4.0, 5.0, 3.0]);
-        assert_eq!(all(&|edge| edge.outward([2.0, 1.0])), [-4.0, 10.0, -6.0]);
+        let normals: Vec<_> = edges.iter().map(|edge| edge.normal).collect();
+        assert_eq!(normals, [[0.0, -4.0], [3.0, 4.0], [-3.0, 0.0]]);
+        let reaches: Vec<_> = edges.iter().map(|edge| edge.reach([1.0; 2])).collect();
+        assert_eq!(reaches, [4.0, 5.0, 3.0]);
+        let outward: Vec<_> = edges.iter().map(|edge| edge.outward([2.0, 1.0])).collect();
+        assert_eq!(outward, [-4.0, 10.0, -6.0]);
     }
 }

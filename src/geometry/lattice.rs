@@ -2,15 +2,15 @@
 
 use std::ops::Mul;
 
-use super::{ContactElement, SPACE};
+use super::{COMPONENTS_IN_SPACE, ContactElement};
 
-/// Largest difference of a cell from its place, relative to its sides.
-const EQUAL: f64 = 1e-9;
+/// Largest distance of an element from its cell, relative to the sides of a cell.
+const CELL_POSITION_TOLERANCE: f64 = 1e-9;
 /// Largest number of cells of a lattice for each element.
-const FEW: f64 = 4.0;
+const MAX_CELLS_PER_ELEMENT: f64 = 4.0;
 
 /// Number of series of an offset: zz, xx, yy, xy, zx and zy (zx: down at the receiver due to shear along x).
-pub(crate) const SERIES: usize = 6;
+pub(crate) const SERIES_PER_OFFSET: usize = 6;
 
 /// Lattice of equal cells. Compliances depend only on the offset between two cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,8 +24,8 @@ pub(crate) struct Lattice {
 impl Lattice {
     /// Diagonal of all cells, m.
     pub(crate) fn diagonal(&self) -> f64 {
-        let [a, b] = self.sides();
-        a.hypot(b)
+        let sides = self.sides();
+        sides[0].hypot(sides[1])
     }
 
     /// Sides of all cells together, m.
@@ -45,27 +45,34 @@ impl Lattice {
 
     /// Number of offsets along x and y that are integrated; the smaller number first if cells are square.
     pub(crate) fn extent(&self) -> [usize; 2] {
-        let [i, j] = self.counts;
-        if self.is_square() { [i.min(j), i.max(j)] } else { [i, j] }
+        let counts = self.counts;
+        if self.is_square() { [counts[0].min(counts[1]), counts[0].max(counts[1])] } else { counts }
     }
 
     /// Offsets whose compliances give all others by symmetry: none negative, and i ≤ j if cells are square.
     pub(crate) fn classes(&self) -> Vec<[usize; 2]> {
-        let [columns, rows] = self.extent();
-        let square = self.is_square();
-        let all = (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j]));
-        all.filter(|[i, j]| !square || i <= j).collect()
+        let extent = self.extent();
+        let mut classes = vec![];
+        for i in 0..extent[0] {
+            for j in 0..extent[1] {
+                if !self.is_square() || i <= j {
+                    classes.push([i, j]);
+                }
+            }
+        }
+        classes
     }
 
     /// Number of the class of an offset (absolute), and whether x and y are exchanged there.
     fn class(&self, [i, j]: [usize; 2]) -> (usize, bool) {
-        let [_, rows] = self.extent();
+        let rows = self.extent()[1];
         if !self.is_square() {
             return (i * rows + j, false);
         }
-        let (i, j, exchanged) = if i <= j { (i, j, false) } else { (j, i, true) };
-        // Rows of j = i, i + 1, …
-        (i * rows - i * (i + 1) / 2 + j, exchanged)
+        let smaller = i.min(j);
+        let larger = i.max(j);
+        // For each smaller number i, the larger ones are i, i + 1, …
+        (smaller * rows - smaller * (smaller + 1) / 2 + larger, i > j)
     }
 
     /// Class of an offset, and the series and factor of each pair of components.
@@ -74,16 +81,26 @@ impl Lattice {
     /// source's traction. The receiver is `offset` cells from the source.
     pub(crate) fn terms(&self, offset: [isize; 2]) -> (usize, [[(usize, f64); 3]; 3]) {
         let (class, exchanged) = self.class(offset.map(isize::unsigned_abs));
-        let [right, away] = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
-        let [xx, yy, zx, zy] = if exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
-        let (xy, zx, zy) = ((3, right * away), (zx, right), (zy, away));
-        let back = |(series, factor): (usize, f64)| (series, -factor);
-        let terms = [[(0, 1.0), zx, zy], [back(zx), (xx, 1.0), xy], [back(zy), xy, (yy, 1.0)]];
-        (class, terms)
+        let signs = offset.map(|n| if n < 0 { -1.0 } else { 1.0 });
+        // Numbers of the series xx, yy, zx and zy.
+        let series = if exchanged { [2, 1, 5, 4] } else { [1, 2, 4, 5] };
+        let xx = (series[0], 1.0);
+        let yy = (series[1], 1.0);
+        let xy = (3, signs[0] * signs[1]);
+        let zx = (series[2], signs[0]);
+        let zy = (series[3], signs[1]);
+        // The coupling of shear and pressure changes its sign when receiver and source are exchanged.
+        let xz = (series[2], -signs[0]);
+        let yz = (series[3], -signs[1]);
+        (class, [[(0, 1.0), zx, zy], [xz, xx, xy], [yz, xy, yy]])
     }
 
     /// 3 × 3 values for a receiver `offset` cells from the source, taken from the values of all classes.
-    pub(crate) fn block<T>(&self, values: &[[T; SERIES]], offset: [isize; 2]) -> [[T; 3]; 3]
+    pub(crate) fn block<T>(
+        &self,
+        values: &[[T; SERIES_PER_OFFSET]],
+        offset: [isize; 2],
+    ) -> [[T; 3]; 3]
     where
         T: Copy + Mul<f64, Output = T>,
     {
@@ -99,30 +116,42 @@ pub(crate) fn offset(receiver: [usize; 2], source: [usize; 2]) -> [isize; 2] {
 
 /// Column and row of each element, if all are equal cells of a lattice that is mostly filled.
 pub(crate) fn lattice_cells(elements: &[ContactElement]) -> Option<Vec<[usize; 2]>> {
-    let first = elements.first().filter(|own| own.directions().len() == SPACE)?;
+    let first = elements.first()?;
+    if first.directions().len() != COMPONENTS_IN_SPACE {
+        return None;
+    }
     let pitch = first.sides();
-    let corner = [0, 1]
-        .map(|axis| elements.iter().map(|own| own.ends()[axis][0]).fold(f64::INFINITY, f64::min));
-    let most = FEW * elements.len() as f64;
-    let cell = |own: &ContactElement| {
-        let near = |a: f64, b: f64| (a - b).abs() <= EQUAL;
-        let sides = own.sides();
-        let place = [0, 1].map(|axis| (own.ends()[axis][0] - corner[axis]) / pitch[axis]);
-        let fits = (0..2).all(|axis| {
-            near(sides[axis] / pitch[axis], 1.0) && near(place[axis], place[axis].round())
-        });
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_sign_loss,
-            reason = "from zero to a few times the number of elements"
-        )]
-        (fits && place.iter().all(|place| *place < most))
-            .then(|| place.map(|place| place.round() as usize))
-    };
-    let cells: Vec<[usize; 2]> = elements.iter().map(cell).collect::<Option<_>>()?;
-    let [columns, rows] =
-        [0, 1].map(|axis| cells.iter().map(|cell| cell[axis] + 1).fold(0, usize::max));
-    ((columns * rows) as f64 <= most).then_some(cells)
+    let mut corner = [f64::INFINITY; 2];
+    for element in elements {
+        for (axis, [low, _]) in element.ends().into_iter().enumerate() {
+            corner[axis] = corner[axis].min(low);
+        }
+    }
+    let max_count = MAX_CELLS_PER_ELEMENT * elements.len() as f64;
+    let mut cells = Vec::with_capacity(elements.len());
+    let mut counts = [0; 2];
+    for element in elements {
+        let sides = element.sides();
+        let mut cell = [0; 2];
+        for axis in 0..2 {
+            let position = (element.ends()[axis][0] - corner[axis]) / pitch[axis];
+            let has_size = (sides[axis] / pitch[axis] - 1.0).abs() <= CELL_POSITION_TOLERANCE;
+            let is_on_grid = (position - position.round()).abs() <= CELL_POSITION_TOLERANCE;
+            if !has_size || !is_on_grid || position.is_nan() || position >= max_count {
+                return None;
+            }
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "from zero to a few times the number of elements"
+            )]
+            let number = position.round() as usize;
+            cell[axis] = number;
+            counts[axis] = counts[axis].max(number + 1);
+        }
+        cells.push(cell);
+    }
+    ((counts[0] * counts[1]) as f64 <= max_count).then_some(cells)
 }
 
 #[cfg(test)]
@@ -137,15 +166,15 @@ mod tests {
         {
             let lattice = Lattice { pitch, counts };
             let classes = lattice.classes();
-            let mut met = vec![false; classes.len()];
+            let mut occurs = vec![false; classes.len()];
             for i in 0..counts[0] {
                 for j in 0..counts[1] {
                     let (class, exchanged) = lattice.class([i, j]);
                     assert_eq!(classes[class], if exchanged { [j, i] } else { [i, j] });
-                    met[class] = true;
+                    occurs[class] = true;
                 }
             }
-            assert!(met.into_iter().all(|met| met), "{counts:?}");
+            assert!(occurs.into_iter().all(|occurs| occurs), "{counts:?}");
         }
     }
 
@@ -153,9 +182,10 @@ mod tests {
     #[test]
     fn blocks_are_reciprocal() {
         let lattice = Lattice { pitch: [1.0; 2], counts: [4, 5] };
-        let number = |class: usize, series: usize| Complex::new(class as f64, 1.0 + series as f64);
-        let values: Vec<[Complex; SERIES]> = (0..lattice.classes().len())
-            .map(|class| std::array::from_fn(|series| number(class, series)))
+        let values: Vec<[Complex; SERIES_PER_OFFSET]> = (0..lattice.classes().len())
+            .map(|class| {
+                std::array::from_fn(|series| Complex::new(class as f64, 1.0 + series as f64))
+            })
             .collect();
         for offset in [[0_isize, 3], [3, 1], [-2, 4], [-3, -1]] {
             let there = lattice.block(&values, offset);
@@ -173,21 +203,21 @@ mod tests {
     #[test]
     fn elements_find_their_cells() {
         let cells = [[0, 0], [1, 0], [2, 0], [0, 1], [2, 1], [1, 3]];
-        let element = |[i, j]: [usize; 2]| {
-            let [x, y] = [i as f64, j as f64];
-            ContactElement::in_plan(
-                [1.0 + 0.3 * x, 1.3 + 0.3 * x],
-                [-2.0 + 0.7 * y, -1.3 + 0.7 * y],
-            )
-        };
         let elements: Vec<_> = cells.iter().map(|cell| element(*cell)).collect();
         assert_eq!(lattice_cells(&elements), Some(cells.to_vec()));
-        let with = |other| lattice_cells(&[&elements[..], &[other]].concat());
-        // Another size, another place, far away.
-        let [wide, beside] = [2.0, 1.0].map(|width| 1.9 + 0.3 * width);
-        assert_eq!(with(ContactElement::in_plan([1.9, wide], [-2.0, -1.3])), None);
-        assert_eq!(with(ContactElement::in_plan([1.95, beside + 0.05], [-2.0, -1.3])), None);
-        assert_eq!(with(element([9, 9])), None);
+        let wider = ContactElement::in_plan([1.9, 1.9 + 0.3 * 2.0], [-2.0, -1.3]);
+        let displaced = ContactElement::in_plan([1.95, 1.9 + 0.3 * 1.0 + 0.05], [-2.0, -1.3]);
+        let far_away = element([9, 9]);
+        for other in [wider, displaced, far_away] {
+            assert_eq!(lattice_cells(&[&elements[..], &[other]].concat()), None);
+        }
         assert_eq!(lattice_cells(&[ContactElement::new(0.0, 1.0)]), None);
+    }
+
+    /// Element in this column and row of a lattice with cells of 0.3 m × 0.7 m.
+    fn element([i, j]: [usize; 2]) -> ContactElement {
+        let x = 0.3 * i as f64;
+        let y = 0.7 * j as f64;
+        ContactElement::in_plan([1.0 + x, 1.3 + x], [-2.0 + y, -1.3 + y])
     }
 }

@@ -10,16 +10,16 @@ mod patch;
 
 pub(crate) use circle::circle;
 pub use direction::Direction;
-pub(crate) use direction::{FRAME, IN_SPACE, TRANSLATIONS};
+pub(crate) use direction::{PLANE_DIRECTIONS, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 pub use element::ContactElement;
 pub(crate) use footing::{Edge, Footing};
-pub(crate) use lattice::{Lattice, SERIES, lattice_cells, offset};
+pub(crate) use lattice::{Lattice, SERIES_PER_OFFSET, lattice_cells, offset};
 pub(crate) use patch::{Patch, check_count, check_order};
 
-/// Directions of motion and traction at each element of a ground in the plane: down, along x.
-pub(crate) const PLANE: usize = 2;
-/// Directions of motion and traction at each element of a ground in plan: down, along x, along y.
-pub(crate) const SPACE: usize = 3;
+/// Components of a traction on an element in the plane: down, along x.
+pub(crate) const COMPONENTS_IN_PLANE: usize = 2;
+/// Components of a traction on an element in plan: down, along x, along y.
+pub(crate) const COMPONENTS_IN_SPACE: usize = 3;
 
 /// Order of the numbers in a contact vector: component by component, all elements in their order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,14 +29,17 @@ pub(crate) struct ContactLayout {
 }
 
 impl ContactLayout {
-    /// Layout of elements with [`PLANE`] or [`SPACE`] components each.
+    /// Layout of elements with [`COMPONENTS_IN_PLANE`] or [`COMPONENTS_IN_SPACE`] components each.
     pub(crate) const fn new(components: usize, elements: usize) -> Self {
         Self { components, elements }
     }
 
     /// Layout of these elements, which have equally many directions.
     pub(crate) fn for_elements(elements: &[ContactElement]) -> Self {
-        Self::new(elements.first().map_or(PLANE, |own| own.directions().len()), elements.len())
+        Self::new(
+            elements.first().map_or(COMPONENTS_IN_PLANE, |element| element.directions().len()),
+            elements.len(),
+        )
     }
 
     /// Components of each element: down, along x, and in plan along y.
@@ -44,9 +47,9 @@ impl ContactLayout {
         self.components
     }
 
-    /// Whether the ground is one in plan, of three directions.
+    /// Whether the elements are in plan: three components each.
     pub(crate) const fn is_plan(self) -> bool {
-        self.components == SPACE
+        self.components == COMPONENTS_IN_SPACE
     }
 
     /// Axes along the surface: x (0), and in plan y (1).
@@ -54,9 +57,9 @@ impl ContactLayout {
         0..self.components - 1
     }
 
-    /// Base moment and rotation over those about y by the right-hand rule: 1 in plan.
+    /// Sign of base moment and rotation relative to the right-hand rule about y.
     ///
-    /// −1 in the plane, where they count counter-clockwise.
+    /// 1 in plan; −1 in the plane, where they count counter-clockwise.
     pub(crate) const fn turn(self) -> f64 {
         [-1.0, 1.0][self.is_plan() as usize]
     }
@@ -94,27 +97,31 @@ impl ContactLayout {
     /// The first N components of a contact vector, each for all elements; a short vector gives short slices.
     pub(crate) fn split<T, const N: usize>(self, mut vector: &[T]) -> [&[T]; N] {
         std::array::from_fn(|_| {
-            let (own, rest) = vector.split_at(self.elements.min(vector.len()));
-            vector = rest;
-            own
+            let count = self.elements.min(vector.len());
+            let component = &vector[..count];
+            vector = &vector[count..];
+            component
         })
     }
 
     /// Mutable components of a contact vector, split as by [`ContactLayout::split`].
     pub(crate) fn split_mut<T, const N: usize>(self, mut vector: &mut [T]) -> [&mut [T]; N] {
         std::array::from_fn(|_| {
-            let all = std::mem::take(&mut vector);
-            let (own, rest) = all.split_at_mut(self.elements.min(all.len()));
+            let remaining = std::mem::take(&mut vector);
+            let (component, rest) = remaining.split_at_mut(self.elements.min(remaining.len()));
             vector = rest;
-            own
+            component
         })
     }
 }
 
 /// The smallest low end and the largest high end.
 pub(crate) fn far_ends(ends: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
-    let none = [f64::INFINITY, f64::NEG_INFINITY];
-    ends.fold(none, |[least, most], [low, high]| [least.min(low), most.max(high)])
+    let mut far = [f64::INFINITY, f64::NEG_INFINITY];
+    for [low, high] in ends {
+        far = [far[0].min(low), far[1].max(high)];
+    }
+    far
 }
 
 /// The smallest and the largest value.
@@ -123,22 +130,25 @@ pub(crate) fn span(values: impl Iterator<Item = f64>) -> [f64; 2] {
 }
 
 /// Distance between two ends that counts as rounding, relative to the interval.
-const ROUNDING: f64 = 1e-9;
+const END_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// Number of intervals in a row: the fewest that lead from the first end to the last.
 pub(crate) fn in_a_row(mut ends: Vec<[f64; 2]>) -> usize {
     ends.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    let (mut count, mut end, mut reach, mut rounding) =
-        (0, f64::NEG_INFINITY, f64::NEG_INFINITY, 0.0);
+    let mut count = 0;
+    // End of the intervals counted so far, and the largest end of all intervals so far.
+    let mut counted_end = f64::NEG_INFINITY;
+    let mut largest_end = f64::NEG_INFINITY;
+    let mut tolerance = 0.0;
     for [low, high] in ends {
-        rounding = ROUNDING * (high - low);
-        if low > end + rounding {
+        tolerance = END_TOLERANCE_FACTOR * (high - low);
+        if low > counted_end + tolerance {
             count += 1;
-            end = if low > reach + rounding { high } else { reach };
+            counted_end = if low > largest_end + tolerance { high } else { largest_end };
         }
-        reach = reach.max(high);
+        largest_end = largest_end.max(high);
     }
-    count + usize::from(reach > end + rounding)
+    count + usize::from(largest_end > counted_end + tolerance)
 }
 
 /// The middle between two ends.
@@ -151,7 +161,9 @@ pub(crate) fn axis_name(is_plan: bool, axis: usize) -> Option<char> {
     is_plan.then_some(['x', 'y'][axis])
 }
 
-/// A number and its counterpart along y as one: with its sign in the plane, where that is zero.
+/// Resultant of a component along x and one along y.
+///
+/// In the plane, where the component along y is zero, it keeps the sign of the component along x.
 pub(crate) fn resultant(along: f64, across: f64) -> f64 {
     if across == 0.0 { along } else { along.hypot(across) }
 }

@@ -1,11 +1,13 @@
-//! The elements of a ground.
+//! Checked list of the contact elements of a ground.
 
 use std::ops::Range;
 
-use super::{ContactElement, ContactLayout, PLANE, SPACE, far_ends, middle};
+use super::{
+    COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, far_ends, middle,
+};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
-/// The elements of a ground, checked.
+/// Contact elements of a ground, checked for sizes, order and overlaps.
 #[derive(Debug, Clone)]
 pub(crate) struct Patch {
     elements: Vec<ContactElement>,
@@ -21,22 +23,23 @@ impl Patch {
     /// Returns an error unless all elements have a size and equally many directions, and none overlap; in the plane
     /// they must also run from left to right. Returns an error for more elements than matrices between all of them allow.
     pub(crate) fn new(elements: Vec<ContactElement>) -> Result<Self> {
-        check_count(elements.len(), elements.first().map_or(PLANE, |own| own.directions().len()))?;
+        check_count(elements.len(), ContactLayout::for_elements(&elements).components())?;
         Self::of_any_count(elements)
     }
 
     /// The same, but in plan for any number of elements.
     pub(crate) fn of_any_count(elements: Vec<ContactElement>) -> Result<Self> {
-        let count = |element: &ContactElement| element.directions().len();
-        if elements.windows(2).any(|pair| count(&pair[0]) != count(&pair[1])) {
+        let layout = ContactLayout::for_elements(&elements);
+        if elements.iter().any(|element| element.directions().len() != layout.components()) {
             return Err(Error::Scene {
                 quantity: "contact elements of the ground",
                 needed: "all of them, or none, in plan",
             });
         }
-        match elements.first().map(count) {
-            Some(SPACE) => check_cells(&elements)?,
-            _ => check_order(&elements)?,
+        if layout.is_plan() {
+            check_cells(&elements)?;
+        } else {
+            check_order(&elements)?;
         }
         let areas = elements.iter().map(ContactElement::area).collect();
         let floor = floor(&elements)?;
@@ -93,7 +96,8 @@ impl Patch {
 
     /// Middle `[x, y]` of the bounding box of all elements, m.
     pub(crate) fn center(&self) -> [f64; 2] {
-        [0, 1].map(|axis| middle(far_ends(self.elements.iter().map(|own| own.ends()[axis]))))
+        [0, 1]
+            .map(|axis| middle(far_ends(self.elements.iter().map(|element| element.ends()[axis]))))
     }
 }
 
@@ -125,15 +129,18 @@ impl std::ops::Deref for Patch {
     }
 }
 
-/// Bytes for each pair of elements: a dozen matrices of 2 × 2 numbers. Measured with 300 to 800 elements: 202
-/// to 271 when a simulation is built, 385 to 436 after the first step on a graded strip.
+/// Memory for each pair of elements, bytes: a dozen matrices of 2 × 2 numbers.
+///
+/// With 300 to 800 elements, a pair takes 202 to 271 bytes when a simulation is built, and 385 to 436 after the first
+/// step on a graded strip.
 const BYTES_PER_PAIR: f64 = 400.0;
 
 /// Error if the matrices between this many elements, with this number of components each, exceed the memory.
 pub(crate) fn check_count(count: usize, components: usize) -> std::result::Result<(), MemoryError> {
     let count = count as f64;
-    let numbers = count * (components as f64 / PLANE as f64);
-    memory::check("contact elements", count, BYTES_PER_PAIR * numbers * numbers)
+    // As many elements in the plane have matrices of the same size.
+    let plane_count = count * (components as f64 / COMPONENTS_IN_PLANE as f64);
+    memory::check("contact elements", count, BYTES_PER_PAIR * plane_count * plane_count)
 }
 
 /// Error unless there are elements, and each has a size.
@@ -144,9 +151,9 @@ fn check_sizes(elements: &[ContactElement]) -> Result<()> {
 
 /// Error unless the elements are in the plane and have positive length, in order, without overlap.
 pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
-    check_count(elements.len(), PLANE)?;
+    check_count(elements.len(), COMPONENTS_IN_PLANE)?;
     check_sizes(elements)?;
-    if elements.iter().any(|element| element.directions().len() != PLANE) {
+    if elements.iter().any(|element| element.directions().len() != COMPONENTS_IN_PLANE) {
         return Err(Error::Scene {
             quantity: "contact elements",
             needed: "elements in the plane: those in plan need a `Plan`",
@@ -154,7 +161,8 @@ pub(crate) fn check_order(elements: &[ContactElement]) -> Result<()> {
     }
     for pair in elements.windows(2) {
         let overlap = pair[0].right() - pair[1].left();
-        let is_apart = overlap <= ContactElement::OVERLAP * pair[0].length().min(pair[1].length());
+        let is_apart = overlap
+            <= ContactElement::MAX_OVERLAP_FRACTION * pair[0].length().min(pair[1].length());
         let needed = "at or right of the end of the element before it";
         require("left end of a contact element", pair[1].left(), is_apart, needed)?;
     }

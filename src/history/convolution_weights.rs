@@ -6,7 +6,7 @@ use super::pair_classes::TRENCH_KINDS;
 use super::pair_classes::{KINDS, PairClasses};
 use super::shared_spectra::SharedSpectra;
 use crate::error::{Error, Observer, Result, same_length, unobserved};
-use crate::geometry::SERIES;
+use crate::geometry::SERIES_PER_OFFSET;
 
 /// Convolution weights Gⁿ of a laterally homogeneous ground for a patch of elements.
 ///
@@ -76,7 +76,7 @@ pub trait ConvolutionWeights: Send + Sync {
         &self,
         _class: usize,
         _first_lag: usize,
-        _values: [&mut [f64]; SERIES],
+        _values: [&mut [f64]; SERIES_PER_OFFSET],
     ) -> Result<()> {
         Err(OTHER_KINDS)
     }

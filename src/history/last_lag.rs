@@ -2,7 +2,7 @@
 
 use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Observer, Progress, Result};
-use crate::geometry::{Lattice, SERIES};
+use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 
 /// Smallest number of lags that are kept.
 const SHORTEST: usize = 64;
@@ -34,8 +34,8 @@ impl LastLag {
         let Some((lattice, _)) = kernel.classes().plan() else { return Ok(None) };
         let area = lattice.pitch[0] * lattice.pitch[1];
         // Σ |G| for each class and kind.
-        let mut all = vec![[0.0; SERIES]; kernel.classes().count()];
-        let mut lags = [(); SERIES].map(|()| vec![0.0; SHORTEST]);
+        let mut all = vec![[0.0; SERIES_PER_OFFSET]; kernel.classes().count()];
+        let mut lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; SHORTEST]);
         let mut done = 0;
         let mut lag = SHORTEST;
         while lag <= most / 2 {
@@ -44,7 +44,7 @@ impl LastLag {
                 observer(Progress { task, done: lags, total: most })
             })?;
             let [mut late, mut changes, mut before] =
-                [(); 3].map(|()| vec![[0.0; SERIES]; all.len()]);
+                [(); 3].map(|()| vec![[0.0; SERIES_PER_OFFSET]; all.len()]);
             for begin in (done..2 * lag).step_by(SHORTEST) {
                 let sums = if begin < lag { &mut all } else { &mut late };
                 for (class, sums) in sums.iter_mut().enumerate() {
@@ -81,7 +81,7 @@ impl LastLag {
 }
 
 /// Largest sum of a displacement component over a row of the matrix, from sums for each class and kind.
-fn largest_row(lattice: &Lattice, sums: &[[f64; SERIES]]) -> f64 {
+fn largest_row(lattice: &Lattice, sums: &[[f64; SERIES_PER_OFFSET]]) -> f64 {
     let offsets = (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
     let mut rows = [0.0; 3];
     for offset in offsets {

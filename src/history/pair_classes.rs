@@ -6,7 +6,8 @@ use std::ops::Mul;
 
 use crate::error::{Result, in_bounds, require};
 use crate::geometry::{
-    ContactElement, ContactLayout, Lattice, PLANE, SERIES, SPACE, check_count, check_order, offset,
+    COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, Lattice,
+    SERIES_PER_OFFSET, check_count, check_order, offset,
 };
 use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 
@@ -131,7 +132,7 @@ impl PairClasses {
     /// As for [`check_count`].
     #[cfg(feature = "embedded")]
     pub(crate) fn around_trench(elements: Vec<ContactElement>) -> Result<Self> {
-        check_count(elements.len(), PLANE)?;
+        check_count(elements.len(), COMPONENTS_IN_PLANE)?;
         let (count, half) = (elements.len(), elements.len() / 2);
         let own = half * (half + 1) / 2;
         let right = |e: usize| if e < half { half - 1 - e } else { e - half };
@@ -177,7 +178,7 @@ impl PairClasses {
         cells: Vec<[usize; 2]>,
         corner: [f64; 2],
     ) -> Result<Self> {
-        check_count(cells.len(), PLANE)?;
+        check_count(cells.len(), COMPONENTS_IN_PLANE)?;
         let element = |cell: &[usize; 2]| {
             let [along, across] = [0, 1].map(|axis| {
                 [0, 1].map(|end| corner[axis] + lattice.pitch[axis] * (cell[axis] + end) as f64)
@@ -206,7 +207,7 @@ impl PairClasses {
         if self.are_around_trench() {
             return TRENCH_KINDS;
         }
-        if self.plan.is_some() { SERIES } else { KINDS }
+        if self.plan.is_some() { SERIES_PER_OFFSET } else { KINDS }
     }
 
     /// The elements, from left to right; cells in plan in the order given.
@@ -240,7 +241,8 @@ impl PairClasses {
 
     /// Order of the numbers of a contact vector.
     pub(crate) fn layout(&self) -> ContactLayout {
-        let components = if self.plan.is_some() { SPACE } else { PLANE };
+        let components =
+            if self.plan.is_some() { COMPONENTS_IN_SPACE } else { COMPONENTS_IN_PLANE };
         ContactLayout::new(components, self.elements.len())
     }
 

@@ -2,7 +2,7 @@
 
 use super::DofCombination;
 use crate::error::{Result, at_least, finite, in_bounds, require};
-use crate::geometry::{PLANE, SPACE, span};
+use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, span};
 
 /// Relative difference of displacements, of heights, and of a distance from a line, that counts as rounding.
 const FLAT: f64 = 1e-9;
@@ -216,7 +216,7 @@ impl BaseNode {
 
     /// Number of directions in which the node moves: two in the plane.
     pub(crate) fn directions(&self) -> usize {
-        if self.across.is_empty() { PLANE } else { SPACE }
+        if self.across.is_empty() { COMPONENTS_IN_PLANE } else { COMPONENTS_IN_SPACE }
     }
 
     /// The degrees of freedom that move the node.

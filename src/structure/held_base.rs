@@ -7,7 +7,7 @@
 
 use super::{BaseNode, DofCombination, Triplets};
 use crate::error::Result;
-use crate::geometry::{PLANE, SPACE};
+use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE};
 use crate::linalg::{SparseFactor, SparseMatrix, largest};
 
 /// A structure on springs at its contact nodes: K + γ NᵀN, and forces that move its base.
@@ -53,7 +53,7 @@ impl<'a> HeldBase<'a> {
         let along = walls.map(|node| (&node.horizontal, lowest - node.z));
         let up = nodes.clone().map(|node| (&node.vertical, node.x - x));
         let mut turns = vec![self.forces(up.chain(along))];
-        if self.directions() == SPACE {
+        if self.directions() == COMPONENTS_IN_SPACE {
             turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
             let [along, across] = [
                 self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y))),
@@ -66,7 +66,7 @@ impl<'a> HeldBase<'a> {
 
     /// Number of directions in which the nodes move.
     fn directions(&self) -> usize {
-        self.nodes.first().map_or(PLANE, BaseNode::directions)
+        self.nodes.first().map_or(COMPONENTS_IN_PLANE, BaseNode::directions)
     }
 
     /// Forces of springs with these elongations.

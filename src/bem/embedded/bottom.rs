@@ -1,4 +1,4 @@
-//! Stretched elements that stand for the half-plane below the near field.
+//! Stretched finite elements in place of the half-plane below the near field.
 
 use realfft::num_complex::Complex64;
 
@@ -10,27 +10,29 @@ pub(super) struct Bottom {
 }
 
 /// Angle of the stretched elements relative to the argument of s.
-const TURN: f64 = 0.6;
+const STRETCH_ANGLE_RATIO: f64 = 0.6;
 /// Longest stretched element, in c/|s|.
-const LONGEST: f64 = 8.0;
-/// Least degree of stretched elements: a higher one than of the near field, of longer elements, takes less time.
-const LEAST: usize = 8;
+const MAX_STRETCHED_LENGTH: f64 = 8.0;
+/// Smallest degree of stretched elements; few elements of a high degree take less time than many of a low one.
+const MIN_STRETCHED_DEGREE: usize = 8;
 
 impl Bottom {
     /// Elements for Laplace variables near `s`, below an interval of `last` metres.
     ///
     /// `speed`: of shear waves in the half-plane, m/s. `depth`: of all elements, in c/|s|.
     pub(super) fn new(s: Complex64, last: f64, speed: f64, depth: f64, degree: usize) -> Self {
-        let wave = speed / s.norm();
-        let turn = Complex64::from_polar(1.0, -TURN * s.arg());
-        let (mut heights, mut sum, mut next) = (vec![], 0.0, 2.0 * last);
-        while sum < depth * wave {
-            let height = next.min(LONGEST * wave);
-            heights.push(turn * height);
-            sum += height;
+        let wave_length = speed / s.norm();
+        let rotation = Complex64::from_polar(1.0, -STRETCH_ANGLE_RATIO * s.arg());
+        let mut heights = vec![];
+        let mut total_height = 0.0;
+        let mut next = 2.0 * last;
+        while total_height < depth * wave_length {
+            let height = next.min(MAX_STRETCHED_LENGTH * wave_length);
+            heights.push(rotation * height);
+            total_height += height;
             next = 2.0 * height;
         }
-        Self { heights, degree: degree.max(LEAST) }
+        Self { heights, degree: degree.max(MIN_STRETCHED_DEGREE) }
     }
 
     /// No elements: the near field ends on rigid bedrock.

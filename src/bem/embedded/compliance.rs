@@ -5,85 +5,86 @@ use std::ops::Range;
 use realfft::num_complex::Complex64;
 
 use super::bottom::Bottom;
-use super::grid::Grid;
-use super::polynomials::Polynomials;
-use super::stack::{Column, Elements, Layer, Loads, Moduli, Stack};
-use crate::error::{Error, Result};
+use super::grid::{Interval, TrenchGrid};
+use super::polynomials::IntervalFunctions;
+use super::stack::{ElementColumn, Elements, Loads, Moduli, Stack, StackElement};
+use crate::error::Result;
 use crate::linalg::Block;
 
 /// Largest number of doublings of the regular columns.
-const DOUBLINGS: usize = 45;
+const MAX_COLUMN_DOUBLINGS: usize = 45;
 
 /// Compliances of the right half of a trench, for fields that are symmetric or antisymmetric about its axis.
 ///
 /// Rows and columns: elements of the base from the axis, then of the wall from the surface down; horizontal and then
 /// vertical for each. Displacements are integrals over the elements, tractions are constant on them.
 #[derive(Debug, Clone)]
-pub(super) struct Halves {
+pub(super) struct HalfCompliances {
     pub(super) symmetric: Block,
     pub(super) antisymmetric: Block,
 }
 
-impl Halves {
+impl HalfCompliances {
     /// Largest difference to `other` compliances, relative to the largest compliance.
     pub(super) fn difference(&self, other: &Self) -> f64 {
-        let pairs =
-            [(&self.symmetric, &other.symmetric), (&self.antisymmetric, &other.antisymmetric)];
-        let change = pairs.map(|(one, other)| {
-            let entries = one.values().iter().zip(other.values());
-            let most = entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max);
-            most / one.largest()
-        });
-        change[0].max(change[1])
+        relative_difference(&self.symmetric, &other.symmetric)
+            .max(relative_difference(&self.antisymmetric, &other.antisymmetric))
     }
 }
 
+/// Largest difference of two matrices' entries, relative to the largest entry of the first.
+fn relative_difference(one: &Block, other: &Block) -> f64 {
+    let entries = one.values().iter().zip(other.values());
+    entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max) / one.largest()
+}
+
 /// Finite elements around a trench at one Laplace variable.
-pub(super) struct Model<'a> {
-    pub(super) grid: &'a Grid,
+pub(super) struct TrenchModel<'a> {
+    pub(super) grid: &'a TrenchGrid,
     pub(super) degree: usize,
     pub(super) bottom: &'a Bottom,
     /// From the surface down; then the backfill, if there is any.
     pub(super) soils: &'a [Moduli],
 }
 
-impl Model<'_> {
+impl TrenchModel<'_> {
     /// The compliances; `None` if waves do not come to rest in any number of regular columns.
     ///
     /// # Errors
-    /// [`Error::Singular`].
-    pub(super) fn compliances(&self) -> Result<Option<Halves>> {
+    /// [`Error::Singular`](crate::Error::Singular).
+    pub(super) fn compliances(&self) -> Result<Option<HalfCompliances>> {
         let Self { grid, degree, .. } = self;
         let elements = Elements::new(*degree, [*degree, self.bottom.degree]);
-        let stack = self.stack(false);
-        let (coarse, entries) = stack.joined(&self.groups());
+        let whole_stack = self.stack(false);
+        let (coarse, coarse_values) = whole_stack.coarsened(&self.groups());
+        let far_column = elements.column(grid.column, &coarse, self.soils, Loads::NO_LOADS)?;
+        let Some(far) = far_columns(far_column, coarse.nodes())? else { return Ok(None) };
+        let mut side = SideStiffness { matrix: far, nodes: coarse.nodes(), loads: 0 };
         let count = self.loads();
-        let none = Loads { count: 0, first: None };
-        let far = elements.column(grid.column, &coarse, self.soils, none)?;
-        let Some(far) = far_columns(far, coarse.nodes())? else { return Ok(None) };
-        let mut side = Side { matrix: far, nodes: coarse.nodes(), loads: 0 };
-        let none = Loads { count, first: None };
+        let no_load_on_top = Loads { count, first: None };
         for (k, width) in grid.beside.iter().enumerate().rev() {
             let stack = self.stack(k < grid.backfilled);
-            let column = elements.column(*width, &stack, self.soils, none)?;
-            let joined = (k + 1 == grid.beside.len()).then_some(&entries[..]);
-            side = side.beside(&column, stack.nodes(), count, joined)?;
+            let column = elements.column(*width, &stack, self.soils, no_load_on_top)?;
+            let is_outermost = k + 1 == grid.beside.len();
+            let line_values = is_outermost.then_some(&coarse_values[..]);
+            side = side.beside(&column, stack.nodes(), count, line_values)?;
         }
         self.load_wall(&mut side);
-        let stack = Stack(stack.0[grid.wall.len()..].to_vec());
+        let stack = Stack(whole_stack.0[grid.wall.len()..].to_vec());
         for (k, width) in grid.base.iter().enumerate().rev() {
-            let column =
-                elements.column(*width, &stack, self.soils, Loads { count, first: Some(2 * k) })?;
+            let loads = Loads { count, first: Some(2 * k) };
+            let column = elements.column(*width, &stack, self.soils, loads)?;
             side = side.beside(&column, stack.nodes(), count, None)?;
         }
         let nodes = side.nodes;
         // On the axis the horizontal displacement is fixed, or the vertical one.
-        Ok(Some(Halves {
+        Ok(Some(HalfCompliances {
             symmetric: side.compliance(nodes..2 * nodes)?,
             antisymmetric: side.compliance(0..nodes)?,
         }))
     }
 
+    /// Number of loads: two for each element of the base and of a wall.
     fn loads(&self) -> usize {
         2 * (self.grid.base.len() + self.grid.walls())
     }
@@ -91,49 +92,58 @@ impl Model<'_> {
     /// Elements of a column from the surface to the fixed bottom.
     fn stack(&self, backfilled: bool) -> Stack {
         let grid = self.grid;
-        let real = |length: f64, soil| Layer {
-            height: Complex64::from(length),
-            soil,
-            degree: self.degree,
-        };
+        let degree = self.degree;
         let fill = self.soils.len() - 1;
-        let walls = grid
-            .wall
-            .iter()
-            .map(|(own, _)| real(own.length, if backfilled { fill } else { own.soil }));
-        let below = grid.below.iter().map(|own| real(own.length, own.soil));
+        let mut elements = vec![];
+        for (interval, _) in &grid.wall {
+            let soil = if backfilled { fill } else { interval.soil };
+            elements.push(StackElement { height: Complex64::from(interval.length), soil, degree });
+        }
+        for Interval { length, soil } in &grid.below {
+            elements.push(StackElement { height: Complex64::from(*length), soil: *soil, degree });
+        }
         let Bottom { heights, degree } = self.bottom;
         // The half-plane is the last soil of the profile.
         let soil = fill - usize::from(grid.backfilled > 0);
-        let deep = heights.iter().map(|height| Layer { height: *height, soil, degree: *degree });
-        Stack(walls.chain(below).chain(deep).collect())
+        for height in heights {
+            elements.push(StackElement { height: *height, soil, degree: *degree });
+        }
+        Stack(elements)
     }
 
     /// Elements that the regular columns join.
     fn groups(&self) -> Vec<Range<usize>> {
         let grid = self.grid;
-        let real: Vec<_> = grid.wall.iter().map(|(own, _)| own).chain(&grid.below).collect();
+        let intervals: Vec<_> =
+            grid.wall.iter().map(|(interval, _)| interval).chain(&grid.below).collect();
         let mut groups = vec![];
         let mut begin = 0;
-        while begin < real.len() {
-            let (mut end, mut length) = (begin + 1, real[begin].length);
-            while end < real.len()
-                && real[end].soil == real[begin].soil
-                && length + real[end].length <= grid.joined
+        while begin < intervals.len() {
+            let mut end = begin + 1;
+            let mut length = intervals[begin].length;
+            while end < intervals.len()
+                && intervals[end].soil == intervals[begin].soil
+                && length + intervals[end].length <= grid.max_joined_length
             {
-                length += real[end].length;
+                length += intervals[end].length;
                 end += 1;
             }
             groups.push(begin..end);
             begin = end;
         }
-        groups.extend((real.len()..real.len() + self.bottom.heights.len()).map(|k| k..k + 1));
+        // Stretched elements are not joined.
+        for _ in &self.bottom.heights {
+            groups.push(begin..begin + 1);
+            begin += 1;
+        }
         groups
     }
 
-    fn load_wall(&self, side: &mut Side) {
-        let weights = Polynomials::lagrange(self.degree).means();
-        let (mut node, base) = (0, self.grid.base.len());
+    /// Adds the loads on the wall to the matrix of the line of the wall.
+    fn load_wall(&self, side: &mut SideStiffness) {
+        let weights = IntervalFunctions::lagrange(self.degree).means();
+        let mut node = 0;
+        let base = self.grid.base.len();
         for (interval, element) in &self.grid.wall {
             for (j, weight) in weights.iter().enumerate().filter(|(j, _)| node + j < side.nodes) {
                 for component in 0..2 {
@@ -149,82 +159,86 @@ impl Model<'_> {
 }
 
 /// Stiffness of the soil beyond a vertical line, bordered by the loads there.
-struct Side {
+struct SideStiffness {
     matrix: Block,
     nodes: usize,
     loads: usize,
 }
 
-impl Side {
+impl SideStiffness {
     /// The soil beyond the left side of a column that is joined to this line.
     ///
-    /// `nodes`: of the left side, which are the lowest of this one. `joined`: values of this line at the column's nodes.
+    /// `nodes`: of the left side, which are the lowest of this one. `line_values`: node of the column, node of this line
+    /// and value of the latter's function at the former; `None` if the nodes are the same.
     fn beside(
         self,
-        column: &Column,
+        column: &ElementColumn,
         nodes: usize,
         loads: usize,
-        joined: Option<&[(usize, usize, f64)]>,
+        line_values: Option<&[(usize, usize, f64)]>,
     ) -> Result<Self> {
-        let (own, order) = (self.nodes, 2 * nodes + loads);
-        let mut rest = column.mean(1.0);
+        let line_nodes = self.nodes;
+        let line_order = 2 * line_nodes;
+        let order = 2 * nodes + loads;
+        let mut matrix = column.mean(1.0);
         let across = column.mean(-1.0);
-        let mut pivot = self.matrix.part(0..2 * own, 0..2 * own);
-        let mut coupling = Block::zeros(2 * own, order);
-        // Places and values of each of the column's nodes on this line.
-        let alone: Vec<_>;
-        let entries = if let Some(entries) = joined {
-            entries
+        let mut pivot = self.matrix.part(0..line_order, 0..line_order);
+        let mut coupling = Block::zeros(line_order, order);
+        let same_nodes: Vec<_>;
+        let node_values = if let Some(values) = line_values {
+            values
         } else {
-            alone = (0..nodes).map(|node| (node, own - nodes + node, 1.0)).collect();
-            &alone
+            same_nodes = (0..nodes).map(|node| (node, line_nodes - nodes + node, 1.0)).collect();
+            &same_nodes
         };
-        let both = |component: usize| {
-            entries.iter().map(move |(fine, coarse, value)| {
-                (component * nodes + fine, component * own + coarse, *value)
-            })
-        };
-        let all: Vec<_> = both(0).chain(both(1)).collect();
-        for (row, place, value) in &all {
+        // The same for degrees of freedom: horizontal displacements, then vertical ones.
+        let mut dof_values = Vec::with_capacity(2 * node_values.len());
+        for component in 0..2 {
+            for (node, line_node, value) in node_values {
+                let row = component * nodes + node;
+                dof_values.push((row, component * line_nodes + line_node, *value));
+            }
+        }
+        for (row, place, value) in &dof_values {
             for column in 0..order {
                 let stiffness = mirrored(*row, nodes, across[(*row, column)]);
                 coupling[(*place, column)] += stiffness * *value;
             }
         }
-        let mut half = Block::zeros(2 * own, 2 * nodes);
-        for (row, place, value) in &all {
+        let mut column_stiffness = Block::zeros(line_order, 2 * nodes);
+        for (row, place, value) in &dof_values {
             for column in 0..2 * nodes {
                 let stiffness =
-                    mirrored(*row, nodes, mirrored(column, nodes, rest[(*row, column)]));
-                half[(*place, column)] += stiffness * *value;
+                    mirrored(*row, nodes, mirrored(column, nodes, matrix[(*row, column)]));
+                column_stiffness[(*place, column)] += stiffness * *value;
             }
         }
-        for (column, place, value) in &all {
-            for row in 0..2 * own {
-                pivot[(row, *place)] += half[(row, *column)] * *value;
+        for (column, place, value) in &dof_values {
+            for row in 0..line_order {
+                pivot[(row, *place)] += column_stiffness[(row, *column)] * *value;
             }
         }
         // Both triangles are the same to the last bit, whatever the order of the sums.
         for load in 0..self.loads {
-            for row in 0..2 * own {
-                coupling[(row, 2 * nodes + load)] += self.matrix[(row, 2 * own + load)];
+            for row in 0..line_order {
+                coupling[(row, 2 * nodes + load)] += self.matrix[(row, line_order + load)];
             }
             for other in 0..self.loads {
-                rest[(2 * nodes + load, 2 * nodes + other)] +=
-                    self.matrix[(2 * own + load, 2 * own + other)];
+                matrix[(2 * nodes + load, 2 * nodes + other)] +=
+                    self.matrix[(line_order + load, line_order + other)];
             }
         }
-        rest.eliminate(&pivot, &coupling)?;
-        Ok(Self { matrix: rest, nodes, loads })
+        matrix.eliminate(&pivot, &coupling)?;
+        Ok(Self { matrix, nodes, loads })
     }
 
     /// Compliance of the loads if only the `free` degrees of freedom of this line are not fixed.
     fn compliance(&self, free: Range<usize>) -> Result<Block> {
         let loads = 2 * self.nodes..2 * self.nodes + self.loads;
-        let mut rest = self.matrix.part(loads.clone(), loads.clone());
+        let mut compliance = self.matrix.part(loads.clone(), loads.clone());
         let pivot = self.matrix.part(free.clone(), free.clone());
-        rest.eliminate(&pivot, &self.matrix.part(free, loads))?;
-        Ok(rest.negated())
+        compliance.eliminate(&pivot, &self.matrix.part(free, loads))?;
+        Ok(compliance.negated())
     }
 }
 
@@ -234,32 +248,37 @@ fn mirrored(row: usize, nodes: usize, value: Complex64) -> Complex64 {
 }
 
 /// Stiffness of a side of endless equal columns; `None` if waves do not come to rest in 2^45 of them.
-fn far_columns(mut column: Column, nodes: usize) -> Result<Option<Block>> {
-    for _ in 0..DOUBLINGS {
-        let [sum, difference] = [1.0, -1.0].map(|sign| column.mean(sign));
-        if difference.largest() < FADED * sum.largest() {
-            return Ok(Some(sum));
+fn far_columns(mut column: ElementColumn, nodes: usize) -> Result<Option<Block>> {
+    for _ in 0..MAX_COLUMN_DOUBLINGS {
+        let stiffness = column.mean(1.0);
+        let across = column.mean(-1.0);
+        if across.largest() < FAR_STIFFNESS_TOLERANCE * stiffness.largest() {
+            return Ok(Some(stiffness));
         }
-        column = doubled(&sum, &difference, nodes)?;
+        column = double_column(&stiffness, &across, nodes)?;
     }
     Ok(None)
 }
 
 /// Two equal columns as one, from the stiffness of a side of one, and between both sides.
-fn doubled(own: &Block, across: &Block, nodes: usize) -> Result<Column> {
-    let order = 2 * nodes;
+fn double_column(stiffness: &Block, across: &Block, nodes: usize) -> Result<ElementColumn> {
     // In the middle one component is fixed, and the other one is free.
-    let halved = |free: Range<usize>| {
-        let mut half = own.clone();
-        let pivot = own.part(free.clone(), free.clone());
-        half.eliminate(&pivot, &across.part(free, 0..order))?;
-        Ok::<_, Error>(half)
-    };
-    Ok(Column { symmetric: halved(nodes..order)?, antisymmetric: halved(0..nodes)? })
+    Ok(ElementColumn {
+        symmetric: with_free_middle(stiffness, across, nodes..2 * nodes)?,
+        antisymmetric: with_free_middle(stiffness, across, 0..nodes)?,
+    })
+}
+
+/// Stiffness of a side with the `free` degrees of freedom of the other side eliminated, all others fixed.
+fn with_free_middle(stiffness: &Block, across: &Block, free: Range<usize>) -> Result<Block> {
+    let mut side = stiffness.clone();
+    let pivot = stiffness.part(free.clone(), free.clone());
+    side.eliminate(&pivot, &across.part(free, 0..stiffness.rows()))?;
+    Ok(side)
 }
 
 /// Stiffness between both ends of a row of columns, relative to a side's, that counts as zero.
-const FADED: f64 = 1e-13;
+const FAR_STIFFNESS_TOLERANCE: f64 = 1e-13;
 
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,7 @@ use realfft::num_complex::Complex64;
 
 /// Piece of the profile: its height (m), modulus M of the wave (Pa) and ρ s².
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Piece {
+pub(super) struct ProfilePiece {
     pub(super) height: f64,
     pub(super) modulus: Complex64,
     pub(super) inertia: Complex64,
@@ -19,12 +19,13 @@ pub(super) struct VerticalField {
 
 impl VerticalField {
     /// At the free surface.
-    pub(super) const SURFACE: Self = Self { displacement: Complex64::ONE, stress: Complex64::ZERO };
+    pub(super) const AT_SURFACE: Self =
+        Self { displacement: Complex64::ONE, stress: Complex64::ZERO };
 
     /// The field at the bottom of a piece that has this field at its top, and its integrals over the piece.
-    pub(super) fn below(self, piece: Piece) -> (Self, Self) {
+    pub(super) fn below(self, piece: ProfilePiece) -> (Self, Self) {
         let Self { displacement, stress } = self;
-        let Piece { height, modulus, inertia } = piece;
+        let ProfilePiece { height, modulus, inertia } = piece;
         let travel = (inertia / modulus).sqrt() * height;
         // sinh(κh)/κ, cosh(κh) and (cosh(κh) − 1)/κ².
         let ratio = sinh_ratio(travel) * height;
@@ -56,18 +57,20 @@ mod tests {
     fn vertical_waves_of_homogeneous_soil_are_standing() {
         for omega in [1e-5_f64, 1e-3, 0.7, 3.0] {
             let inertia = Complex64::from(-1.5 * omega * omega);
-            let piece = |height: f64| Piece { height, modulus: Complex64::from(2.5), inertia };
+            let modulus = Complex64::from(2.5);
             let k = omega * (1.5_f64 / 2.5).sqrt();
-            let (middle, upper) = VerticalField::SURFACE.below(piece(0.4));
-            let (found, lower) = middle.below(piece(0.9));
-            let close = |found: Complex64, wanted: f64| {
+            let upper_piece = ProfilePiece { height: 0.4, modulus, inertia };
+            let (middle, upper) = VerticalField::AT_SURFACE.below(upper_piece);
+            let (bottom, lower) = middle.below(ProfilePiece { height: 0.9, modulus, inertia });
+            let sine = (k * 1.3).sin();
+            for (found, wanted) in [
+                (bottom.displacement, (k * 1.3).cos()),
+                (bottom.stress / (k * k), -2.5 * sine / k),
+                (upper.displacement + lower.displacement, sine / k),
+                ((upper.stress + lower.stress) / (k * k), -5.0 * ((k * 0.65).sin() / k).powi(2)),
+            ] {
                 assert!((found - wanted).norm() < 1e-12 * (1.0 + wanted.abs()), "{found} {wanted}");
-            };
-            let (sine, cosine) = (k * 1.3).sin_cos();
-            close(found.displacement, cosine);
-            close(found.stress / (k * k), -2.5 * sine / k);
-            close(upper.displacement + lower.displacement, sine / k);
-            close((upper.stress + lower.stress) / (k * k), -5.0 * ((k * 0.65).sin() / k).powi(2));
+            }
         }
     }
 }

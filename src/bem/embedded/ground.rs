@@ -55,10 +55,10 @@ use crate::soil::{Relaxation, Soil, SoilProfile, SoilStrength};
 /// ```
 pub struct TrenchGround {
     source: TrenchSource,
-    /// K₀ of all soils; `None`: each soil has its own ν/(1 − ν).
-    at_rest: Option<f64>,
-    /// Stages of the last [`Ground::prepare`].
-    used: Option<Stages>,
+    /// K₀ of all soils; `None`: ν/(1 − ν) of each soil.
+    ratio_at_rest: Option<f64>,
+    /// Runge–Kutta stages since the last [`Ground::prepare`].
+    prepared_stages: Option<Stages>,
     ground: WeightsGround,
 }
 
@@ -71,15 +71,17 @@ impl TrenchGround {
     /// [`Error::Input`](crate::Error::Input) for a trench that reaches down to rigid bedrock;
     /// [`Error::Size`](crate::Error::Size) for rigid bedrock without layers.
     pub fn new(profile: impl Into<SoilProfile>, elements: TrenchElements) -> Result<Self> {
-        let list = elements.elements();
+        let contact_elements = elements.elements();
         let soil = TrenchSoil::new(profile.into(), elements)?;
         let source = TrenchSource { soil, stages: None, file: None };
-        let ground = WeightsGround::with_unions(source.clone(), list, None);
-        Ok(Self { source, at_rest: None, used: None, ground })
+        let ground = WeightsGround::with_unions(source.clone(), contact_elements, None);
+        Ok(Self { source, ratio_at_rest: None, prepared_stages: None, ground })
     }
 
+    /// The ground with another source.
     fn with_source(self, source: TrenchSource) -> Self {
-        Self { ground: self.ground.with_source(source.clone()), source, used: None, ..self }
+        let ground = self.ground.with_source(source.clone());
+        Self { ground, source, prepared_stages: None, ..self }
     }
 
     /// Fills the soil beside the walls with `soil`, over a `width` in m and from the surface down to the base.
@@ -102,8 +104,8 @@ impl TrenchGround {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a ratio below zero or not finite.
     pub fn with_pressure_at_rest(self, ratio: f64) -> Result<Self> {
-        let at_rest = Some(not_negative("pressure at rest over the vertical pressure", ratio)?);
-        Ok(Self { at_rest, ..self })
+        let ratio = not_negative("pressure at rest over the vertical pressure", ratio)?;
+        Ok(Self { ratio_at_rest: Some(ratio), ..self })
     }
 
     /// Sets the number of Runge–Kutta stages, in place of the rule.
@@ -138,8 +140,8 @@ impl TrenchGround {
 
     /// Interface laws of all elements: `base` below, and limits of the pressure on the walls by the soils' strengths.
     ///
-    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. Each element of a wall bears at
-    /// least the active and at most the passive pressure of the soil beside it ([`EarthPressure`]), as means over the
+    /// For [`interfaces`](crate::coupled::SimulationBuilder::interfaces) of the builder. The pressure on each element of a
+    /// wall is between the active and the passive pressure of the soil beside it ([`EarthPressure`]), as means over the
     /// element: the limits of the thrust are exact. `strengths`: one for all soils, or one for each from the surface
     /// down, the half-plane last; with backfill, of the backfill alone. `gravity`: of the builder, m/s².
     ///
@@ -171,14 +173,14 @@ impl TrenchGround {
         let walls = self.wall_laws(strengths, gravity)?;
         let elements = self.trench_elements().elements();
         let last = elements.len() - 1;
-        let law = move |(e, element): (usize, &ContactElement)| -> Box<dyn InterfaceLaw> {
+        let laws = elements.iter().enumerate().map(move |(e, element)| -> Box<dyn InterfaceLaw> {
             if element.faces_down() {
                 Box::new(base.clone())
             } else {
                 Box::new(walls[e.min(last - e)])
             }
-        };
-        Ok(elements.iter().enumerate().map(law).collect())
+        });
+        Ok(laws.collect())
     }
 
     /// Laws of the elements of a wall, from the surface down, as in [`interfaces`](Self::interfaces).
@@ -195,7 +197,7 @@ impl TrenchGround {
             let soils = if self.has_backfill() { 1 } else { self.profile().soils().count() };
             same_length("list of soil strengths", strengths.len(), soils)?;
         }
-        earth_pressure::laws(self.soil(), strengths, gravity, self.at_rest)
+        earth_pressure::laws(self.soil(), strengths, gravity, self.ratio_at_rest)
     }
 
     /// Soil beside and below the trench.
@@ -239,7 +241,7 @@ impl Ground for TrenchGround {
         observer: &mut Observer<'_>,
     ) -> Result<()> {
         self.ground.prepare(time_step, steps, observer)?;
-        self.used = Some(self.source.stages(time_step));
+        self.prepared_stages = Some(self.source.stages(time_step));
         Ok(())
     }
 
@@ -253,15 +255,13 @@ impl Ground for TrenchGround {
 
     fn description(&self) -> GroundDescription {
         let description = self.ground.description();
-        let stages = self.used.map(Stages::count);
+        let stages = self.prepared_stages.map(Stages::count);
+        let ratio = self.ratio_at_rest;
         GroundDescription {
             soils: self.soil().soils().collect(),
             identity: self.soil().identity(),
-            pressure_at_rest: earth_pressure::at_rest(self.soil(), self.at_rest),
-            depth_of_pressure_at_rest: earth_pressure::depth_below_middle(
-                self.soil(),
-                self.at_rest,
-            ),
+            pressure_at_rest: earth_pressure::at_rest(self.soil(), ratio),
+            depth_of_pressure_at_rest: earth_pressure::depth_below_middle(self.soil(), ratio),
             mass_above: earth_pressure::mass_above(self.soil()),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description

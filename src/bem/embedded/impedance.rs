@@ -7,20 +7,63 @@
 
 use realfft::num_complex::Complex64;
 
-use super::compliance::Halves;
+use super::compliance::HalfCompliances;
 use super::ground::TrenchGround;
-use super::motion::KinematicMotion;
-use super::soil::{FreeFieldAtFaces, Mesh, TrenchSoil};
-use crate::bem::layered::{StripImpedance, impedance_watch, points, stiffnesses};
+use super::soil::{FreeFieldAtFaces, TrenchMesh, TrenchSoil};
+use crate::bem::layered::{
+    StripImpedance, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+};
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
 use crate::linalg::{Block, Complex, DenseFactor};
 use crate::soil::Bedrock;
 
-/// hh, vv, rr and hr of the stiffness; horizontal, rotation and vertical of the motion.
-pub(super) type Response = [Complex; 7];
+/// Motion of a rigid body without mass in a trench, e^(iωt), per unit motion of the surface of the free field.
+///
+/// It is the input motion of the structure: kinematic interaction. Waves travel vertically. x to the right, y down; a
+/// positive rotation lowers the right end. Translations are of the middle of the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[non_exhaustive]
+pub struct KinematicMotion {
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// Horizontal translation per unit horizontal motion of the surface by shear waves.
+    pub horizontal: Complex,
+    /// Rotation per unit horizontal motion of the surface by shear waves, 1/m.
+    pub rotation: Complex,
+    /// Vertical translation per unit vertical motion of the surface by pressure waves.
+    pub vertical: Complex,
+}
 
-/// Rigid motions: horizontal, vertical, rotation.
-const MOTIONS: usize = 3;
+/// Response of a rigid body in the trench at one Laplace variable.
+#[derive(Clone, Copy)]
+pub(super) struct TrenchResponse {
+    /// hh, vv, rr and hr of the dynamic stiffness.
+    pub(super) stiffness: [Complex; 4],
+    /// Horizontal translation, rotation and vertical translation due to the free field.
+    pub(super) motion: [Complex; 3],
+}
+
+/// Numbers of a [`TrenchResponse`] in one list: stiffness, then motion.
+const RESPONSE_LENGTH: usize = 7;
+
+impl TrenchResponse {
+    fn from_list(list: [Complex; RESPONSE_LENGTH]) -> Self {
+        let [hh, vv, rr, hr, horizontal, rotation, vertical] = list;
+        Self { stiffness: [hh, vv, rr, hr], motion: [horizontal, rotation, vertical] }
+    }
+
+    fn list(&self) -> [Complex; RESPONSE_LENGTH] {
+        let mut list = [Complex::default(); RESPONSE_LENGTH];
+        list[..4].copy_from_slice(&self.stiffness);
+        list[4..].copy_from_slice(&self.motion);
+        list
+    }
+}
+
+/// Number of rigid motions: horizontal, vertical, rotation.
+const RIGID_MOTION_COUNT: usize = 3;
 
 impl TrenchGround {
     /// Dynamic stiffness of a rigid body welded to walls and base, at each of `frequencies` (Hz).
@@ -56,12 +99,14 @@ impl TrenchGround {
         frequencies: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<Vec<StripImpedance>> {
-        let found = self.soil().responses(frequencies, observer)?;
-        let impedance = |(frequency, values): (&f64, Response)| {
-            let [horizontal, vertical, rocking, coupling, ..] = values;
-            StripImpedance { frequency: *frequency, horizontal, vertical, rocking, coupling }
-        };
-        Ok(frequencies.iter().zip(found).map(impedance).collect())
+        let responses = self.soil().responses(frequencies, observer)?;
+        let mut impedances = Vec::with_capacity(frequencies.len());
+        for (&frequency, response) in frequencies.iter().zip(responses) {
+            let [horizontal, vertical, rocking, coupling] = response.stiffness;
+            let impedance = StripImpedance { frequency, horizontal, vertical, rocking, coupling };
+            impedances.push(impedance);
+        }
+        Ok(impedances)
     }
 
     /// Motion of a rigid body without mass under vertical shear and pressure waves, at each of `frequencies` (Hz).
@@ -93,151 +138,190 @@ impl TrenchGround {
         let needed =
             "a trench without it: beside backfill waves of the free field do not travel vertically";
         require_part("backfill", self.soil().fill().is_none(), needed)?;
-        let found = self.soil().responses(frequencies, observer)?;
-        let motion = |(frequency, values): (&f64, Response)| {
-            let [.., horizontal, rotation, vertical] = values;
-            KinematicMotion { frequency: *frequency, horizontal, rotation, vertical }
-        };
-        Ok(frequencies.iter().zip(found).map(motion).collect())
+        let responses = self.soil().responses(frequencies, observer)?;
+        let mut motions = Vec::with_capacity(frequencies.len());
+        for (&frequency, response) in frequencies.iter().zip(responses) {
+            let [horizontal, rotation, vertical] = response.motion;
+            motions.push(KinematicMotion { frequency, horizontal, rotation, vertical });
+        }
+        Ok(motions)
     }
 }
 
 impl TrenchSoil {
-    fn responses(&self, frequencies: &[f64], observer: &mut Observer<'_>) -> Result<Vec<Response>> {
+    /// Responses at some frequencies, Hz.
+    fn responses(
+        &self,
+        frequencies: &[f64],
+        observer: &mut Observer<'_>,
+    ) -> Result<Vec<TrenchResponse>> {
         let watch = &mut impedance_watch(frequencies, observer);
         let profile = self.profile();
         let trench = self.elements().trench();
         let span = 2.0 * (trench.half_width() + trench.depth());
-        let mut lists = Vec::with_capacity(frequencies.len());
+        let mut variables = Vec::with_capacity(frequencies.len());
         for frequency in frequencies {
             let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
             require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
-            lists.push(points(profile, span, *frequency)?);
+            variables.push(laplace_variables(profile, span, *frequency)?);
         }
-        let mut mesh: Option<(f64, Mesh)> = None;
-        let found = stiffnesses(&lists, &[0, 1, 2], watch, |s| {
-            // All points of a frequency have one mesh, which therefore is analytic in s.
-            let known = mesh.take().filter(|(omega, _)| *omega == s.im);
-            let (own, compliances) = match known {
-                Some((_, own)) => (own, None),
-                None => self.mesh(s)?,
+        // Mesh of one frequency, with its ω.
+        let mut mesh: Option<(f64, TrenchMesh)> = None;
+        let lists = extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| {
+            // All points of a frequency have one mesh. The response is therefore analytic in s.
+            let response = match &mesh {
+                Some((omega, mesh)) if *omega == s.im => self.response(s, mesh)?,
+                _ => {
+                    let found = self.mesh(s)?;
+                    let response = match &found.compliances {
+                        Some(compliances) => self.response_with(s, compliances)?,
+                        None => self.response(s, &found.mesh)?,
+                    };
+                    mesh = Some((s.im, found.mesh));
+                    response
+                }
             };
-            let (_, own) = mesh.insert((s.im, own));
-            match compliances {
-                Some(compliances) => self.response_of(s, &compliances),
-                None => self.response(s, own),
-            }
+            Ok(response.list())
         });
-        found.map_err(|error| match error {
+        let lists = lists.map_err(|error| match error {
             Error::Ground(GroundError::Unresolved { re, im, .. }) => {
                 GroundError::GuidedWave { re, im }.into()
             }
             other => other,
-        })
+        })?;
+        Ok(lists.into_iter().map(TrenchResponse::from_list).collect())
     }
 
-    pub(super) fn response(&self, s: Complex, mesh: &Mesh) -> Result<Response> {
-        self.response_of(s, &self.compliances(s, mesh)?)
+    /// Response at `s` by finite elements on a mesh.
+    pub(super) fn response(&self, s: Complex, mesh: &TrenchMesh) -> Result<TrenchResponse> {
+        self.response_with(s, &self.compliances(s, mesh)?)
     }
 
-    fn response_of(&self, s: Complex, compliances: &Halves) -> Result<Response> {
-        let Halves { symmetric, antisymmetric } = compliances;
-        let faces = Faces::new(self);
+    /// Response at `s` from the compliances of the faces.
+    fn response_with(&self, s: Complex, compliances: &HalfCompliances) -> Result<TrenchResponse> {
+        let HalfCompliances { symmetric, antisymmetric } = compliances;
+        let faces = TrenchFaces::new(self);
         let field = self.free_field(s)?;
-        let motions = faces.motions();
-        let [shear, pressure] = [0, 1].map(|wave| faces.free_field(&field, wave));
-        let (stiff, forces) = reduced(antisymmetric, &motions, &shear)?;
-        let (vertical, lift) = reduced(symmetric, &motions, &pressure)?;
-        let coupling = (stiff[0][2] + stiff[2][0]) * 0.5;
-        let determinant = stiff[0][0] * stiff[2][2] - coupling * coupling;
-        let horizontal = (stiff[2][2] * forces[0] - coupling * forces[2]) / determinant;
-        let rotation = (stiff[0][0] * forces[2] - coupling * forces[0]) / determinant;
-        let found = [stiff[0][0], vertical[1][1], stiff[2][2], coupling].map(|half| half * 2.0);
-        let [hh, vv, rr, hr] = found;
-        let all = [hh, vv, rr, hr, horizontal, rotation, lift[1] / vertical[1][1]];
-        Ok(all.map(|value| Complex::new(value.re, value.im)))
+        let motions = faces.rigid_motions();
+        let shear = faces.free_field(&field, 0);
+        let pressure = faces.free_field(&field, 1);
+        let ReducedSystem { stiffness, forces } = reduce(antisymmetric, &motions, &shear)?;
+        let vertical = reduce(symmetric, &motions, &pressure)?;
+        let vv = vertical.stiffness[1][1];
+        let coupling = (stiffness[0][2] + stiffness[2][0]) * 0.5;
+        let determinant = stiffness[0][0] * stiffness[2][2] - coupling * coupling;
+        let horizontal = (stiffness[2][2] * forces[0] - coupling * forces[2]) / determinant;
+        let rotation = (stiffness[0][0] * forces[2] - coupling * forces[0]) / determinant;
+        let motion = [horizontal, rotation, vertical.forces[1] / vv];
+        // The stiffnesses are of the right half.
+        let whole = [stiffness[0][0], vv, stiffness[2][2], coupling].map(|half| half * 2.0);
+        Ok(TrenchResponse {
+            stiffness: whole.map(|value| Complex::new(value.re, value.im)),
+            motion: motion.map(|value| Complex::new(value.re, value.im)),
+        })
     }
 }
 
-/// Elements of the right half, in the order of [`Halves`].
-struct Faces<'a> {
+/// Elements of the right half, in the order of [`HalfCompliances`].
+struct TrenchFaces<'a> {
     base: &'a [f64],
     wall: &'a [f64],
 }
 
-/// Horizontal and vertical numbers of each element: integrals of displacements, and means of tractions on the soil.
-struct Field {
+/// Free field at the elements: horizontal and then vertical component of each.
+struct FaceField {
+    /// Integrals of displacements.
     displacements: Vec<Complex64>,
+    /// Means of tractions on the soil.
     tractions: Vec<Complex64>,
 }
 
-impl<'a> Faces<'a> {
+impl<'a> TrenchFaces<'a> {
     fn new(ground: &'a TrenchSoil) -> Self {
         Self { base: ground.elements().base(), wall: ground.elements().wall() }
     }
 
     /// Resultants of unit tractions about the middle of the base: three for each row.
-    fn motions(&self) -> Vec<[f64; MOTIONS]> {
+    fn rigid_motions(&self) -> Vec<[f64; RIGID_MOTION_COUNT]> {
         let Self { base, wall } = self;
-        let (half, depth) = (base[base.len() - 1], wall[wall.len() - 1]);
-        let rows = |length: f64, x: f64, above: f64| {
-            [[length, 0.0, length * above], [0.0, length, length * x]]
-        };
-        let along = base.windows(2).map(|ends| (ends[1] - ends[0], 0.5 * (ends[0] + ends[1]), 0.0));
-        let down = wall
-            .windows(2)
-            .map(|ends| (ends[1] - ends[0], half, depth - 0.5 * (ends[0] + ends[1])));
-        along.chain(down).flat_map(|(length, x, above)| rows(length, x, above)).collect()
+        let half_width = base[base.len() - 1];
+        let depth = wall[wall.len() - 1];
+        let mut rows = vec![];
+        for ends in base.windows(2) {
+            let length = ends[1] - ends[0];
+            rows.push([length, 0.0, 0.0]);
+            rows.push([0.0, length, length * (0.5 * (ends[0] + ends[1]))]);
+        }
+        for ends in wall.windows(2) {
+            let length = ends[1] - ends[0];
+            let height_above_base = depth - 0.5 * (ends[0] + ends[1]);
+            rows.push([length, 0.0, length * height_above_base]);
+            rows.push([0.0, length, length * half_width]);
+        }
+        rows
     }
 
     /// The free field of shear (0) or pressure waves (1).
-    fn free_field(&self, field: &FreeFieldAtFaces, wave: usize) -> Field {
-        let zero = Complex64::ZERO;
-        let mut found = Field { displacements: vec![], tractions: vec![] };
-        // The displacement is along x in shear waves and along z in pressure waves; so is the traction of the base.
-        let mut add = |displacement: Complex64, [along, across]: [Complex64; 2]| {
-            let in_order =
-                |own: Complex64, other| if wave == 0 { [own, other] } else { [other, own] };
-            found.displacements.extend(in_order(displacement, zero));
-            found.tractions.extend(in_order(along, across));
-        };
+    fn free_field(&self, field: &FreeFieldAtFaces, wave: usize) -> FaceField {
+        let count = self.base.len() + self.wall.len() - 2;
+        let mut displacements = vec![Complex64::ZERO; 2 * count];
+        let mut tractions = displacements.clone();
+        // The displacement is along x (0) in shear waves and along z (1) in pressure waves; so is the traction of the
+        // base. The traction of a wall has the other direction.
+        let direction = wave;
         let at_base = field.base[wave];
-        for ends in self.base.windows(2) {
-            add(at_base.displacement * (ends[1] - ends[0]), [-at_base.stress, zero]);
+        for (element, ends) in self.base.windows(2).enumerate() {
+            displacements[2 * element + direction] = at_base.displacement * (ends[1] - ends[0]);
+            tractions[2 * element + direction] = -at_base.stress;
         }
         for (element, ends) in self.wall.windows(2).enumerate() {
-            let own = field.walls[element][wave];
-            let across = if wave == 0 { own.stress } else { field.side_stresses[element] };
-            add(own.displacement, [zero, -across / (ends[1] - ends[0])]);
+            let at_wall = field.walls[element][wave];
+            let stress = if wave == 0 { at_wall.stress } else { field.side_stresses[element] };
+            let row = 2 * (self.base.len() - 1 + element);
+            displacements[row + direction] = at_wall.displacement;
+            tractions[row + 1 - direction] = -stress / (ends[1] - ends[0]);
         }
-        found
+        FaceField { displacements, tractions }
     }
 }
 
-/// Aᵀ F⁻¹ A, and Aᵀ (F⁻¹ u − t).
-type Reduced = ([[Complex64; MOTIONS]; MOTIONS], [Complex64; MOTIONS]);
+/// Equations of a rigid body.
+struct ReducedSystem {
+    /// Aᵀ F⁻¹ A.
+    stiffness: [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
+    /// Aᵀ (F⁻¹ u − t).
+    forces: [Complex64; RIGID_MOTION_COUNT],
+}
 
-fn reduced(compliance: &Block, motions: &[[f64; MOTIONS]], field: &Field) -> Result<Reduced> {
-    const COLUMNS: usize = MOTIONS + 1;
+/// Number of right-hand sides: the rigid motions and the free field.
+const SOLVED_COLUMN_COUNT: usize = RIGID_MOTION_COUNT + 1;
+
+/// Reduces the compliances of a half to the rigid motions.
+fn reduce(
+    compliance: &Block,
+    motions: &[[f64; RIGID_MOTION_COUNT]],
+    field: &FaceField,
+) -> Result<ReducedSystem> {
     let order = compliance.rows();
-    let rows = motions.iter().zip(&field.displacements);
-    let mut solved: Vec<Complex64> = rows
-        .flat_map(|([h, v, r], u)| [Complex64::from(h), Complex64::from(v), Complex64::from(r), *u])
-        .collect();
-    let mut factor = DenseFactor::with_columns(order, COLUMNS);
+    let mut solved: Vec<Complex64> = vec![];
+    for (motion, displacement) in motions.iter().zip(&field.displacements) {
+        solved.extend(motion.map(Complex64::from));
+        solved.push(*displacement);
+    }
+    let mut factor = DenseFactor::with_columns(order, SOLVED_COLUMN_COUNT);
     if !factor.factor(compliance.values(), order) {
         return Err(Error::Singular { matrix: "compliance of a trench", order });
     }
-    factor.solve_columns(&mut solved, COLUMNS);
+    factor.solve_columns(&mut solved, SOLVED_COLUMN_COUNT);
     let product = |motion: usize, column: usize| -> Complex64 {
-        let rows = motions.iter().zip(solved.chunks_exact(COLUMNS));
-        rows.map(|(a, own)| own[column] * a[motion]).sum()
+        let rows = motions.iter().zip(solved.chunks_exact(SOLVED_COLUMN_COUNT));
+        rows.map(|(a, row)| row[column] * a[motion]).sum()
     };
     let stiffness = std::array::from_fn(|i| std::array::from_fn(|j| product(i, j)));
     let forces = std::array::from_fn(|i| {
         let tractions = motions.iter().zip(&field.tractions);
         let resultant: Complex64 = tractions.map(|(a, t)| *t * a[i]).sum();
-        product(i, MOTIONS) - resultant
+        product(i, RIGID_MOTION_COUNT) - resultant
     });
-    Ok((stiffness, forces))
+    Ok(ReducedSystem { stiffness, forces })
 }

@@ -9,7 +9,7 @@
 //! | soil, free_field | the soil; vertical waves at the faces |
 //! | pairs, source | compliances of pairs of elements; convolution weights |
 //! | ground, earth_pressure | the ground of a simulation; pressure at rest |
-//! | impedance, motion | a rigid body in the trench |
+//! | impedance | a rigid body in the trench |
 
 mod bottom;
 mod compliance;
@@ -18,7 +18,6 @@ mod free_field;
 mod grid;
 mod ground;
 mod impedance;
-mod motion;
 mod pairs;
 mod polynomials;
 mod soil;
@@ -27,5 +26,5 @@ mod stack;
 mod trench;
 
 pub use ground::TrenchGround;
-pub use motion::KinematicMotion;
+pub use impedance::KinematicMotion;
 pub use trench::{Trench, TrenchElements};

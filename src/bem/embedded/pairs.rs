@@ -1,10 +1,11 @@
 //! Compliances of pairs of elements around a trench.
 
+use super::compliance::HalfCompliances;
 use super::soil::TrenchSoil;
-use crate::bem::layered::{Compliance, Compliances, surface_outlook};
+use crate::bem::layered::{Compliances, LayeredCompliance, surface_outlook};
 use crate::error::Result;
 use crate::history::TRENCH_KINDS;
-use crate::linalg::{Block, Complex};
+use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Compliances of the classes of [`PairClasses::around_trench`](crate::history::PairClasses::around_trench).
@@ -18,18 +19,21 @@ pub(super) struct TrenchPairs {
 }
 
 impl TrenchPairs {
+    /// Pairs of the elements around a trench.
     pub(super) fn new(soil: TrenchSoil, degree: usize) -> Self {
         let elements = soil.elements().elements();
-        let lengths = || elements.iter().map(crate::geometry::ContactElement::length);
-        let lengths = [lengths().fold(f64::INFINITY, f64::min), lengths().sum()];
-        Self { soil, degree, lengths }
+        let lengths = elements.iter().map(crate::geometry::ContactElement::length);
+        let shortest = lengths.clone().fold(f64::INFINITY, f64::min);
+        Self { soil, degree, lengths: [shortest, lengths.sum()] }
     }
 
-    /// Rows of the normal and the tangential component of an element of the right half, counted from the axis along the
-    /// outline, in the compliances of a half, and the signs of their displacements.
+    /// Rows of the normal and the tangential component of an element in the compliances of a half.
+    ///
+    /// Each with the sign of its displacement. Elements of the right half are counted from the axis along the outline.
     fn rows(&self, element: usize) -> [(usize, f64); 2] {
         let elements = self.soil.elements();
-        let (base, wall) = (elements.base().len() - 1, elements.wall().len() - 1);
+        let base = elements.base().len() - 1;
+        let wall = elements.wall().len() - 1;
         if element < base {
             return [(2 * element + 1, 1.0), (2 * element, 1.0)];
         }
@@ -39,37 +43,42 @@ impl TrenchPairs {
     }
 
     /// Overwrites `values`, one per class, with the compliances for the halves of fields.
-    pub(super) fn read(
+    pub(super) fn fill_classes(
         &self,
-        [symmetric, antisymmetric]: [&Block; 2],
+        compliances: &HalfCompliances,
         values: &mut [[Complex; TRENCH_KINDS]],
     ) {
-        let (same, across) = values.split_at_mut(values.len() / 2);
-        let mut pairs = same.iter_mut().zip(across);
+        let HalfCompliances { symmetric, antisymmetric } = compliances;
+        // Pairs on one side of the axis, then pairs across it.
+        let class_count = values.len() / 2;
+        let mut class = 0;
         for i in 0..symmetric.rows() / 2 {
-            let to = self.rows(i);
-            for (j, (same, across)) in (0..=i).zip(&mut pairs) {
-                let from = self.rows(j);
+            let receiver = self.rows(i);
+            for j in 0..=i {
+                let source = self.rows(j);
                 for (kind, [a, b]) in [[0, 0], [1, 1], [0, 1], [1, 0]].into_iter().enumerate() {
-                    let ((row, sign), (column, turn)) = (to[a], from[b]);
-                    let parts = [symmetric, antisymmetric].map(|half| half[(row, column)]);
-                    let half = 0.5 * sign * turn;
+                    let (row, receiver_sign) = receiver[a];
+                    let (column, source_sign) = source[b];
+                    let even = symmetric[(row, column)];
+                    let odd = antisymmetric[(row, column)];
+                    let factor = 0.5 * receiver_sign * source_sign;
                     // A mirror changes the sign of tangential components.
-                    let mirror = if b == 0 { half } else { -half };
-                    let [sum, difference] =
-                        [(parts[0] + parts[1]) * half, (parts[0] - parts[1]) * mirror];
-                    same[kind] = Complex::new(sum.re, sum.im);
-                    across[kind] = Complex::new(difference.re, difference.im);
+                    let mirrored_factor = if b == 0 { factor } else { -factor };
+                    let same_side = (even + odd) * factor;
+                    let across = (even - odd) * mirrored_factor;
+                    values[class][kind] = Complex::new(same_side.re, same_side.im);
+                    values[class_count + class][kind] = Complex::new(across.re, across.im);
                 }
+                class += 1;
             }
         }
     }
 }
 
 impl Compliances<TRENCH_KINDS> for TrenchPairs {
-    type Workspace = Compliance;
+    type Workspace = LayeredCompliance;
 
-    const GATE_POINTS: usize = 12;
+    const PASSIVITY_POINTS: usize = 12;
 
     fn compliance(
         &self,
@@ -78,11 +87,12 @@ impl Compliances<TRENCH_KINDS> for TrenchPairs {
         _work: &mut Self::Workspace,
         values: &mut [[Complex; TRENCH_KINDS]],
     ) -> Result<()> {
-        let halves = match self.soil.mesh_of_degree(s, self.degree)? {
-            (_, Some(known)) => known,
-            (mesh, None) => self.soil.compliances(s, &mesh)?,
+        let found = self.soil.mesh_of_degree(s, self.degree)?;
+        let compliances = match found.compliances {
+            Some(compliances) => compliances,
+            None => self.soil.compliances(s, &found.mesh)?,
         };
-        self.read([&halves.symmetric, &halves.antisymmetric], values);
+        self.fill_classes(&compliances, values);
         Ok(())
     }
 

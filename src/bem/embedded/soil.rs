@@ -3,9 +3,9 @@
 use realfft::num_complex::Complex64;
 
 use super::bottom::Bottom;
-use super::compliance::{Halves, Model};
-use super::free_field::{Piece, VerticalField};
-use super::grid::{Grid, Layer};
+use super::compliance::{HalfCompliances, TrenchModel};
+use super::free_field::{ProfilePiece, VerticalField};
+use super::grid::{GridLayer, TrenchGrid};
 use super::stack::Moduli;
 use super::trench::TrenchElements;
 use crate::error::{GroundError, Result, positive, require};
@@ -17,41 +17,57 @@ use crate::soil::{Bedrock, Relaxation, Soil, SoilProfile};
 pub(super) struct TrenchSoil {
     profile: SoilProfile,
     elements: TrenchElements,
-    /// Width of the backfill, m, and a profile of it alone.
-    backfill: Option<(f64, SoilProfile)>,
-    grid: Grid,
+    backfill: Option<Backfill>,
+    grid: TrenchGrid,
 }
 
-/// Degree of the elements.
-const DEGREE: usize = 4;
-/// Largest degree.
-const HIGHEST: usize = 12;
-/// Length of an element of the near field for each degree, in c/|s|.
-const PER_DEGREE: f64 = 0.75;
-/// Longest contact element, in c/ω: a quarter of a shear wave.
-const CONTACT: f64 = 0.25 * std::f64::consts::TAU;
-/// Longest interval of the near field in half widths of the trench, for the slowest soil.
-const LONGEST: f64 = 0.5;
-/// Depth of the stretched elements, in c/|s|, and the factor by which it grows.
-const DEPTH: f64 = 24.0;
-const DEEPER: f64 = 1.3;
-/// Largest depth.
-const DEEPEST: f64 = 100.0;
-/// Relative difference between the compliances of two depths that does not count.
-const SETTLED: f64 = 1e-6;
-/// Re s·b/c below which depths of undamped layers are compared.
-const NEAR_AXIS: f64 = 1e-2;
-/// 2ξ of the least damping with which no comparison is needed.
-const DAMPED: f64 = 4e-3;
-/// Laplace variable that stands for rest on a half-plane, in c/b.
-const SLOW: f64 = 1e-4;
-/// Distance between interface and wall element that counts as rounding, in half widths.
-const ROUNDING: f64 = 1e-6;
+/// Soil that fills the space beside the walls.
+#[derive(Debug, Clone)]
+struct Backfill {
+    /// Width, m.
+    width: f64,
+    /// Half-plane of the soil, for its damping law.
+    profile: SoilProfile,
+}
 
-/// Numbers of a model at Laplace variables near iω.
-pub(super) struct Mesh {
+/// Degree of the elements of the near field.
+const NEAR_FIELD_DEGREE: usize = 4;
+/// Largest degree.
+const MAX_DEGREE: usize = 12;
+/// Length of an element of the near field for each degree, in c/|s|.
+const LENGTH_PER_DEGREE: f64 = 0.75;
+/// Longest contact element, in c/ω: a quarter of a shear wave.
+const MAX_CONTACT_LENGTH: f64 = 0.25 * std::f64::consts::TAU;
+/// Longest interval of the near field in the slowest soil, in half widths of the trench.
+const MAX_NEAR_INTERVAL: f64 = 0.5;
+/// First depth of the stretched elements, in c/|s|.
+const FIRST_BOTTOM_DEPTH: f64 = 24.0;
+/// Ratio of two depths that are compared.
+const BOTTOM_DEPTH_GROWTH: f64 = 1.3;
+/// Largest depth of the stretched elements, in c/|s|.
+const MAX_BOTTOM_DEPTH: f64 = 100.0;
+/// Largest relative difference between the compliances of two depths.
+const DEPTH_CHANGE_TOLERANCE: f64 = 1e-6;
+/// Largest Re s·b/c for which depths are compared under undamped layers.
+const NEAR_AXIS: f64 = 1e-2;
+/// Smallest 2ξ of damped layers, for which no comparison is needed.
+const MIN_LOSS_RATIO: f64 = 4e-3;
+/// Laplace variable in place of zero on a half-plane, in c/b.
+const STATIC_VARIABLE: f64 = 1e-4;
+/// Distance between interface and wall element that counts as rounding, in half widths.
+const INTERFACE_TOLERANCE: f64 = 1e-6;
+
+/// Degree and stretched elements for Laplace variables near iω.
+pub(super) struct TrenchMesh {
     degree: usize,
     bottom: Bottom,
+}
+
+/// Mesh that is deep enough at a Laplace variable.
+pub(super) struct ChosenMesh {
+    pub(super) mesh: TrenchMesh,
+    /// Compliances there, if they were needed to find the mesh.
+    pub(super) compliances: Option<HalfCompliances>,
 }
 
 impl TrenchSoil {
@@ -62,10 +78,10 @@ impl TrenchSoil {
     pub(super) fn new(profile: SoilProfile, elements: TrenchElements) -> Result<Self> {
         profile.check()?;
         let depth = elements.trench().depth();
-        let above = !matches!(profile.bedrock(), Bedrock::Rigid)
-            || depth + ROUNDING * elements.trench().half_width() < profile.depth();
-        require("depth of a trench", depth, above, "above rigid bedrock")?;
-        let grid = grid(&profile, &elements, 0.0);
+        let is_above_bedrock = !matches!(profile.bedrock(), Bedrock::Rigid)
+            || depth + INTERFACE_TOLERANCE * elements.trench().half_width() < profile.depth();
+        require("depth of a trench", depth, is_above_bedrock, "above rigid bedrock")?;
+        let grid = trench_grid(&profile, &elements, 0.0);
         Ok(Self { profile, elements, backfill: None, grid })
     }
 
@@ -80,17 +96,17 @@ impl TrenchSoil {
         damping: impl Relaxation + 'static,
     ) -> Result<Self> {
         positive("width of the backfill", width)?;
-        self.grid = grid(&self.profile, &self.elements, width);
-        let alone = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping);
-        self.backfill = Some((width, alone));
+        self.grid = trench_grid(&self.profile, &self.elements, width);
+        let profile = SoilProfile::on_half_plane(soil).with_bedrock_damping(damping);
+        self.backfill = Some(Backfill { width, profile });
         Ok(self)
     }
 
     /// The same soil around faces divided into halves of all elements.
     pub(super) fn halved(&self) -> Self {
-        let width = self.backfill.as_ref().map_or(0.0, |(width, _)| *width);
+        let width = self.backfill.as_ref().map_or(0.0, |backfill| backfill.width);
         let elements = self.elements.halved();
-        Self { grid: grid(&self.profile, &elements, width), elements, ..self.clone() }
+        Self { grid: trench_grid(&self.profile, &elements, width), elements, ..self.clone() }
     }
 
     /// Soil beside and below the trench.
@@ -105,47 +121,48 @@ impl TrenchSoil {
 
     /// Soil of the backfill.
     pub(super) fn fill(&self) -> Option<Soil> {
-        self.backfill.as_ref().and_then(|(_, alone)| alone.surface())
+        self.backfill.as_ref().and_then(|backfill| backfill.profile.surface())
     }
 
     /// Soils from the surface down, and the backfill.
     pub(super) fn soils(&self) -> impl Iterator<Item = Soil> {
-        let fill = self.backfill.iter().flat_map(|(_, alone)| alone.soils());
+        let fill = self.backfill.iter().flat_map(|backfill| backfill.profile.soils());
         self.profile.soils().chain(fill).map(|(soil, _)| soil)
     }
 
     /// Error if a damping law is not causal.
     pub(super) fn check_causal(&self) -> Result<()> {
         self.profile.check_causal()?;
-        self.backfill.iter().try_for_each(|(_, alone)| alone.check_causal())
+        self.backfill.iter().try_for_each(|backfill| backfill.profile.check_causal())
     }
 
     /// Numbers that tell soils and backfill from others; `None` for a damping law without such numbers.
     pub(super) fn identity(&self) -> Option<Vec<f64>> {
         let mut numbers = self.profile.identity()?;
-        if let Some((width, alone)) = &self.backfill {
+        if let Some(Backfill { width, profile }) = &self.backfill {
             numbers.push(*width);
-            numbers.extend(alone.identity()?);
+            numbers.extend(profile.identity()?);
         }
         Some(numbers)
     }
 
-    /// Elastic constants at `s`, with the inertia at the Laplace variable `own`.
-    fn moduli(&self, s: Complex, own: Complex) -> Result<Vec<Moduli>> {
-        let (mut shear, mut fill) = (vec![], vec![]);
-        self.profile.moduli(s, &mut shear)?;
-        if let Some((_, alone)) = &self.backfill {
-            alone.moduli(s, &mut fill)?;
+    /// Elastic constants at `s`, with the inertia at the Laplace variable `inertia_s`.
+    fn moduli(&self, s: Complex, inertia_s: Complex) -> Result<Vec<Moduli>> {
+        let mut shear_moduli = vec![];
+        self.profile.moduli(s, &mut shear_moduli)?;
+        if let Some(backfill) = &self.backfill {
+            let mut fill_moduli = vec![];
+            backfill.profile.moduli(s, &mut fill_moduli)?;
+            shear_moduli.extend(fill_moduli);
         }
-        let square = own.inner() * own.inner();
-        let all = shear.iter().chain(&fill).zip(self.soils());
-        Ok(all
-            .map(|(modulus, soil)| {
-                let shear = modulus.inner();
-                let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
-                Moduli { shear, lame, inertia: square * soil.density() }
-            })
-            .collect())
+        let square = inertia_s.inner() * inertia_s.inner();
+        let mut moduli = Vec::with_capacity(shear_moduli.len());
+        for (modulus, soil) in shear_moduli.iter().zip(self.soils()) {
+            let shear = modulus.inner();
+            let lame = shear * (2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson()));
+            moduli.push(Moduli { shear, lame, inertia: square * soil.density() });
+        }
+        Ok(moduli)
     }
 
     /// Mesh for Laplace variables near `s`, and the compliances there if they were needed to find it.
@@ -153,127 +170,134 @@ impl TrenchSoil {
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for a frequency that the elements do not resolve; as for
     /// [`TrenchSoil::mesh_of_degree`].
-    pub(super) fn mesh(&self, s: Complex) -> Result<(Mesh, Option<Halves>)> {
-        let size = self.elements.trench().half_width();
+    pub(super) fn mesh(&self, s: Complex) -> Result<ChosenMesh> {
+        let half_width = self.elements.trench().half_width();
         let speeds: Vec<f64> = self.soils().map(|soil| soil.shear_wave_speed()).collect();
         let slowest = speeds.iter().copied().fold(f64::INFINITY, f64::min);
-        let crossing = LONGEST * size * s.im / slowest;
-        let degree = (DEGREE..=HIGHEST).find(|degree| crossing <= PER_DEGREE * *degree as f64);
-        let resolved = degree.is_some() && s.im * self.grid.slowest_crossing(&speeds) <= CONTACT;
+        let interval_phase = MAX_NEAR_INTERVAL * half_width * s.im / slowest;
+        let degree = (NEAR_FIELD_DEGREE..=MAX_DEGREE)
+            .find(|degree| interval_phase <= LENGTH_PER_DEGREE * *degree as f64);
+        let contact_phase = s.im * self.grid.slowest_crossing(&speeds);
+        let is_resolved = degree.is_some() && contact_phase <= MAX_CONTACT_LENGTH;
         let frequency = s.im / std::f64::consts::TAU;
         let needed = "low enough for four contact elements in a shear wave, and at most five waves in the width of the trench";
-        require("frequency of a trench (Hz)", frequency, resolved, needed)?;
-        self.mesh_of_degree(s, degree.unwrap_or(HIGHEST))
+        require("frequency of a trench (Hz)", frequency, is_resolved, needed)?;
+        self.mesh_of_degree(s, degree.unwrap_or(MAX_DEGREE))
     }
 
     /// Mesh of a `degree` that is deep enough at `s`, and the compliances there if they were needed to find it.
     ///
     /// # Errors
     /// [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
-    pub(super) fn mesh_of_degree(
-        &self,
-        s: Complex,
-        degree: usize,
-    ) -> Result<(Mesh, Option<Halves>)> {
-        let mut found = self.mesh_of_depth(s, DEPTH, degree);
+    pub(super) fn mesh_of_degree(&self, s: Complex, degree: usize) -> Result<ChosenMesh> {
+        let mut mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, degree);
         if !self.needs_comparison(s)? {
-            return Ok((found, None));
+            return Ok(ChosenMesh { mesh, compliances: None });
         }
-        let mut depth = DEPTH;
-        let mut before = self.compliances(s, &found)?;
+        let mut depth = FIRST_BOTTOM_DEPTH;
+        let mut compliances = self.compliances(s, &mesh)?;
         loop {
-            depth *= DEEPER;
-            if depth > DEEPEST {
+            depth *= BOTTOM_DEPTH_GROWTH;
+            if depth > MAX_BOTTOM_DEPTH {
                 return Err(GroundError::GuidedWave { re: s.re, im: s.im }.into());
             }
-            let deeper = self.mesh_of_depth(s, depth, degree);
-            let after = self.compliances(s, &deeper)?;
-            if before.difference(&after) < SETTLED {
-                return Ok((found, Some(before)));
+            let deeper_mesh = self.mesh_of_depth(s, depth, degree);
+            let deeper_compliances = self.compliances(s, &deeper_mesh)?;
+            if compliances.difference(&deeper_compliances) < DEPTH_CHANGE_TOLERANCE {
+                return Ok(ChosenMesh { mesh, compliances: Some(compliances) });
             }
-            (found, before) = (deeper, after);
+            mesh = deeper_mesh;
+            compliances = deeper_compliances;
         }
     }
 
     /// Mesh for Laplace variables near `s` with stretched elements to a `depth` in c/|s|, of a `degree` or higher.
-    pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> Mesh {
+    pub(super) fn mesh_of_depth(&self, s: Complex, depth: f64, degree: usize) -> TrenchMesh {
         let Bedrock::HalfPlane { soil, .. } = self.profile.bedrock() else {
-            return Mesh { degree, bottom: Bottom::rigid(degree) };
+            return TrenchMesh { degree, bottom: Bottom::rigid(degree) };
         };
-        let size = self.elements.trench().half_width();
-        let last = self.grid.below.last().map_or(size, |interval| interval.length);
+        let half_width = self.elements.trench().half_width();
+        let last = self.grid.below.last().map_or(half_width, |interval| interval.length);
         let bottom = Bottom::new(s.inner(), last, soil.shear_wave_speed(), depth, degree);
-        Mesh { degree, bottom }
+        TrenchMesh { degree, bottom }
     }
 
     /// Whether a guided wave near its cut-off may need a deeper bottom at `s`.
     fn needs_comparison(&self, s: Complex) -> Result<bool> {
-        let size = self.elements.trench().half_width();
+        let half_width = self.elements.trench().half_width();
         let fastest = self.soils().map(|soil| soil.shear_wave_speed()).fold(0.0, f64::max);
-        let open = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let near = open && s.re * size < NEAR_AXIS * fastest;
-        let place = Complex::new(0.0, s.im);
-        let moduli = self.moduli(place, place)?;
+        let has_half_plane = matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
+        let is_near_axis = s.re * half_width < NEAR_AXIS * fastest;
+        let on_axis = Complex::new(0.0, s.im);
+        let moduli = self.moduli(on_axis, on_axis)?;
         let layers = self.profile.layers().len();
-        let damped = |own: &Moduli| own.shear.im.abs() >= DAMPED * own.shear.re;
-        Ok(near && layers > 0 && !moduli[..layers + usize::from(open)].iter().all(damped))
+        let is_undamped = moduli[..layers + usize::from(has_half_plane)]
+            .iter()
+            .any(|moduli| moduli.shear.im.abs() < MIN_LOSS_RATIO * moduli.shear.re);
+        Ok(has_half_plane && is_near_axis && layers > 0 && is_undamped)
     }
 
     /// Compliances of the faces at `s`.
     ///
     /// # Errors
     /// [`Error::Singular`](crate::Error::Singular), [`GroundError::GuidedWave`]; as for [`SoilProfile::moduli`].
-    pub(super) fn compliances(&self, s: Complex, mesh: &Mesh) -> Result<Halves> {
-        self.compliances_of(s, mesh, &self.moduli(s, s)?)
+    pub(super) fn compliances(&self, s: Complex, mesh: &TrenchMesh) -> Result<HalfCompliances> {
+        self.compliances_with(s, mesh, &self.moduli(s, s)?)
     }
 
     /// Compliances of the faces at rest, with long-term moduli; on a half-plane up to rigid translations.
     ///
     /// # Errors
     /// As for [`TrenchSoil::compliances`].
-    pub(super) fn static_compliances(&self) -> Result<Halves> {
+    pub(super) fn static_compliances(&self) -> Result<HalfCompliances> {
         let s = match self.profile.bedrock() {
             Bedrock::HalfPlane { soil, .. } => {
-                SLOW * soil.shear_wave_speed() / self.elements.trench().half_width()
+                STATIC_VARIABLE * soil.shear_wave_speed() / self.elements.trench().half_width()
             }
             Bedrock::Rigid => 0.0,
         };
         let s = Complex::real(s);
-        let mesh = self.mesh_of_depth(s, DEPTH, DEGREE);
-        self.compliances_of(s, &mesh, &self.moduli(Complex::default(), s)?)
+        let mesh = self.mesh_of_depth(s, FIRST_BOTTOM_DEPTH, NEAR_FIELD_DEGREE);
+        self.compliances_with(s, &mesh, &self.moduli(Complex::default(), s)?)
     }
 
-    fn compliances_of(&self, s: Complex, mesh: &Mesh, soils: &[Moduli]) -> Result<Halves> {
-        let Mesh { degree, bottom } = mesh;
-        Model { grid: &self.grid, degree: *degree, bottom, soils }
+    /// Compliances of the faces at `s` with these elastic constants.
+    fn compliances_with(
+        &self,
+        s: Complex,
+        mesh: &TrenchMesh,
+        soils: &[Moduli],
+    ) -> Result<HalfCompliances> {
+        let TrenchMesh { degree, bottom } = mesh;
+        TrenchModel { grid: &self.grid, degree: *degree, bottom, soils }
             .compliances()?
             .ok_or_else(|| GroundError::GuidedWave { re: s.re, im: s.im }.into())
     }
 
-    /// Shear and pressure waves that move the surface by one: integrals over each wall element, and values at the base.
+    /// Shear and pressure waves that move the surface by one.
     ///
     /// Lists are ordered as [`TrenchElements::wall`], from the surface down. Each pair: shear, pressure.
     pub(super) fn free_field(&self, s: Complex) -> Result<FreeFieldAtFaces> {
         let moduli = self.moduli(s, s)?;
         let zero = VerticalField { displacement: Complex64::ZERO, stress: Complex64::ZERO };
-        let mut fields = [VerticalField::SURFACE; 2];
+        let mut fields = [VerticalField::AT_SURFACE; 2];
         let mut walls = vec![[zero; 2]; self.grid.walls()];
-        let mut ratios = vec![Complex64::ZERO; self.grid.walls()];
+        let mut side_stresses = vec![Complex64::ZERO; self.grid.walls()];
         for (interval, element) in &self.grid.wall {
             let Moduli { shear, lame, inertia } = moduli[interval.soil];
             let pressure = lame + shear * 2.0;
             for (wave, modulus) in [shear, pressure].into_iter().enumerate() {
-                let piece = Piece { height: interval.length, modulus, inertia };
+                let piece = ProfilePiece { height: interval.length, modulus, inertia };
                 let (below, integrals) = fields[wave].below(piece);
                 fields[wave] = below;
                 walls[*element][wave].displacement += integrals.displacement;
                 walls[*element][wave].stress += integrals.stress;
                 if wave == 1 {
-                    ratios[*element] += lame / pressure * integrals.stress;
+                    side_stresses[*element] += lame / pressure * integrals.stress;
                 }
             }
         }
-        Ok(FreeFieldAtFaces { walls, side_stresses: ratios, base: fields })
+        Ok(FreeFieldAtFaces { walls, side_stresses, base: fields })
     }
 }
 
@@ -288,17 +312,18 @@ pub(super) struct FreeFieldAtFaces {
 }
 
 /// Lines of the mesh around `elements` with backfill of a `width`, which may be zero.
-fn grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> Grid {
-    let size = elements.trench().half_width();
+fn trench_grid(profile: &SoilProfile, elements: &TrenchElements, width: f64) -> TrenchGrid {
+    let half_width = elements.trench().half_width();
     let slowest =
         profile.soils().map(|(soil, _)| soil.shear_wave_speed()).fold(f64::INFINITY, f64::min);
-    let layer = |(soil, bottom): (Soil, f64)| {
+    let mut layers = vec![];
+    for (soil, bottom) in profile.soils_to() {
         // An interface beside a line of the wall is this line.
-        let line = elements.wall().iter().find(|line| (*line - bottom).abs() < ROUNDING * size);
-        let longest = LONGEST * size * soil.shear_wave_speed() / slowest;
-        Layer { bottom: line.copied().unwrap_or(bottom), longest }
-    };
-    let layers: Vec<Layer> = profile.soils_to().map(layer).collect();
+        let mut lines = elements.wall().iter();
+        let line = lines.find(|line| (*line - bottom).abs() < INTERFACE_TOLERANCE * half_width);
+        let longest = MAX_NEAR_INTERVAL * half_width * soil.shear_wave_speed() / slowest;
+        layers.push(GridLayer { bottom: line.copied().unwrap_or(bottom), longest });
+    }
     let rigid = matches!(profile.bedrock(), Bedrock::Rigid);
-    Grid::new(elements.base(), elements.wall(), &layers, rigid, width)
+    TrenchGrid::new(elements.base(), elements.wall(), &layers, rigid, width)
 }

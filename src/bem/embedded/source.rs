@@ -6,18 +6,20 @@ use std::sync::Arc;
 use super::pairs::TrenchPairs;
 use super::soil::TrenchSoil;
 use crate::bem::WeightsSource;
-use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, own_classes};
+use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, self_pair_classes};
 use crate::error::{Result, positive, same_length};
 use crate::geometry::ContactElement;
 use crate::history::{ConvolutionWeights, PairClasses, TRENCH_KINDS};
 use crate::linalg::Complex;
 
-/// Relative accuracy of the compliances.
-const TOLERANCE: f64 = 1e-8;
+/// Relative accuracy of the compliances from which weights are computed.
+const WEIGHT_TOLERANCE: f64 = 1e-8;
 /// Degree of the finite elements.
-const DEGREE: usize = 4;
-/// The same for steps of at most this number of b/c: waves of such steps are short beside the elements.
-const SHORT: (f64, usize) = (0.03, 8);
+const ELEMENT_DEGREE: usize = 4;
+/// Degree of the finite elements for short time steps, whose waves are short beside the elements.
+const SHORT_STEP_DEGREE: usize = 8;
+/// Longest of the short time steps, in b/c.
+const MAX_SHORT_STEP: f64 = 0.03;
 
 /// Soil around a trench, with the method of its convolution weights.
 #[derive(Debug, Clone)]
@@ -44,12 +46,14 @@ impl TrenchSource {
         let classes = PairClasses::around_trench(trench.elements())?;
         let speeds = self.soil.soils().map(|soil| soil.shear_wave_speed());
         let slowest = speeds.fold(f64::INFINITY, f64::min);
-        let (most, high) = SHORT;
-        let is_short = slowest * time_step <= most * trench.trench().half_width();
-        let pairs = TrenchPairs::new(self.soil.clone(), if is_short { high } else { DEGREE });
-        let (profile, stages) = (self.soil.profile().clone(), self.stages(time_step));
-        let own = own_classes(&classes);
-        let quadrature = Quadrature::over(profile, pairs, own, stages, [time_step, TOLERANCE]);
+        let is_short = slowest * time_step <= MAX_SHORT_STEP * trench.trench().half_width();
+        let degree = if is_short { SHORT_STEP_DEGREE } else { ELEMENT_DEGREE };
+        let pairs = TrenchPairs::new(self.soil.clone(), degree);
+        let profile = self.soil.profile().clone();
+        let stages = self.stages(time_step);
+        let self_pairs = self_pair_classes(&classes);
+        let tolerance = WEIGHT_TOLERANCE;
+        let quadrature = Quadrature::over(profile, pairs, self_pairs, stages, time_step, tolerance);
         let mesh = [trench.base(), trench.wall()].concat();
         Ok(QuadratureWeights::new(quadrature, classes, None, mesh, self.file.clone()))
     }
@@ -67,10 +71,10 @@ impl WeightsSource for TrenchSource {
     fn static_compliance(&self, _elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
         let classes = PairClasses::around_trench(self.soil.elements().elements())?;
         same_length("static compliance", matrix.len(), classes.layout().square())?;
-        let halves = self.soil.static_compliances()?;
+        let compliances = self.soil.static_compliances()?;
         let mut values = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
-        let pairs = TrenchPairs::new(self.soil.clone(), DEGREE);
-        pairs.read([&halves.symmetric, &halves.antisymmetric], &mut values);
+        let pairs = TrenchPairs::new(self.soil.clone(), ELEMENT_DEGREE);
+        pairs.fill_classes(&compliances, &mut values);
         classes.scatter(matrix, |_, pair| values[pair.class].map(|value| pair.scale * value.re));
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::error::{Result, finite, not_negative, positive, require_part};
-use crate::geometry::{ContactElement, PLANE, check_count};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, check_count};
 use crate::interface::InterfaceLaw;
 
 /// Rectangular trench in the surface of the ground, in the plane: its sides and its depth.
@@ -59,6 +59,7 @@ impl Trench {
         self.depth
     }
 
+    /// Half of the width, m.
     pub(super) fn half_width(&self) -> f64 {
         0.5 * (self.right - self.left)
     }
@@ -73,7 +74,7 @@ impl Trench {
     /// elements, or elements of walls without depth; [`Error::Memory`](crate::Error::Memory) for more elements than their
     /// matrices allow.
     pub fn elements(&self, base: usize, wall: usize) -> Result<TrenchElements> {
-        check_count(base.saturating_add(wall.saturating_mul(2)), PLANE)?;
+        check_count(base.saturating_add(wall.saturating_mul(2)), COMPONENTS_IN_PLANE)?;
         let even = base > 0 && base.is_multiple_of(2);
         require_part("base elements of a trench", even, "an even number above zero")?;
         let fits = (wall > 0) == (self.depth > 0.0);
@@ -82,16 +83,26 @@ impl Trench {
             fits,
             "some if the trench has a depth, else none",
         )?;
-        let half = self.half_width();
+        let half_width = self.half_width();
         // From the axis outwards; both halves are equal to the last bit.
-        let place = |k: usize| half * (PI * k as f64 / base as f64).sin();
-        let mut outwards: Vec<f64> = (0..=base / 2).map(place).collect();
-        outwards[base / 2] = half;
-        let level = |k: usize| 0.5 * self.depth * (1.0 - (PI * k as f64 / wall as f64).cos());
-        let mut down: Vec<f64> = if wall > 0 { (0..=wall).map(level).collect() } else { vec![0.0] };
-        down[wall] = self.depth;
-        Ok(TrenchElements { trench: *self, base: outwards, wall: down })
+        let mut base_ends = vec![];
+        for k in 0..base / 2 {
+            base_ends.push(half_width * (PI * k as f64 / base as f64).sin());
+        }
+        base_ends.push(half_width);
+        let mut wall_ends = vec![];
+        for k in 0..wall {
+            wall_ends.push(0.5 * self.depth * (1.0 - (PI * k as f64 / wall as f64).cos()));
+        }
+        wall_ends.push(self.depth);
+        Ok(TrenchElements { trench: *self, base: base_ends, wall: wall_ends })
     }
+}
+
+/// Lines with another line in the middle between each two.
+fn with_middles(lines: &[f64]) -> Vec<f64> {
+    let halves = lines.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
+    halves.chain(lines.last().copied()).collect()
 }
 
 /// Contact elements of the faces of a [`Trench`].
@@ -126,11 +137,8 @@ impl TrenchElements {
 
     /// The same faces divided into halves of all elements.
     pub(super) fn halved(&self) -> Self {
-        let halved = |lines: &[f64]| -> Vec<f64> {
-            let halves = lines.windows(2).flat_map(|ends| [ends[0], 0.5 * (ends[0] + ends[1])]);
-            halves.chain(lines.last().copied()).collect()
-        };
-        Self { trench: self.trench, base: halved(&self.base), wall: halved(&self.wall) }
+        let base = with_middles(&self.base);
+        Self { trench: self.trench, base, wall: with_middles(&self.wall) }
     }
 
     /// Interface laws of all elements, one for the base and one for both walls.
@@ -141,10 +149,10 @@ impl TrenchElements {
         base: impl InterfaceLaw + Clone + 'static,
         walls: impl InterfaceLaw + Clone + 'static,
     ) -> Vec<Box<dyn InterfaceLaw>> {
-        let law = move |own: &ContactElement| -> Box<dyn InterfaceLaw> {
-            if own.faces_down() { Box::new(base.clone()) } else { Box::new(walls.clone()) }
-        };
-        self.elements().iter().map(law).collect()
+        let laws = self.elements().into_iter().map(move |element| -> Box<dyn InterfaceLaw> {
+            if element.faces_down() { Box::new(base.clone()) } else { Box::new(walls.clone()) }
+        });
+        laws.collect()
     }
 
     /// Ends of the base elements of the right half, m from the axis.

@@ -6,11 +6,11 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 /// Number of frequencies that are multiplied together, so that all inputs and outputs stay in cache.
-const TILE: usize = 64;
+const FREQUENCY_TILE_SIZE: usize = 64;
 
 /// A series of coefficients between one input and one output.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Link {
+pub(super) struct SeriesLink {
     pub(super) output: usize,
     pub(super) input: usize,
     pub(super) series: usize,
@@ -19,16 +19,16 @@ pub(super) struct Link {
 
 /// Workspace of the transforms of all levels.
 #[derive(Default)]
-pub(super) struct Work {
+pub(super) struct TransformBuffers {
     real: Vec<f64>,
     scratch: Vec<Complex<f64>>,
     inputs: Vec<Complex<f64>>,
     outputs: Vec<Complex<f64>>,
 }
 
-impl Work {
+impl TransformBuffers {
     /// Allocates for the blocks of `level` with `inputs` channels, and for smaller ones.
-    pub(super) fn grow(&mut self, level: &Level, inputs: usize) {
+    pub(super) fn grow(&mut self, level: &BlockTransform, inputs: usize) {
         let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
         let zero = Complex::default();
         self.real.resize(self.real.len().max(2 * level.size), 0.0);
@@ -39,7 +39,7 @@ impl Work {
 }
 
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
-pub(super) struct Level {
+pub(super) struct BlockTransform {
     size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
@@ -47,13 +47,13 @@ pub(super) struct Level {
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
-impl Level {
+impl BlockTransform {
     /// Level with blocks of `size`; each of the `series` has at least 2b lags or is empty.
     pub(super) fn new(
         size: usize,
         series: &[Vec<f64>],
         planner: &mut RealFftPlanner<f64>,
-        work: &mut Work,
+        work: &mut TransformBuffers,
     ) -> Self {
         let mut level = Self {
             size,
@@ -83,32 +83,34 @@ impl Level {
     ) {
         let scratch = &mut scratch[..self.forward.get_scratch_len()];
         // All lengths come from the plan, so the transform cannot fail.
-        let done = self.forward.process_with_scratch(real, spectrum, scratch);
-        debug_assert!(done.is_ok());
+        let outcome = self.forward.process_with_scratch(real, spectrum, scratch);
+        debug_assert!(outcome.is_ok());
     }
 
-    /// Adds the effect of the last b inputs before `now` to the b outputs from `now` on; rows have length
-    /// `stride`.
+    /// Adds the effect of the last b inputs before step `step` to the b outputs from there on.
+    ///
+    /// Rows of `inputs` and `outputs` have length `stride`.
     pub(super) fn apply(
         &self,
-        links: &[Link],
+        links: &[SeriesLink],
         inputs: &[f64],
         outputs: &mut [f64],
         stride: usize,
-        now: usize,
-        work: &mut Work,
+        step: usize,
+        work: &mut TransformBuffers,
     ) {
-        let (size, bins) = (self.size, self.size + 1);
+        let size = self.size;
+        let bins = self.size + 1;
         let real = &mut work.real[..2 * size];
         let spectra = work.inputs.chunks_exact_mut(bins);
         for (row, spectrum) in inputs.chunks_exact(stride).zip(spectra) {
-            real[..size].copy_from_slice(&row[now - size..now]);
+            real[..size].copy_from_slice(&row[step - size..step]);
             real[size..].fill(0.0);
             self.transform(real, spectrum, &mut work.scratch);
         }
         work.outputs.fill(Complex::default());
-        for begin in (0..bins).step_by(TILE) {
-            let range = begin..(begin + TILE).min(bins);
+        for begin in (0..bins).step_by(FREQUENCY_TILE_SIZE) {
+            let range = begin..(begin + FREQUENCY_TILE_SIZE).min(bins);
             for link in links {
                 let spectrum = &self.spectra[link.series];
                 if spectrum.is_empty() {
@@ -126,11 +128,12 @@ impl Level {
         let spectra = work.outputs.chunks_exact_mut(bins);
         for (row, spectrum) in outputs.chunks_exact_mut(stride).zip(spectra) {
             // These values are real up to rounding; the inverse transform requires exactly real values.
-            (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
+            spectrum[0].im = 0.0;
+            spectrum[size].im = 0.0;
             let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
-            let done = self.inverse.process_with_scratch(spectrum, real, scratch);
-            debug_assert!(done.is_ok());
-            for (output, value) in row[now..].iter_mut().zip(&real[size..]) {
+            let outcome = self.inverse.process_with_scratch(spectrum, real, scratch);
+            debug_assert!(outcome.is_ok());
+            for (output, value) in row[step..].iter_mut().zip(&real[size..]) {
                 *output += scale * value;
             }
         }

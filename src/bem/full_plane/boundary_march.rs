@@ -3,7 +3,7 @@
 use super::BoundaryKernel;
 use super::convolution::BoundaryHistory;
 use crate::error::{Error, Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::{DenseFactor, dense_multiply_add, largest};
 
 /// Quantity that is prescribed for a component of an element.
@@ -34,19 +34,21 @@ pub enum Given {
 /// ```
 pub struct BoundaryMarch {
     history: BoundaryHistory,
-    given: Vec<Given>,
-    /// Columns of H⁰ for unknown displacements, and of −G⁰ for unknown tractions, which are in `unit`.
+    /// Prescribed quantity of each component.
+    prescribed: Vec<Given>,
+    /// Columns of H⁰ for computed displacements, and of −G⁰ for computed tractions, which are in `traction_unit`.
     factor: DenseFactor,
     /// Columns of G⁰ for prescribed tractions, and of −H⁰ for prescribed displacements.
-    known: Vec<f64>,
-    /// Pa per m.
-    unit: f64,
+    prescribed_columns: Vec<f64>,
+    /// Unit of computed tractions, Pa per m.
+    traction_unit: f64,
+    /// Right-hand side, and solution.
     rhs: Vec<f64>,
     displacement: Vec<f64>,
     traction: Vec<f64>,
 }
 
-short_debug! { BoundaryMarch; self; components: self.given.len() }
+short_debug! { BoundaryMarch; self; components: self.prescribed.len() }
 
 impl BoundaryMarch {
     /// Boundary at rest; `given` has 2E entries.
@@ -55,16 +57,24 @@ impl BoundaryMarch {
     /// [`Error::Size`] for the wrong number of entries, [`Error::Singular`] if the boundary values do not
     /// determine the others, and errors of the kernel.
     pub fn new(kernel: Box<dyn BoundaryKernel>, given: &[Given]) -> Result<Self> {
-        let size = ContactLayout::new(PLANE, kernel.segments().len()).len();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, kernel.segments().len()).len();
         same_length("list of given components", given.len(), size)?;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let mut g = vec![0.0; size * size];
+        let mut h = vec![0.0; size * size];
         kernel.coefficients(0, &mut g, &mut h)?;
-        let unit = 1.0 / largest(&g).max(f64::MIN_POSITIVE);
-        let (mut matrix, mut known) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let traction_unit = 1.0 / largest(&g).max(f64::MIN_POSITIVE);
+        let mut matrix = vec![0.0; size * size];
+        let mut prescribed_columns = vec![0.0; size * size];
         for (k, (g, h)) in g.iter().zip(&h).enumerate() {
             match given[k % size] {
-                Given::Traction => (matrix[k], known[k]) = (*h, *g),
-                Given::Displacement => (matrix[k], known[k]) = (-g * unit, -h),
+                Given::Traction => {
+                    matrix[k] = *h;
+                    prescribed_columns[k] = *g;
+                }
+                Given::Displacement => {
+                    matrix[k] = -g * traction_unit;
+                    prescribed_columns[k] = -h;
+                }
             }
         }
         let mut factor = DenseFactor::with_capacity(size);
@@ -73,10 +83,10 @@ impl BoundaryMarch {
         }
         Ok(Self {
             history: BoundaryHistory::new(kernel, &vec![true; size]),
-            given: given.to_vec(),
+            prescribed: given.to_vec(),
             factor,
-            known,
-            unit,
+            prescribed_columns,
+            traction_unit,
             rhs: vec![0.0; size],
             displacement: vec![0.0; size],
             traction: vec![0.0; size],
@@ -91,20 +101,26 @@ impl BoundaryMarch {
         self.history.prepare(steps)
     }
 
-    /// Makes one step with the given values: tractions during the step, displacements at its end.
+    /// Makes one step with prescribed values: tractions during the step, displacements at its end.
     ///
     /// # Errors
     /// [`Error::Size`] for the wrong number of values, and errors of the kernel.
     pub fn step(&mut self, values: &[f64]) -> Result<()> {
-        same_length("boundary values", values.len(), self.given.len())?;
+        same_length("boundary values", values.len(), self.prescribed.len())?;
         self.history.evaluate(&mut self.rhs)?;
-        dense_multiply_add(&self.known, 1.0, values, &mut self.rhs);
+        dense_multiply_add(&self.prescribed_columns, 1.0, values, &mut self.rhs);
         self.factor.solve(&mut self.rhs);
-        for (k, (given, found)) in self.given.iter().zip(&self.rhs).enumerate() {
-            (self.displacement[k], self.traction[k]) = match given {
-                Given::Traction => (*found, values[k]),
-                Given::Displacement => (values[k], *found * self.unit),
-            };
+        for (k, (prescribed, solution)) in self.prescribed.iter().zip(&self.rhs).enumerate() {
+            match prescribed {
+                Given::Traction => {
+                    self.displacement[k] = *solution;
+                    self.traction[k] = values[k];
+                }
+                Given::Displacement => {
+                    self.displacement[k] = values[k];
+                    self.traction[k] = *solution * self.traction_unit;
+                }
+            }
         }
         self.history.push(&self.displacement, &self.traction);
         Ok(())

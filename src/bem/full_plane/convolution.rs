@@ -7,38 +7,41 @@
 //! the largest power of two for which b divides i.
 
 use super::BoundaryKernel;
-use super::block::{Level, Link, Work};
-use super::pair_classes::PairClasses;
+use super::block::{BlockTransform, SeriesLink, TransformBuffers};
+use super::pair_classes::SegmentPairClasses;
 use crate::error::{Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use realfft::RealFftPlanner;
 
-/// Steps that are summed directly before the smallest block is transformed.
-const LEAF: usize = 64;
+/// Number of steps that are summed directly, before the smallest block is transformed.
+const DIRECT_STEPS: usize = 64;
 
-/// Largest hint for which memory is allocated at once; above, memory grows with the steps.
-const LONGEST_HINT: usize = 1 << 17;
+/// Largest number of steps for which memory is allocated at once; beyond, memory grows with the steps.
+const MAX_HINTED_STEPS: usize = 1 << 17;
 /// Largest memory for hinted steps, bytes.
-const MOST_HINTED: usize = 1 << 30;
+const MAX_HINTED_BYTES: usize = 1 << 30;
 
 /// Σ_{m<N} G^{N−m} t^m − H^{N−m} u^m, with coefficients stored once per class of pairs.
 ///
 /// Inputs are 4E numbers per step: u, then t.
 pub(super) struct BoundaryHistory {
     pub(super) kernel: Box<dyn BoundaryKernel>,
-    pairs: PairClasses,
-    links: Vec<Link>,
-    /// For each class, matrix and component: coefficients of the lags below [`LEAF`]; empty if zero.
-    near: Vec<Vec<f64>>,
-    levels: Vec<Level>,
+    pairs: SegmentPairClasses,
+    /// All pairs of an input and an output, with their series.
+    links: Vec<SeriesLink>,
+    /// For each class, matrix and component: coefficients of the lags below [`DIRECT_STEPS`]; empty if zero.
+    direct_series: Vec<Vec<f64>>,
+    /// Transforms of blocks, each twice as long as the one before.
+    transforms: Vec<BlockTransform>,
     planner: RealFftPlanner<f64>,
-    work: Work,
+    work: TransformBuffers,
     /// 4E rows of `capacity`.
     inputs: Vec<f64>,
     /// 2E rows of `capacity`: outputs, with the contributions so far.
     outputs: Vec<f64>,
     /// Number of steps for which rows and levels are allocated: the leaf times a power of two.
     capacity: usize,
+    /// Number of steps accepted.
     steps: usize,
     /// Whether the contribution of the last input is still missing.
     pending: bool,
@@ -47,15 +50,15 @@ pub(super) struct BoundaryHistory {
 impl BoundaryHistory {
     /// Empty history; `loaded` marks the tractions (2E) that may differ from zero.
     pub(super) fn new(kernel: Box<dyn BoundaryKernel>, loaded: &[bool]) -> Self {
-        let pairs = PairClasses::new(kernel.segments());
+        let pairs = SegmentPairClasses::new(kernel.segments());
         Self {
             links: links(&pairs, kernel.segments().len(), loaded),
-            near: Vec::new(),
+            direct_series: Vec::new(),
             pairs,
             kernel,
-            levels: Vec::new(),
+            transforms: Vec::new(),
             planner: RealFftPlanner::new(),
-            work: Work::default(),
+            work: TransformBuffers::default(),
             inputs: Vec::new(),
             outputs: Vec::new(),
             capacity: 0,
@@ -64,8 +67,9 @@ impl BoundaryHistory {
         }
     }
 
+    /// Number of components 2E.
     fn size(&self) -> usize {
-        ContactLayout::new(PLANE, self.kernel.segments().len()).len()
+        ContactLayout::new(COMPONENTS_IN_PLANE, self.kernel.segments().len()).len()
     }
 
     /// Coefficients of all series for the lags below `lags`, without lag 0, which belongs to the present
@@ -73,7 +77,8 @@ impl BoundaryHistory {
     fn series(&self, lags: usize) -> Result<Vec<Vec<f64>>> {
         let size = self.size();
         let count = size / 2;
-        let (mut g, mut h) = (vec![0.0; size * size], vec![0.0; size * size]);
+        let mut g = vec![0.0; size * size];
+        let mut h = vec![0.0; size * size];
         let mut series = vec![Vec::new(); 8 * self.pairs.classes.len()];
         for lag in 1..lags {
             self.kernel.coefficients(lag, &mut g, &mut h)?;
@@ -102,70 +107,65 @@ impl BoundaryHistory {
         if steps <= self.capacity {
             return Ok(());
         }
-        let capacity = steps.div_ceil(LEAF).next_power_of_two() * LEAF;
+        let capacity = steps.div_ceil(DIRECT_STEPS).next_power_of_two() * DIRECT_STEPS;
         let series = self.series(capacity)?;
-        if self.near.is_empty() {
-            let first = |list: &Vec<f64>| list[..LEAF.min(list.len())].to_vec();
-            self.near = series.iter().map(first).collect();
+        if self.direct_series.is_empty() {
+            for list in &series {
+                self.direct_series.push(list[..DIRECT_STEPS.min(list.len())].to_vec());
+            }
         }
-        let mut size = LEAF << self.levels.len();
+        let mut size = DIRECT_STEPS << self.transforms.len();
         while size < capacity {
-            let level = Level::new(size, &series, &mut self.planner, &mut self.work);
-            self.levels.push(level);
+            let transform = BlockTransform::new(size, &series, &mut self.planner, &mut self.work);
+            self.transforms.push(transform);
             size *= 2;
         }
-        if let Some(level) = self.levels.last() {
-            self.work.grow(level, 2 * self.size());
+        if let Some(transform) = self.transforms.last() {
+            self.work.grow(transform, 2 * self.size());
         }
-        let longer = |rows: &[f64], old: usize, count: usize| {
-            let mut grown = vec![0.0; count * capacity];
-            for (new, row) in grown.chunks_exact_mut(capacity).zip(rows.chunks_exact(old.max(1))) {
-                new[..old].copy_from_slice(row);
-            }
-            grown
-        };
-        self.inputs = longer(&self.inputs, self.capacity, 2 * self.size());
-        self.outputs = longer(&self.outputs, self.capacity, self.size());
+        self.inputs = with_longer_rows(&self.inputs, self.capacity, capacity, 2 * self.size());
+        self.outputs = with_longer_rows(&self.outputs, self.capacity, capacity, self.size());
         self.capacity = capacity;
         Ok(())
     }
 
     /// Allocates for `steps` further steps, up to 131 072 steps and 1 GiB.
     ///
-    /// The hint is limited because a larger one may stand for a run without end.
+    /// The number is limited because a larger one may mean a run without end.
     pub(super) fn prepare(&mut self, steps: usize) -> Result<()> {
         // Eight series for each class of pairs, their values and spectra, and inputs and outputs.
-        let step = 192 * self.pairs.classes.len() + 24 * self.size();
-        let most = LONGEST_HINT.min(MOST_HINTED / step.max(1));
-        self.grow(self.steps.saturating_add(steps.min(most)))
+        let bytes_per_step = 192 * self.pairs.classes.len() + 24 * self.size();
+        let max_steps = MAX_HINTED_STEPS.min(MAX_HINTED_BYTES / bytes_per_step.max(1));
+        self.grow(self.steps.saturating_add(steps.min(max_steps)))
     }
 
     /// Adds the contribution of the last input, so that the next output is complete.
-    fn settle(&mut self) {
-        let (now, stride) = (self.steps, self.capacity);
-        let last = now - 1;
-        let ahead = LEAF - 1 - last % LEAF;
-        if ahead > 0 {
+    fn add_last_input(&mut self) {
+        let step = self.steps;
+        let stride = self.capacity;
+        let last = step - 1;
+        let remaining = DIRECT_STEPS - 1 - last % DIRECT_STEPS;
+        if remaining > 0 {
             for link in &self.links {
-                let near = &self.near[link.series];
+                let series = &self.direct_series[link.series];
                 let value = link.sign * self.inputs[link.input * stride + last];
-                if near.is_empty() || value == 0.0 {
+                if series.is_empty() || value == 0.0 {
                     continue;
                 }
-                let output = &mut self.outputs[link.output * stride + now..][..ahead];
-                for (output, coefficient) in output.iter_mut().zip(&near[1..]) {
+                let output = &mut self.outputs[link.output * stride + step..][..remaining];
+                for (output, coefficient) in output.iter_mut().zip(&series[1..]) {
                     *output += coefficient * value;
                 }
             }
         } else {
-            let number = (now / LEAF).trailing_zeros() as usize;
-            if let Some(level) = self.levels.get(number) {
-                level.apply(
+            let number = (step / DIRECT_STEPS).trailing_zeros() as usize;
+            if let Some(transform) = self.transforms.get(number) {
+                transform.apply(
                     &self.links,
                     &self.inputs,
                     &mut self.outputs,
                     stride,
-                    now,
+                    step,
                     &mut self.work,
                 );
             }
@@ -178,7 +178,7 @@ impl BoundaryHistory {
         same_length("history of the boundary", output.len(), self.size())?;
         self.grow(self.steps + 1)?;
         if self.pending {
-            self.settle();
+            self.add_last_input();
         }
         for (value, row) in output.iter_mut().zip(self.outputs.chunks_exact(self.capacity)) {
             *value = row[self.steps];
@@ -204,9 +204,19 @@ impl BoundaryHistory {
     }
 }
 
+/// The rows of `count` series, copied from rows of length `old_length` to rows of length `length`.
+fn with_longer_rows(rows: &[f64], old_length: usize, length: usize, count: usize) -> Vec<f64> {
+    let mut longer = vec![0.0; count * length];
+    for (new, row) in longer.chunks_exact_mut(length).zip(rows.chunks_exact(old_length.max(1))) {
+        new[..old_length].copy_from_slice(row);
+    }
+    longer
+}
+
 /// All pairs of components, G with tractions and −H with displacements.
-fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
-    let (layout, mut links) = (ContactLayout::new(PLANE, count), Vec::new());
+fn links(pairs: &SegmentPairClasses, count: usize, loaded: &[bool]) -> Vec<SeriesLink> {
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
+    let mut links = Vec::new();
     for (p, pairs) in pairs.pairs.chunks_exact(count).enumerate() {
         for i in 0..2 {
             for (k, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -215,11 +225,14 @@ fn links(pairs: &PairClasses, count: usize, loaded: &[bool]) -> Vec<Link> {
                     if k == 0 && !loaded[channel] {
                         continue;
                     }
-                    let sign = if mirrored && i != j { -1.0 } else { 1.0 };
-                    let (input, sign) =
-                        if k == 0 { (layout.len() + channel, sign) } else { (channel, -sign) };
+                    let mut sign = if mirrored && i != j { -1.0 } else { 1.0 };
+                    let mut input = layout.len() + channel;
+                    if k == 1 {
+                        sign = -sign;
+                        input = channel;
+                    }
                     let series = 8 * class + 4 * k + 2 * i + j;
-                    links.push(Link { output: layout.place(i, p), input, series, sign });
+                    links.push(SeriesLink { output: layout.place(i, p), input, series, sign });
                 }
             }
         }
@@ -244,28 +257,32 @@ mod tests {
         let loaded = [true, true, false, true, true, true, true, true];
         let mut history = BoundaryHistory::new(Box::new(kernel.clone()), &loaded);
         let mut past: Vec<[Vec<f64>; 2]> = Vec::new();
-        let coefficients: Vec<_> = (0..400)
-            .map(|lag| {
-                let (mut g, mut h) = (vec![0.0; 64], vec![0.0; 64]);
-                kernel.coefficients(lag, &mut g, &mut h).unwrap();
-                [g, h]
-            })
-            .collect();
+        let mut coefficients = vec![];
+        for lag in 0..400 {
+            let mut g = vec![0.0; 64];
+            let mut h = vec![0.0; 64];
+            kernel.coefficients(lag, &mut g, &mut h).unwrap();
+            coefficients.push([g, h]);
+        }
         let mut found = [7.0; 8];
         for n in 0..400 {
             history.evaluate(&mut found).unwrap();
             let mut wanted = [0.0; 8];
             for (m, [u, t]) in past.iter().enumerate() {
-                let [g, h] = &coefficients[n - m];
-                crate::linalg::dense_multiply_add(g, 1.0, t, &mut wanted);
-                crate::linalg::dense_multiply_add(h, -1.0, u, &mut wanted);
+                let lag = &coefficients[n - m];
+                crate::linalg::dense_multiply_add(&lag[0], 1.0, t, &mut wanted);
+                crate::linalg::dense_multiply_add(&lag[1], -1.0, u, &mut wanted);
             }
             for (a, b) in found.iter().zip(wanted) {
                 assert!((a - b).abs() < 1e-13, "step {n}: {a} {b}");
             }
-            let wave = |k: usize, rate: f64| ((n * 8 + k) as f64 * rate).sin();
-            let u: Vec<f64> = (0..8).map(|k| wave(k, 1.7)).collect();
-            let t: Vec<f64> = (0..8).map(|k| if loaded[k] { wave(k, 2.3) } else { 0.0 }).collect();
+            let mut u = vec![];
+            let mut t = vec![];
+            for (k, is_loaded) in loaded.into_iter().enumerate() {
+                let phase = (n * 8 + k) as f64;
+                u.push((1.7 * phase).sin());
+                t.push(if is_loaded { (2.3 * phase).sin() } else { 0.0 });
+            }
             history.push(&u, &t);
             past.push([u, t]);
         }

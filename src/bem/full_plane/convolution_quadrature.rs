@@ -19,14 +19,14 @@ use std::f64::consts::TAU;
 use realfft::RealFftPlanner;
 
 use crate::error::{Error, Result, positive, require, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::soil::Soil;
 
 use super::bessel::Complex64;
 use super::cq_method::CqMethod;
 use super::laplace::LaplacePlane;
-use super::laplace_element::{Block, View, integrate};
-use super::late_weights::{LogTerms, TERMS, first_lag, log_terms, weights};
+use super::laplace_element::{ElementView, ViewBlock, integrate};
+use super::late_weights::{LOG_TERM_COUNT, LogTerms, first_lag, log_terms, weights};
 use super::{BoundaryKernel, Segment};
 
 /// The full-plane boundary equation by convolution quadrature.
@@ -65,15 +65,17 @@ pub struct ConvolutionQuadrature {
     segments: Vec<Segment>,
     time_step: f64,
     method: CqMethod,
-    /// Different views of an element from a midpoint, and the index of the view of each pair (i, j).
-    views: Vec<View>,
+    /// Different views of an element from a midpoint.
+    views: Vec<ElementView>,
+    /// Index of the view of each pair (i, j).
     view_of: Vec<usize>,
     /// Closed form of the late lags of each view, for distances up to ρ c₂ Δt.
-    late: Vec<LogTerms>,
+    late_terms: Vec<LogTerms>,
     rho: f64,
     /// Early lags: blocks of all views, lag after lag.
     early: Vec<[f64; 8]>,
-    lags: usize,
+    /// Number of early lags.
+    early_lags: usize,
 }
 
 impl ConvolutionQuadrature {
@@ -93,19 +95,25 @@ impl ConvolutionQuadrature {
         for segment in segments {
             positive("length of a boundary element", segment.length())?;
         }
-        let (views, view_of) = views(segments);
-        let reach = views.iter().map(View::reach).fold(0.0, f64::max);
+        let DistinctViews { views, view_of } = distinct_views(segments);
+        let reach = views.iter().map(ElementView::reach).fold(0.0, f64::max);
         let rho = positive("boundary over wave travel in a step", reach)?
             / (soil.shear_wave_speed() * time_step);
         let quantity = "steps that an S wave needs across the boundary";
-        require(quantity, rho, rho < LARGEST_RHO, "below 1e5")?;
-        let late = views.iter().map(|view| log_terms(soil, view, reach)).collect();
-        let lags = first_lag(method, rho).next_power_of_two();
-        let segments = segments.to_vec();
-        let early = vec![];
-        let mut kernel =
-            Self { soil, segments, time_step, method, views, view_of, late, rho, early, lags };
-        kernel.early = kernel.contour();
+        require(quantity, rho, rho < MAX_CROSSING_STEPS, "below 1e5")?;
+        let mut kernel = Self {
+            soil,
+            segments: segments.to_vec(),
+            time_step,
+            method,
+            late_terms: views.iter().map(|view| log_terms(soil, view, reach)).collect(),
+            views,
+            view_of,
+            rho,
+            early: vec![],
+            early_lags: first_lag(method, rho).next_power_of_two(),
+        };
+        kernel.early = kernel.compute_early_lags();
         Ok(kernel)
     }
 
@@ -121,15 +129,15 @@ impl ConvolutionQuadrature {
 
     /// Number of lags from Lubich's contour; later lags have a closed form.
     pub fn contour_lags(&self) -> usize {
-        self.lags
+        self.early_lags
     }
 
     /// Blocks of all views at δ(ζ)/Δt, with the free term.
-    fn blocks(&self, zeta: Complex64) -> impl Iterator<Item = Block> {
+    fn blocks(&self, zeta: Complex64) -> impl Iterator<Item = ViewBlock> {
         let plane = LaplacePlane::new(self.soil, self.method.symbol(zeta) / self.time_step);
         self.views.iter().map(move |view| {
             let mut block = integrate(&plane, view);
-            if view.own {
+            if view.is_self {
                 block[4] += 0.5;
                 block[7] += 0.5;
             }
@@ -138,10 +146,11 @@ impl ConvolutionQuadrature {
     }
 
     /// Early lags by Cauchy's integral, with the alias subtracted.
-    fn contour(&self) -> Vec<[f64; 8]> {
-        let (lags, count) = (self.lags, self.views.len());
+    fn compute_early_lags(&self) -> Vec<[f64; 8]> {
+        let lags = self.early_lags;
+        let count = self.views.len();
         let points = lags as f64;
-        let radius = CONTOUR.powf(1.0 / points);
+        let radius = CONTOUR_RADIUS_POWER.powf(1.0 / points);
         let frequencies = lags / 2 + 1;
         let mut spectra = vec![Complex64::default(); 8 * count * frequencies];
         for l in 0..frequencies {
@@ -171,26 +180,26 @@ impl ConvolutionQuadrature {
                 early[n * count + index / 8][index % 8] = value * radius.powf(-(n as f64)) / points;
             }
         }
-        let mut alias = CONTOUR;
-        for j in 1..=ALIASES {
+        let mut alias = CONTOUR_RADIUS_POWER;
+        for j in 1..=ALIAS_TERM_COUNT {
             for n in 0..lags {
                 let weights = weights(self.method, n + j * lags, self.rho);
                 for (view, block) in early[n * count..][..count].iter_mut().enumerate() {
-                    let late = self.late(view, &weights);
+                    let late = self.late_block(view, &weights);
                     for (entry, late) in block.iter_mut().zip(late) {
                         *entry -= alias * late;
                     }
                 }
             }
-            alias *= CONTOUR;
+            alias *= CONTOUR_RADIUS_POWER;
         }
         early
     }
 
     /// Late coefficients of a view, from the weights of their lag.
-    fn late(&self, view: usize, weights: &[f64; TERMS]) -> [f64; 8] {
+    fn late_block(&self, view: usize, weights: &[f64; LOG_TERM_COUNT]) -> [f64; 8] {
         let mut block = [0.0; 8];
-        for (terms, weight) in self.late[view].iter().zip(weights) {
+        for (terms, weight) in self.late_terms[view].iter().zip(weights) {
             for (entry, term) in block.iter_mut().zip(terms) {
                 *entry += weight * term;
             }
@@ -198,52 +207,63 @@ impl ConvolutionQuadrature {
         block
     }
 
-    fn check<T>(&self, g: &[T], h: &[T]) -> Result<()> {
+    /// Error unless both slices have one number for each pair of components.
+    fn check_lengths(&self, g: &[f64], h: &[f64]) -> Result<()> {
         let needed = 4 * self.segments.len() * self.segments.len();
         same_length("coefficients g", g.len(), needed)?;
         same_length("coefficients h", h.len(), needed)
     }
 }
 
-/// λ^L.
-const CONTOUR: f64 = 0.01;
+/// λ^L for the radius λ of the contour.
+const CONTOUR_RADIUS_POWER: f64 = 0.01;
 
 /// Number of alias terms; λ^{jL}/(jL) of further terms is below rounding.
-const ALIASES: usize = 7;
+const ALIAS_TERM_COUNT: usize = 7;
 
 /// Largest number of steps across the boundary: more would need too much memory.
-const LARGEST_RHO: f64 = 1e5;
+const MAX_CROSSING_STEPS: f64 = 1e5;
 
-/// Different views among all pairs, up to rounding, and the index of the view of each pair (row, column).
-fn views(segments: &[Segment]) -> (Vec<View>, Vec<usize>) {
+/// Different views among all pairs of elements.
+struct DistinctViews {
+    views: Vec<ElementView>,
+    /// Index of the view of each pair (row, column).
+    view_of: Vec<usize>,
+}
+
+/// Different views among all pairs, up to rounding.
+fn distinct_views(segments: &[Segment]) -> DistinctViews {
     let extent = segments
         .iter()
         .flat_map(|segment| [segment.from, segment.to])
         .flat_map(|[x, z]| [x - segments[0].from[0], z - segments[0].from[1]])
         .fold(0.0_f64, |largest, x| largest.max(x.abs()));
     // Offsets that agree within 1e-12 of the boundary's extent count as equal.
-    let grid = 1e-12 * extent;
-    let mut known = HashMap::new();
+    let rounding = 1e-12 * extent;
+    let mut indices = HashMap::new();
     let mut views = vec![];
     let mut view_of = Vec::with_capacity(segments.len() * segments.len());
     for (row, point) in segments.iter().enumerate() {
-        let [x, z] = point.center();
+        let center = point.center();
         for (column, segment) in segments.iter().enumerate() {
-            let view = View {
-                from: [segment.from[0] - x, segment.from[1] - z],
-                to: [segment.to[0] - x, segment.to[1] - z],
-                own: row == column,
+            let view = ElementView {
+                start: [segment.from[0] - center[0], segment.from[1] - center[1]],
+                end: [segment.to[0] - center[0], segment.to[1] - center[1]],
+                is_self: row == column,
             };
-            let [a, b] = [view.from, view.to];
-            #[allow(clippy::cast_possible_truncation, reason = "below 1e13 by the grid's choice")]
-            let key = [a[0], a[1], b[0], b[1]].map(|offset| (offset / grid).round() as i64);
-            view_of.push(*known.entry((key, view.own)).or_insert_with(|| {
+            #[allow(
+                clippy::cast_possible_truncation,
+                reason = "below 1e13 by choice of `rounding`"
+            )]
+            let key = [view.start, view.end]
+                .map(|point| point.map(|offset| (offset / rounding).round() as i64));
+            view_of.push(*indices.entry((key, view.is_self)).or_insert_with(|| {
                 views.push(view);
                 views.len() - 1
             }));
         }
     }
-    (views, view_of)
+    DistinctViews { views, view_of }
 }
 
 /// Writes the blocks of all pairs into matrices with `width` numbers per entry.
@@ -254,7 +274,7 @@ fn scatter<const WIDTH: usize>(
     g: &mut [f64],
     h: &mut [f64],
 ) {
-    let layout = ContactLayout::new(PLANE, count);
+    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
     for row in 0..count {
         for column in 0..count {
             let block = block(view_of[row * count + column]);
@@ -276,14 +296,15 @@ impl BoundaryKernel for ConvolutionQuadrature {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        self.check(g, h)?;
-        let (count, views) = (self.segments.len(), self.views.len());
-        if lag < self.lags {
+        self.check_lengths(g, h)?;
+        let count = self.segments.len();
+        let views = self.views.len();
+        if lag < self.early_lags {
             let early = &self.early[lag * views..][..views];
             scatter(count, &self.view_of, |view| early[view].map(|x| [x]), g, h);
         } else {
             let weights = weights(self.method, lag, self.rho);
-            let late: Vec<_> = (0..views).map(|view| self.late(view, &weights)).collect();
+            let late: Vec<_> = (0..views).map(|view| self.late_block(view, &weights)).collect();
             scatter(count, &self.view_of, |view| late[view].map(|x| [x]), g, h);
         }
         Ok(())

@@ -2,20 +2,20 @@
 
 use std::cell::Cell;
 
-use super::ground_state::Prepared;
-use super::stability_symbol::Symbol;
+use super::ground_state::PreparedBoundary;
+use super::stability_symbol::BoundarySymbol;
 use super::static_limit::static_compliance;
 use super::{
     Boundary, BoundaryCondition, BoundaryKernel, IncidentField, Segment, Stability, TimeKernel,
 };
 use crate::bem::{ContactElement, Ground, GroundDescription, NOT_PREPARED, StaticKernel, Strip};
 use crate::error::{Error, GroundError, Observer, Result, same_length};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::motion::FreeField;
 use crate::soil::Soil;
 
-/// Growth per step that ends a preparation.
-const GROWTH: f64 = 1e-4;
+/// Largest growth per step for which a run may begin.
+const MAX_GROWTH_PER_STEP: f64 = 1e-4;
 
 /// Computes the kernel for a boundary and a time step.
 type MakeKernel = dyn Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send;
@@ -63,10 +63,10 @@ pub struct FullPlaneGround {
     /// Whether a run may begin although perturbations grow.
     may_grow: bool,
     /// Last time step for which no perturbation was found to grow.
-    bounded: Option<f64>,
+    stable_time_step: Option<f64>,
     /// Whether the scene's motion is not at rest although there is an incident field.
-    conflict: Cell<bool>,
-    prepared: Option<Prepared>,
+    has_two_motions: Cell<bool>,
+    prepared: Option<PreparedBoundary>,
 }
 
 short_debug! {
@@ -104,15 +104,14 @@ impl FullPlaneGround {
         let make_kernel = Box::new(|segments: &[Segment], soil, time_step| {
             Ok(Box::new(TimeKernel::new(soil, segments, time_step)?) as Box<dyn BoundaryKernel>)
         });
-        let conflict = Cell::new(false);
         Self {
             soil,
             boundary,
             make_kernel,
             incident: None,
             may_grow: false,
-            bounded: None,
-            conflict,
+            stable_time_step: None,
+            has_two_motions: Cell::new(false),
             prepared: None,
         }
     }
@@ -128,7 +127,7 @@ impl FullPlaneGround {
         make: impl Fn(&[Segment], Soil, f64) -> Result<Box<dyn BoundaryKernel>> + Send + 'static,
     ) -> Self {
         self.make_kernel = Box::new(make);
-        self.bounded = None;
+        self.stable_time_step = None;
         self
     }
 
@@ -166,13 +165,14 @@ impl FullPlaneGround {
         self.assess_kernel(kernel.as_ref(), smallest_growth)
     }
 
+    /// Growth with this kernel: with the base uplifted, and with the base bonded.
     fn assess_kernel(
         &self,
         kernel: &dyn BoundaryKernel,
         smallest_growth: f64,
     ) -> Result<[Stability; 2]> {
         let mut conditions = vec![BoundaryCondition::TractionFree; self.boundary.segments().len()];
-        let mut symbol = Symbol::new(kernel, &conditions)?;
+        let mut symbol = BoundarySymbol::new(kernel, &conditions)?;
         let uplifted = Stability::from_symbol(&symbol, smallest_growth)?;
         for &element in self.boundary.contact() {
             conditions[element] = BoundaryCondition::PrescribedDisplacement;
@@ -183,17 +183,17 @@ impl FullPlaneGround {
 
     /// Error if perturbations grow.
     fn check_growth(&mut self, kernel: &dyn BoundaryKernel, time_step: f64) -> Result<()> {
-        if self.may_grow || self.bounded == Some(time_step) {
+        if self.may_grow || self.stable_time_step == Some(time_step) {
             return Ok(());
         }
-        let [uplifted, bonded] = self.assess_kernel(kernel, GROWTH)?;
+        let [uplifted, bonded] = self.assess_kernel(kernel, MAX_GROWTH_PER_STEP)?;
         let bonded_is_worse = bonded.growth_per_step > uplifted.growth_per_step;
         let worst = if bonded_is_worse { bonded } else { uplifted };
         if !worst.is_bounded() {
             let Stability { growth_per_step, growing_modes } = worst;
             return Err(GroundError::Unstable { growth_per_step, growing_modes }.into());
         }
-        self.bounded = Some(time_step);
+        self.stable_time_step = Some(time_step);
         Ok(())
     }
 
@@ -245,11 +245,12 @@ impl Ground for FullPlaneGround {
         }
         let kernel = (self.make_kernel)(self.boundary.segments(), self.soil, time_step)?;
         self.check_growth(kernel.as_ref(), time_step)?;
-        let incident = self.incident.is_some();
-        let mut prepared = Prepared::new(&self.boundary, kernel, time_step, incident)?;
+        let has_incident_field = self.incident.is_some();
+        let mut prepared =
+            PreparedBoundary::new(&self.boundary, kernel, time_step, has_incident_field)?;
         prepared.history.prepare(steps.unwrap_or(0))?;
         self.prepared = Some(prepared);
-        self.conflict.set(false);
+        self.has_two_motions.set(false);
         Ok(())
     }
 
@@ -261,22 +262,22 @@ impl Ground for FullPlaneGround {
     /// Overwrites `matrix` with the step compliance, which is not symmetric.
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let Some(prepared) = &self.prepared else { return Err(NOT_PREPARED) };
-        let size = ContactLayout::new(PLANE, self.boundary.contact().len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.boundary.contact().len()).square();
         same_length("instantaneous operator", matrix.len(), size)?;
-        self.boundary.compliance(&prepared.mobility, matrix);
+        self.boundary.compliance(&prepared.mobility.columns, matrix);
         Ok(())
     }
 
     fn history(&mut self, displacement: &mut [f64]) -> Result<()> {
         let Some(prepared) = &mut self.prepared else { return Err(NOT_PREPARED) };
-        if self.conflict.get() {
-            return Err(TWO_MOTIONS);
+        if self.has_two_motions.get() {
+            return Err(TWO_GROUND_MOTIONS);
         }
-        let places = self.boundary.places();
-        same_length("displacement of the history", displacement.len(), places.clone().count())?;
+        let indices = self.boundary.places();
+        same_length("displacement of the history", displacement.len(), indices.clone().count())?;
         prepared.advance(&self.boundary, self.incident.as_deref())?;
-        for (value, place) in displacement.iter_mut().zip(places) {
-            *value = prepared.free[place];
+        for (value, index) in displacement.iter_mut().zip(indices) {
+            *value = prepared.history_displacement[index];
         }
         Ok(())
     }
@@ -296,40 +297,45 @@ impl Ground for FullPlaneGround {
     /// has the static limit of the same boundary equation (not symmetric).
     fn static_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let elements = self.elements();
-        let size = ContactLayout::new(PLANE, elements.len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, elements.len()).square();
         same_length("static compliance", matrix.len(), size)?;
         if self.boundary.is_flat() {
             return StaticKernel::under(self.soil, elements)?.compliance(elements, matrix);
         }
-        let datum = 10.0 * (elements[elements.len() - 1].right() - elements[0].left());
-        static_compliance(self.soil, &self.boundary, datum, matrix)
+        let contact_length = elements[elements.len() - 1].right() - elements[0].left();
+        let reference_length = 10.0 * contact_length;
+        static_compliance(self.soil, &self.boundary, reference_length, matrix)
     }
 
     /// The incident field at the midpoints if there is one; otherwise the scene's motion.
     ///
     /// Both together are an error: the values are then not finite, and the next history returns an error.
     fn free_field(&self, motion: &dyn FreeField, time: f64, displacement: &mut [f64]) {
-        let (contact, segments) = (self.boundary.contact(), self.boundary.segments());
-        let [down, along] = ContactLayout::new(PLANE, contact.len()).split_mut(displacement);
+        let contact = self.boundary.contact();
+        let segments = self.boundary.segments();
+        let [down, along] =
+            ContactLayout::new(COMPONENTS_IN_PLANE, contact.len()).split_mut(displacement);
         for ((&e, down), along) in contact.iter().zip(down).zip(along) {
             let center = segments[e].center();
-            let [horizontal, vertical] = motion.displacement(center[0], time);
-            (*along, *down) = (horizontal, -vertical);
-            if let Some(field) = &self.incident {
-                let moves = horizontal != 0.0 || vertical != 0.0;
-                if moves {
-                    self.conflict.set(true);
-                }
+            let scene = motion.displacement(center[0], time);
+            let Some(field) = &self.incident else {
+                // The record is positive up, the contact component down.
+                *along = scene[0];
+                *down = -scene[1];
+                continue;
+            };
+            if scene == [0.0; 2] {
                 [*along, *down] = field.displacement(center, time);
-                if moves {
-                    (*along, *down) = (f64::NAN, f64::NAN);
-                }
+            } else {
+                self.has_two_motions.set(true);
+                [*along, *down] = [f64::NAN; 2];
             }
         }
     }
 }
 
-const TWO_MOTIONS: Error = Error::Scene {
+/// A scene's ground motion together with an incident field.
+const TWO_GROUND_MOTIONS: Error = Error::Scene {
     quantity: "ground motion",
-    needed: "none in the scene: the full-plane ground has an incident field of its own",
+    needed: "none in the scene: the full-plane ground has an incident field",
 };

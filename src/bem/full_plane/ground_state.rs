@@ -1,85 +1,89 @@
 //! State of a full-plane ground between two steps.
 
+use super::boundary::Mobility;
 use super::convolution::BoundaryHistory;
 use super::{Boundary, BoundaryKernel, IncidentField};
 use crate::error::{Result, same_length};
-use crate::linalg::{DenseFactor, dense_multiply_add};
+use crate::linalg::dense_multiply_add;
 
-/// Convolutions and operators for one time step.
-pub(super) struct Prepared {
+/// Convolutions and operators of a boundary for one time step.
+pub(super) struct PreparedBoundary {
     pub(super) history: BoundaryHistory,
     time_step: f64,
-    /// H⁰.
-    factor: DenseFactor,
-    /// G⁰, where an incident field loads the boundary.
-    first: Vec<f64>,
-    /// Displacement of every element due to a unit traction on each contact component: 2Q columns of length
-    /// 2E.
-    pub(super) mobility: Vec<f64>,
+    /// G⁰; empty unless an incident field loads the boundary.
+    first_g: Vec<f64>,
+    /// Displacements of all elements due to unit tractions on the contact elements.
+    pub(super) mobility: Mobility,
     /// Displacements at the end of the next step if the contact tractions of that step are zero.
-    pub(super) free: Vec<f64>,
-    /// Whether `free` belongs to the next step.
-    current: bool,
+    pub(super) history_displacement: Vec<f64>,
+    /// Whether `history_displacement` belongs to the next step.
+    is_advanced: bool,
     pub(super) displacement: Vec<f64>,
     /// Tractions that cancel the tractions of the incident field, applied by the scattered field.
     scattering: Vec<f64>,
     traction: Vec<f64>,
 }
 
-impl Prepared {
+impl PreparedBoundary {
+    /// Boundary at rest.
     pub(super) fn new(
         boundary: &Boundary,
         kernel: Box<dyn BoundaryKernel>,
         time_step: f64,
-        incident: bool,
+        has_incident_field: bool,
     ) -> Result<Self> {
-        let (count, layout) = (boundary.segments().len(), boundary.layout());
+        let count = boundary.segments().len();
+        let layout = boundary.layout();
         same_length("elements of the boundary kernel", kernel.segments().len(), count)?;
         let size = layout.len();
-        let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
+        let mut g = vec![0.0; layout.square()];
+        let mut h = vec![0.0; layout.square()];
         kernel.coefficients(0, &mut g, &mut h)?;
-        let (factor, mobility) = boundary.mobility(&g, &h)?;
-        let mut loaded = vec![incident; size];
-        boundary.places().for_each(|place| loaded[place] = true);
+        let mobility = boundary.mobility(&g, &h)?;
+        let mut loaded = vec![has_incident_field; size];
+        for place in boundary.places() {
+            loaded[place] = true;
+        }
         Ok(Self {
             history: BoundaryHistory::new(kernel, &loaded),
             time_step,
-            factor,
-            first: if incident { g } else { Vec::new() },
+            first_g: if has_incident_field { g } else { Vec::new() },
             mobility,
-            free: vec![0.0; size],
-            current: false,
+            history_displacement: vec![0.0; size],
+            is_advanced: false,
             displacement: vec![0.0; size],
             scattering: vec![0.0; size],
             traction: vec![0.0; size],
         })
     }
 
-    /// Computes `free` for the next step.
+    /// Computes `history_displacement` for the next step.
     pub(super) fn advance(
         &mut self,
         boundary: &Boundary,
         incident: Option<&dyn IncidentField>,
     ) -> Result<()> {
-        if self.current {
+        if self.is_advanced {
             return Ok(());
         }
-        self.history.evaluate(&mut self.free)?;
+        self.history.evaluate(&mut self.history_displacement)?;
         if let Some(field) = incident {
             let time = (self.history.steps() as f64 + 0.5) * self.time_step;
-            scattering(boundary, field, time, &mut self.scattering);
-            dense_multiply_add(&self.first, 1.0, &self.scattering, &mut self.free);
+            fill_scattering(boundary, field, time, &mut self.scattering);
+            let displacement = &mut self.history_displacement;
+            dense_multiply_add(&self.first_g, 1.0, &self.scattering, displacement);
         }
-        self.factor.solve(&mut self.free);
-        self.current = true;
+        self.mobility.factor.solve(&mut self.history_displacement);
+        self.is_advanced = true;
         Ok(())
     }
 
+    /// Accepts the contact tractions (2Q, Pa) of a step.
     pub(super) fn commit(&mut self, boundary: &Boundary, traction: &[f64]) {
-        self.displacement.copy_from_slice(&self.free);
+        self.displacement.copy_from_slice(&self.history_displacement);
         self.traction.copy_from_slice(&self.scattering);
-        let columns = self.mobility.chunks_exact(self.displacement.len()).zip(boundary.places());
-        for (k, (column, place)) in columns.enumerate() {
+        let columns = self.mobility.columns.chunks_exact(self.displacement.len());
+        for (k, (column, place)) in columns.zip(boundary.places()).enumerate() {
             let value = traction.get(k).copied().unwrap_or(0.0);
             self.traction[place] += value;
             for (u, m) in self.displacement.iter_mut().zip(column) {
@@ -87,17 +91,22 @@ impl Prepared {
             }
         }
         self.history.push(&self.displacement, &self.traction);
-        self.current = false;
+        self.is_advanced = false;
     }
 }
 
-/// Minus the tractions of the incident field at the midpoints.
-fn scattering(boundary: &Boundary, field: &dyn IncidentField, time: f64, out: &mut [f64]) {
-    let [along, down] = boundary.layout().split_mut(out);
-    for ((segment, x), z) in boundary.segments().iter().zip(along).zip(down) {
+/// Overwrites `tractions` with minus the tractions of the incident field at the midpoints.
+fn fill_scattering(
+    boundary: &Boundary,
+    field: &dyn IncidentField,
+    time: f64,
+    tractions: &mut [f64],
+) {
+    let layout = boundary.layout();
+    for (element, segment) in boundary.segments().iter().enumerate() {
         let [xx, zz, xz] = field.stress(segment.center(), time);
         let n = segment.normal();
-        *x = -(xx * n[0] + xz * n[1]);
-        *z = -(xz * n[0] + zz * n[1]);
+        tractions[layout.place(0, element)] = -(xx * n[0] + xz * n[1]);
+        tractions[layout.place(1, element)] = -(xz * n[0] + zz * n[1]);
     }
 }

@@ -35,10 +35,10 @@ pub(super) struct LaplacePlane {
     pub(super) weights: [f64; 2],
     shear_modulus: f64,
     /// λ/μ.
-    lame: f64,
+    lame_ratio: f64,
 }
 
-/// ψ, χ, rψ' and rχ'.
+/// ψ, χ, rψ' and rχ' at one distance.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Radial {
     pub(super) psi: Complex64,
@@ -47,12 +47,17 @@ pub(super) struct Radial {
     pub(super) chi_slope: Complex64,
 }
 
-/// Displacements and tractions at a point.
-pub(super) type Pair = ([[Complex64; 2]; 2], [[Complex64; 2]; 2]);
+/// Displacements and tractions at a point: `[i][j]`, component i due to a load j.
+pub(super) struct PointKernels {
+    pub(super) displacement: [[Complex64; 2]; 2],
+    pub(super) traction: [[Complex64; 2]; 2],
+}
 
 impl LaplacePlane {
+    /// The plane at the Laplace variable `s`.
     pub(super) fn new(soil: Soil, s: Complex64) -> Self {
-        let (fast, slow) = (soil.pressure_wave_speed(), soil.shear_wave_speed());
+        let fast = soil.pressure_wave_speed();
+        let slow = soil.shear_wave_speed();
         let unit = 1.0 / (2.0 * PI * soil.density());
         let nu = soil.poisson();
         Self {
@@ -60,30 +65,32 @@ impl LaplacePlane {
             shear: s / slow,
             weights: [unit / (fast * fast), unit / (slow * slow)],
             shear_modulus: soil.shear_modulus(),
-            lame: 2.0 * nu / (1.0 - 2.0 * nu),
+            lame_ratio: 2.0 * nu / (1.0 - 2.0 * nu),
         }
     }
 
+    /// Radial functions at the distance `r` from the load.
     pub(super) fn radial(&self, r: f64) -> Radial {
         let z = self.shear * r;
         let regular = z.norm() <= SERIES_REACH;
         let shear = modified(z, regular);
         let pressure = modified(self.pressure * r, regular);
-        let [fast, slow] = self.weights;
+        let fast = self.weights[0];
+        let slow = self.weights[1];
         let psi = slow * (shear.zeroth + shear.quotient) - fast * pressure.quotient;
         let chi = slow * (shear.zeroth + 2.0 * shear.quotient)
             - fast * (pressure.zeroth + 2.0 * pressure.quotient);
-        let front = slow * shear.product;
+        let shear_product = slow * shear.product;
         Radial {
             psi,
             chi,
-            psi_slope: -front - chi,
-            chi_slope: -2.0 * chi - front + fast * pressure.product,
+            psi_slope: -shear_product - chi,
+            chi_slope: -2.0 * chi - shear_product + fast * pressure.product,
         }
     }
 
-    /// `u[i][j]` and `t[i][j]`, components i at `offset` with unit normal `normal`, load j.
-    pub(super) fn kernels(&self, offset: [f64; 2], normal: [f64; 2]) -> Pair {
+    /// Displacements at `offset` from the load, and tractions on the plane with this unit normal.
+    pub(super) fn kernels(&self, offset: [f64; 2], normal: [f64; 2]) -> PointKernels {
         let r = offset[0].hypot(offset[1]);
         let e = [offset[0] / r, offset[1] / r];
         let f = self.radial(r);
@@ -92,19 +99,19 @@ impl LaplacePlane {
         let shear = scale * (f.psi_slope - f.chi);
         let chi = 2.0 * scale * f.chi;
         let triple = 2.0 * (chi - scale * f.chi_slope) * along;
-        let pressure = self.lame * (shear - scale * f.chi_slope);
+        let pressure = self.lame_ratio * (shear - scale * f.chi_slope);
         let mut u = [[Complex64::default(); 2]; 2];
         let mut t = u;
         for i in 0..2 {
             for j in 0..2 {
-                let (same, delta) =
-                    if i == j { (f.psi, along) } else { (Complex64::default(), 0.0) };
-                u[i][j] = same - f.chi * (e[i] * e[j]);
-                t[i][j] = shear * (delta + e[i] * normal[j]) + pressure * (e[j] * normal[i])
+                let psi_delta = if i == j { f.psi } else { Complex64::default() };
+                let along_delta = if i == j { along } else { 0.0 };
+                u[i][j] = psi_delta - f.chi * (e[i] * e[j]);
+                t[i][j] = shear * (along_delta + e[i] * normal[j]) + pressure * (e[j] * normal[i])
                     - chi * (normal[i] * e[j])
                     + triple * (e[i] * e[j]);
             }
         }
-        (u, t)
+        PointKernels { displacement: u, traction: t }
     }
 }

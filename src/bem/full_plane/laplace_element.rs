@@ -1,9 +1,9 @@
 //! Laplace-domain integrals over a straight element, seen from a collocation point.
 //!
 //! The element is x(ξ) = ξ t + d m from the point, a ≤ ξ ≤ b. The integrands are analytic except at ξ = ±i d,
-//! and decay or oscillate like e^{−s r/c}. Pieces are halved until a Gauss rule has all digits. Over the
-//! point's own element only the logarithm remains, because tractions are odd and vanish on a straight line.
-//! The power series of the logarithm is integrated exactly.
+//! and decay or oscillate like e^{−s r/c}. Pieces are halved until a Gauss rule has all digits. On the element around
+//! the point only the logarithm remains, because tractions are odd and vanish on a straight line. The power series of
+//! the logarithm is integrated exactly.
 
 use super::bessel::{Complex64, SERIES_REACH, series};
 use super::laplace::LaplacePlane;
@@ -11,93 +11,104 @@ use crate::linalg::gauss;
 
 /// An element relative to a collocation point at the origin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct View {
-    /// Ends of the element, (x, z), m.
-    pub(super) from: [f64; 2],
-    pub(super) to: [f64; 2],
+pub(super) struct ElementView {
+    /// First end of the element, (x, z), m.
+    pub(super) start: [f64; 2],
+    /// Second end of the element, (x, z), m.
+    pub(super) end: [f64; 2],
     /// Whether the point is the midpoint of this element.
-    pub(super) own: bool,
+    pub(super) is_self: bool,
 }
 
 /// Coefficients of one view: `g` xx, xz, zx, zz, then `h` in the same order, without the free term.
-pub(super) type Block = [Complex64; 8];
+pub(super) type ViewBlock = [Complex64; 8];
 
-/// A straight element in its own coordinates.
+/// A straight element in coordinates along and across it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
-    /// ξ of both ends.
+pub(super) struct ElementLine {
+    /// ξ of the first end.
     pub(super) low: f64,
+    /// ξ of the second end.
     pub(super) high: f64,
-    /// Unit vector along the line, and outward normal, (x, z).
+    /// Unit vector along the line, (x, z).
     pub(super) along: [f64; 2],
+    /// Outward normal, (x, z).
     pub(super) normal: [f64; 2],
     /// Offset of the line from the point along the normal.
-    pub(super) aside: f64,
+    pub(super) height: f64,
 }
 
-impl View {
-    pub(super) fn line(&self) -> Line {
-        let ([x, z], [to_x, to_z]) = (self.from, self.to);
-        let length = (to_x - x).hypot(to_z - z);
-        let along = [(to_x - x) / length, (to_z - z) / length];
+impl ElementView {
+    /// The element in coordinates along and across it.
+    pub(super) fn line(&self) -> ElementLine {
+        let start = self.start;
+        let step = [self.end[0] - start[0], self.end[1] - start[1]];
+        let length = step[0].hypot(step[1]);
+        let along = [step[0] / length, step[1] / length];
         let normal = [along[1], -along[0]];
-        if self.own {
-            return Line { low: -0.5 * length, high: 0.5 * length, along, normal, aside: 0.0 };
+        if self.is_self {
+            let high = 0.5 * length;
+            return ElementLine { low: -0.5 * length, high, along, normal, height: 0.0 };
         }
-        let low = x * along[0] + z * along[1];
-        Line { low, high: low + length, along, normal, aside: x * normal[0] + z * normal[1] }
+        let low = start[0] * along[0] + start[1] * along[1];
+        let height = start[0] * normal[0] + start[1] * normal[1];
+        ElementLine { low, high: low + length, along, normal, height }
     }
 
     /// Largest distance between the point and the element.
     pub(super) fn reach(&self) -> f64 {
-        self.from[0].hypot(self.from[1]).max(self.to[0].hypot(self.to[1]))
+        self.start[0].hypot(self.start[1]).max(self.end[0].hypot(self.end[1]))
     }
 }
 
-impl Line {
+impl ElementLine {
     /// Offset of the point ξ.
     pub(super) fn offset(&self, xi: f64) -> [f64; 2] {
-        [0, 1].map(|i| xi * self.along[i] + self.aside * self.normal[i])
+        [0, 1].map(|i| xi * self.along[i] + self.height * self.normal[i])
     }
 }
 
 /// Integrals over the element of `view` of displacements and tractions at one s.
-pub(super) fn integrate(plane: &LaplacePlane, view: &View) -> Block {
+pub(super) fn integrate(plane: &LaplacePlane, view: &ElementView) -> ViewBlock {
     let line = view.line();
-    let mut block = Block::default();
-    if view.own {
-        add_own(plane, &line, &mut block);
+    let mut block = ViewBlock::default();
+    if view.is_self {
+        add_self_integrals(plane, &line, &mut block);
     } else {
-        add_pieces(line.low, line.high, line.aside, plane, |xi, weight| {
-            let (u, t) = plane.kernels(line.offset(xi), line.normal);
+        add_pieces(line.low, line.high, line.height, plane, |xi, weight| {
+            let kernels = plane.kernels(line.offset(xi), line.normal);
             // The load acts at the collocation point: the block of h is the transpose of the traction.
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                block[2 * i + j] += u[i][j] * weight;
-                block[4 + 2 * i + j] += t[j][i] * weight;
+                block[2 * i + j] += kernels.displacement[i][j] * weight;
+                block[4 + 2 * i + j] += kernels.traction[j][i] * weight;
             }
         });
     }
     block
 }
 
-/// Integrates over both halves of the point's own element: the logarithm by its series, the rest by pieces.
-fn add_own(plane: &LaplacePlane, line: &Line, block: &mut Block) {
+/// Adds the integrals over the element around the point, twice over one half.
+///
+/// The logarithm is integrated by its series, the rest by pieces.
+fn add_self_integrals(plane: &LaplacePlane, line: &ElementLine, block: &mut ViewBlock) {
     let end = line.high;
     let near = end.min(SERIES_REACH / plane.shear.norm());
-    let [fast, slow] = plane.weights;
-    let [shear, shear_rest] = series(plane.shear * near, true);
-    let [pressure, pressure_rest] = series(plane.pressure * near, true);
-    let mut psi = near * (slow * (shear + shear_rest) - fast * pressure_rest);
-    let mut chi =
-        near * (slow * (shear + 2.0 * shear_rest) - fast * (pressure + 2.0 * pressure_rest));
+    let fast = plane.weights[0];
+    let slow = plane.weights[1];
+    let shear = series(plane.shear * near, true);
+    let pressure = series(plane.pressure * near, true);
+    let mut psi = near * (slow * (shear.zeroth + shear.kappa) - fast * pressure.kappa);
+    let mut chi = near
+        * (slow * (shear.zeroth + 2.0 * shear.kappa)
+            - fast * (pressure.zeroth + 2.0 * pressure.kappa));
     add_pieces(near, end, 0.0, plane, |xi, weight| {
         let radial = plane.radial(xi);
         psi += radial.psi * weight;
         chi += radial.chi * weight;
     });
     for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-        let same = if i == j { psi } else { Complex64::default() };
-        block[2 * i + j] += 2.0 * (same - chi * (line.along[i] * line.along[j]));
+        let psi_delta = if i == j { psi } else { Complex64::default() };
+        block[2 * i + j] += 2.0 * (psi_delta - chi * (line.along[i] * line.along[j]));
     }
 }
 
@@ -105,29 +116,30 @@ fn add_own(plane: &LaplacePlane, line: &Line, block: &mut Block) {
 fn add_pieces(
     low: f64,
     high: f64,
-    aside: f64,
+    height: f64,
     plane: &LaplacePlane,
     mut add: impl FnMut(f64, f64),
 ) {
     let wave_number = plane.shear.norm();
-    let mut waiting = vec![(low, high)];
-    while let Some((low, high)) = waiting.pop() {
-        let half = 0.5 * (high - low);
+    let mut pieces = vec![(low, high)];
+    while let Some((low, high)) = pieces.pop() {
+        let half_length = 0.5 * (high - low);
         let nearest = if low <= 0.0 && high >= 0.0 { 0.0 } else { low.abs().min(high.abs()) };
-        if half <= 0.0 || plane.pressure.re * nearest.hypot(aside) > NOTHING {
+        let decay = plane.pressure.re * nearest.hypot(height);
+        if half_length <= 0.0 || decay > NEGLIGIBLE_EXPONENT {
             continue;
         }
-        let reach =
-            gauss::reach([0.0, aside], low, high).min(exponential_reach(wave_number * half));
+        let reach = gauss::reach([0.0, height], low, high)
+            .min(exponential_reach(wave_number * half_length));
         match gauss::rule_for(reach) {
             Some(rule) => {
                 for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-                    add(low + half * (1.0 + node), half * weight);
+                    add(low + half_length * (1.0 + node), half_length * weight);
                 }
             }
-            None if half > 1e-14 * nearest.max(low.abs()) => {
-                waiting.push((low, low + half));
-                waiting.push((low + half, high));
+            None if half_length > 1e-14 * nearest.max(low.abs()) => {
+                pieces.push((low, low + half_length));
+                pieces.push((low + half_length, high));
             }
             // The point lies on the element but is not its midpoint: this integral does not exist.
             None => {}
@@ -135,8 +147,8 @@ fn add_pieces(
     }
 }
 
-/// Exponents above which contributions are negligible.
-const NOTHING: f64 = 50.0;
+/// Smallest decay exponent of negligible contributions.
+const NEGLIGIBLE_EXPONENT: f64 = 50.0;
 
 /// The reach for which [`gauss::rule_for`] selects a rule that also integrates e^{qx} on [−1, 1].
 ///

@@ -20,86 +20,97 @@
 //! Δt·k(nΔt) at relative order n^{−2} and more, BDF1 at n^{−1} where A₁ matters (tractions).
 
 use super::cq_method::CqMethod;
-use super::laplace_element::View;
+use super::laplace_element::ElementView;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
 /// Number of terms k: A has degree 2k along an element, and the largest Gauss rule is exact to degree 51.
-pub(super) const TERMS: usize = 26;
+pub(super) const LOG_TERM_COUNT: usize = 26;
 
-/// A_k R^{−2k} of one view, in the order of [`Block`](super::laplace_element::Block).
-pub(super) type LogTerms = [[f64; 8]; TERMS];
+/// A_k R^{−2k} of one view, in the order of [`ViewBlock`](super::laplace_element::ViewBlock).
+pub(super) type LogTerms = [[f64; 8]; LOG_TERM_COUNT];
 
 /// Coefficients of s^{2k} ln s; lengths in units of `unit`, and times in units of `unit`/c₂.
 ///
 /// With I₀ and I₁/z of the factors ln s in K₀ → −I₀ and K₁/z → I₁/z, ψ = Σ p_k (s r)^{2k} and
 /// χ = Σ q_k (s r)^{2k}; r^{2k−2} x_i x_j and similar terms are polynomials on the element.
-pub(super) fn log_terms(soil: Soil, view: &View, unit: f64) -> LogTerms {
+pub(super) fn log_terms(soil: Soil, view: &ElementView, unit: f64) -> LogTerms {
     let line = view.line();
-    let (p, q) = radial_terms(soil);
-    let (center, half) = (0.5 * (line.low + line.high), 0.5 * (line.high - line.low));
+    let radial = radial_terms(soil);
+    let center = 0.5 * (line.low + line.high);
+    let half_length = 0.5 * (line.high - line.low);
     let nu = soil.poisson();
-    let lame = 2.0 * nu / (1.0 - 2.0 * nu);
+    let lame_ratio = 2.0 * nu / (1.0 - 2.0 * nu);
     let rule = gauss::largest();
-    let mut terms = [[0.0; 8]; TERMS];
+    let mut terms = [[0.0; 8]; LOG_TERM_COUNT];
     for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
-        let x = line.offset(center + half * node);
+        let x = line.offset(center + half_length * node);
         let square = (x[0] * x[0] + x[1] * x[1]) / (unit * unit);
         let n = line.normal;
         let along = x[0] * n[0] + x[1] * n[1];
-        let weight = weight * half;
+        let weight = weight * half_length;
         // (r/R)^{2k} and (r/R)^{2k−2}.
-        let (mut power, mut lower) = (1.0, 0.0);
+        let mut power = 1.0;
+        let mut lower = 0.0;
         for (k, term) in terms.iter_mut().enumerate() {
-            let twice = (2 * k) as f64;
-            let (p, q) = (p[k], q[k]);
+            let two_k = (2 * k) as f64;
+            let p = radial.p[k];
+            let q = radial.q[k];
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let delta = if i == j { 1.0 } else { 0.0 };
-                let both = x[i] * x[j] / (unit * unit);
-                term[2 * i + j] += weight * (p * delta * power - q * lower * both);
-                if view.own || k == 0 {
+                let product = x[i] * x[j] / (unit * unit);
+                term[2 * i + j] += weight * (p * delta * power - q * lower * product);
+                if view.is_self || k == 0 {
                     continue;
                 }
                 // Traction j on the element from load i at the point.
                 let scale = weight * soil.shear_modulus() / (unit * unit);
-                let mut value = (twice * p - q) * (delta * along + x[j] * n[i])
+                let mut value = (two_k * p - q) * (delta * along + x[j] * n[i])
                     - 2.0 * q * n[j] * x[i]
-                    + lame * (twice * (p - q) - q) * x[i] * n[j];
+                    + lame_ratio * (two_k * (p - q) - q) * x[i] * n[j];
                 // 4(1−k) q_k r^{2k−4} x_i x_j x_n vanishes for k = 1.
                 if k > 1 {
-                    value += (4.0 - 2.0 * twice) * q * along * both / square;
+                    value += (4.0 - 2.0 * two_k) * q * along * product / square;
                 }
                 term[4 + 2 * i + j] += scale * lower * value;
             }
-            (lower, power) = (power, power * square);
+            lower = power;
+            power *= square;
         }
     }
     terms
 }
 
 /// `p_k` and `q_k` for powers of s r/c₂: (s r/c₂)^{2k}.
-fn radial_terms(soil: Soil) -> ([f64; TERMS], [f64; TERMS]) {
+struct RadialTerms {
+    p: [f64; LOG_TERM_COUNT],
+    q: [f64; LOG_TERM_COUNT],
+}
+
+/// Coefficients of the radial functions of a soil.
+fn radial_terms(soil: Soil) -> RadialTerms {
     let ratio = soil.speed_ratio_squared();
     let slow = soil.shear_wave_speed();
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density() * slow * slow);
-    let (mut p, mut q) = ([0.0; TERMS], [0.0; TERMS]);
+    let mut terms = RadialTerms { p: [0.0; LOG_TERM_COUNT], q: [0.0; LOG_TERM_COUNT] };
     // 1/(4^k k!²) and (c₂/c₁)^{2k+2}.
-    let (mut scale, mut power) = (unit, ratio);
-    for k in 0..TERMS {
+    let mut scale = unit;
+    let mut power = ratio;
+    for k in 0..LOG_TERM_COUNT {
         let next = (k + 1) as f64;
-        p[k] = scale * (0.5 * (1.0 - power) / next - 1.0);
+        terms.p[k] = scale * (0.5 * (1.0 - power) / next - 1.0);
         // 1/((k−1)!(k+1)!) = k/((k+1) k!²), from I₂.
-        q[k] = -scale * (1.0 - power) * k as f64 / next;
+        terms.q[k] = -scale * (1.0 - power) * k as f64 / next;
         scale /= 4.0 * next * next;
         power *= ratio;
     }
-    (p, q)
+    terms
 }
 
-/// [ζⁿ] (ρδ)^{2k} ln δ for all k, n > 2·TERMS·2.
-pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; TERMS] {
+/// [ζⁿ] (ρδ)^{2k} ln δ for all k, and n above four times [`LOG_TERM_COUNT`].
+pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; LOG_TERM_COUNT] {
     let n = lag as f64;
-    let mut weights = [0.0; TERMS];
+    let mut weights = [0.0; LOG_TERM_COUNT];
     match method {
         CqMethod::Bdf1 => {
             let mut power = -1.0 / n;
@@ -112,7 +123,7 @@ pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; TERMS] {
         }
         CqMethod::Bdf2 => {
             // (ρ(1−ζ))^m ln(1−ζ)
-            let mut powers = [0.0; 4 * TERMS];
+            let mut powers = [0.0; 4 * LOG_TERM_COUNT];
             let mut power = -1.0 / n;
             for (m, entry) in powers.iter_mut().enumerate() {
                 *entry = power;
@@ -133,7 +144,7 @@ pub(super) fn weights(method: CqMethod, lag: usize, rho: f64) -> [f64; TERMS] {
 
 /// First lag at which the closed form has all digits, for distances up to ρ c₂ Δt.
 pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
-    let mut lag = 8 * TERMS;
+    let mut lag = 8 * LOG_TERM_COUNT;
     while !is_late(method, lag, rho) {
         lag += 8 + lag / 16;
     }
@@ -141,8 +152,9 @@ pub(super) fn first_lag(method: CqMethod, rho: f64) -> usize {
 }
 
 /// Minus the logarithm of a negligible contribution.
-const NEGLIGIBLE: f64 = 37.0;
+const NEGLIGIBLE_EXPONENT: f64 = 37.0;
 
+/// Whether the closed form has all digits at `lag`.
 fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
     let n = lag as f64;
     if n <= 1.5 * rho {
@@ -161,6 +173,7 @@ fn is_late(method: CqMethod, lag: usize, rho: f64) -> bool {
     };
     // Last term of the series relative to the first: the largest A_k is below 1/(4^k k!²).
     let weights = weights(method, lag, rho);
-    let factor: f64 = (1..TERMS).map(|k| 0.25 / (k * k) as f64).product();
-    front > NEGLIGIBLE && (weights[TERMS - 1] * factor).abs() < 1e-17 * weights[0].abs()
+    let factor: f64 = (1..LOG_TERM_COUNT).map(|k| 0.25 / (k * k) as f64).product();
+    front > NEGLIGIBLE_EXPONENT
+        && (weights[LOG_TERM_COUNT - 1] * factor).abs() < 1e-17 * weights[0].abs()
 }

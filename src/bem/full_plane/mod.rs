@@ -15,8 +15,8 @@
 //!
 //! # No proof
 //!
-//! Nothing proves that this soil never gives energy: the table below shows where it does. It is for boundaries of other
-//! shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
+//! The soil of this method is not proved passive: the table below shows where it creates energy. The method is for
+//! boundaries of other shapes, such as hills and valleys. For walls below a flat surface, the weights around a trench
 #![cfg_attr(feature = "embedded", doc = "([`TrenchGround`](crate::bem::embedded::TrenchGround))")]
 //! are passive at every time step and mesh, by proof.
 //!
@@ -80,22 +80,21 @@ mod segment;
 mod smooth_integrals;
 mod stability;
 mod stability_symbol;
+mod stability_tail;
 mod stability_zeros;
 mod static_limit;
 mod step_integrals;
 mod time_kernel;
-mod vertical_waves;
 
 pub use boundary::Boundary;
 pub use boundary_march::{BoundaryMarch, Given};
 pub use convolution_quadrature::ConvolutionQuadrature;
 pub use cq_method::CqMethod;
 pub use ground::FullPlaneGround;
-pub use incident_field::IncidentField;
+pub use incident_field::{IncidentField, VerticalWaves};
 pub use segment::Segment;
 pub use stability::Stability;
 pub use time_kernel::TimeKernel;
-pub use vertical_waves::VerticalWaves;
 
 use crate::error::Result;
 

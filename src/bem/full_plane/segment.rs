@@ -33,20 +33,22 @@ impl Segment {
 
     /// Unit normal (x, z) pointing out of the soil: (0, −1) on a flat surface.
     pub fn normal(&self) -> [f64; 2] {
-        let [along, down] = self.direction();
-        [down, -along]
+        let direction = self.direction();
+        [direction[1], -direction[0]]
     }
 
     /// Distance (m) of a point (x, z) from the element.
     fn distance(&self, point: [f64; 2]) -> f64 {
-        let (d, n, y) = (self.direction(), self.normal(), self.center());
+        let d = self.direction();
+        let n = self.normal();
+        let y = self.center();
         let offset = [point[0] - y[0], point[1] - y[1]];
         let along = (offset[0] * d[0] + offset[1] * d[1]).abs() - 0.5 * self.length();
         along.max(0.0).hypot(offset[0] * n[0] + offset[1] * n[1])
     }
 }
 
-/// Bytes for each pair of elements: eight dense operators of 2 × 2 numbers.
+/// Memory for each pair of elements, bytes: eight dense operators of 2 × 2 numbers.
 const BYTES_PER_PAIR: f64 = 256.0;
 
 /// Error if the operators between so many elements would not fit into memory.
@@ -70,9 +72,10 @@ pub(super) fn check_segments(segments: &[Segment]) -> Result<()> {
     for (q, source) in segments.iter().enumerate() {
         for (p, receiver) in segments.iter().enumerate() {
             let distance = source.distance(receiver.center());
-            let apart = p == q || distance >= 1e-6 * source.length().min(receiver.length());
+            let min_distance = 1e-6 * source.length().min(receiver.length());
             let quantity = "distance of a boundary element from the midpoint of another";
-            require(quantity, distance, apart, "at least 1e-6 of the shorter")?;
+            let fits = p == q || distance >= min_distance;
+            require(quantity, distance, fits, "at least 1e-6 of the shorter")?;
         }
     }
     Ok(())

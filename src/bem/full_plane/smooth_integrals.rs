@@ -9,26 +9,44 @@
 //!
 //! These do not contain r, so the element under the load needs no special treatment.
 
-use super::step_integrals::{Integrals, Medium};
+use super::step_integrals::{SegmentIntegrals, WaveConstants};
 use crate::linalg::gauss;
 use crate::linalg::gauss::Rule;
 
 /// Waves that have passed the element.
 #[derive(Clone, Copy, PartialEq)]
-enum Passed {
+enum PassedWaves {
     None,
     Pressure,
     Both,
 }
 
-/// Response to an impulse at (`s`, `h`).
-fn impulse(medium: &Medium, s: f64, h: f64, time: f64, both: bool) -> Integrals {
-    let [c1, c2] = medium.speeds;
+/// Rules of one element and step.
+struct SmoothRules {
+    passed: PassedWaves,
+    space: &'static Rule,
+    time: &'static Rule,
+}
+
+/// Response to an impulse at (`s`, `h`) after one wave or `both` have passed.
+fn impulse_response(
+    waves: &WaveConstants,
+    s: f64,
+    h: f64,
+    time: f64,
+    both: bool,
+) -> SegmentIntegrals {
+    let c1 = waves.speeds[0];
+    let c2 = waves.speeds[1];
     let square = s * s + h * h;
-    let (t1, t2) = (c1 * time, c2 * time);
+    let t1 = c1 * time;
+    let t2 = c2 * time;
     let r1 = (t1 * t1 - square).sqrt();
     let q1 = -1.0 / (c1 * r1 * r1 * r1);
-    let (d, l, q2, w);
+    let d;
+    let l;
+    let q2;
+    let w;
     if both {
         let r2 = (t2 * t2 - square).sqrt();
         let sums = [t1 + r1, t2 + r2];
@@ -43,81 +61,88 @@ fn impulse(medium: &Medium, s: f64, h: f64, time: f64, both: bool) -> Integrals 
         l = 1.0 / (c1 * r1);
         w = (8.0 * d + 2.0 * q1) / square;
     }
-    let middle = 0.5 * (l - square * d);
-    let lame = medium.lame;
-    Integrals {
-        displacement: [middle + d * s * s, d * s * h, middle + d * h * h],
+    let isotropic_part = 0.5 * (l - square * d);
+    let lame_ratio = waves.lame_ratio;
+    SegmentIntegrals {
+        displacement: [isotropic_part + d * s * s, d * s * h, isotropic_part + d * h * h],
         traction: [
             [(2.0 * d - q2) * h - w * s * s * h, (2.0 * d - q2) * s - w * s * h * h],
             [
-                (2.0 * d - lame * q1) * s - w * s * h * h,
-                (6.0 * d - 2.0 * q2 - lame * q1) * h - w * h * h * h,
+                (2.0 * d - lame_ratio * q1) * s - w * s * h * h,
+                (6.0 * d - 2.0 * q2 - lame_ratio * q1) * h - w * h * h * h,
             ],
         ],
     }
 }
 
 /// Rules in space and time; `None` if the rectangle is too near to a front.
-fn rules(
-    medium: &Medium,
+fn smooth_rules(
+    waves: &WaveConstants,
     ends: [f64; 2],
     h: f64,
     begin: f64,
     end: f64,
-) -> Option<(Passed, [&'static Rule; 2])> {
-    let far = ends[0].abs().max(ends[1].abs()).hypot(h);
-    let near = if ends[0] <= 0.0 && ends[1] >= 0.0 {
+) -> Option<SmoothRules> {
+    let largest_distance = ends[0].abs().max(ends[1].abs()).hypot(h);
+    let smallest_distance = if ends[0] <= 0.0 && ends[1] >= 0.0 {
         h.abs()
     } else {
         ends[0].abs().min(ends[1].abs()).hypot(h)
     };
-    let mut passed = Passed::None;
-    let (mut space, mut time) = (f64::INFINITY, f64::INFINITY);
-    for (c, which) in medium.speeds.into_iter().zip([Passed::Pressure, Passed::Both]) {
-        if c * end <= near {
+    let mut passed = PassedWaves::None;
+    // The singularities nearest to the intervals determine the rules.
+    let mut space_reach = f64::INFINITY;
+    let mut time_reach = f64::INFINITY;
+    let passed_by_wave = [PassedWaves::Pressure, PassedWaves::Both];
+    for (c, passed_with_wave) in waves.speeds.into_iter().zip(passed_by_wave) {
+        if c * end <= smallest_distance {
             break;
         }
-        if c * begin <= far {
+        if c * begin <= largest_distance {
             return None;
         }
-        passed = which;
+        passed = passed_with_wave;
         let front = ((c * begin - h.abs()) * (c * begin + h.abs())).sqrt();
         for point in [front, -front] {
-            space = space.min(gauss::reach([point, 0.0], ends[0], ends[1]));
+            space_reach = space_reach.min(gauss::reach([point, 0.0], ends[0], ends[1]));
         }
-        time = time.min(gauss::reach([far / c, 0.0], begin, end));
+        time_reach = time_reach.min(gauss::reach([largest_distance / c, 0.0], begin, end));
     }
-    if passed == Passed::Pressure {
-        space = space.min(gauss::reach([0.0, h], ends[0], ends[1]));
+    if passed == PassedWaves::Pressure {
+        space_reach = space_reach.min(gauss::reach([0.0, h], ends[0], ends[1]));
     }
-    if passed == Passed::None {
+    if passed == PassedWaves::None {
         // Any rule integrates zero.
-        return Some((passed, [gauss::largest(); 2]));
+        return Some(SmoothRules { passed, space: gauss::largest(), time: gauss::largest() });
     }
-    Some((passed, [gauss::rule_for(space)?, gauss::rule_for(time)?]))
+    let space = gauss::rule_for(space_reach)?;
+    let time = gauss::rule_for(time_reach)?;
+    Some(SmoothRules { passed, space, time })
 }
 
-/// Integrals over the element for an impulse spread over the times from `begin` to `end`.
+/// Integrals over the element for an impulse spread between two times.
 ///
 /// `None` if a front is inside or near.
 pub(super) fn smooth_integrals(
-    medium: &Medium,
+    waves: &WaveConstants,
     ends: [f64; 2],
     h: f64,
-    [begin, end]: [f64; 2],
-) -> Option<Integrals> {
-    let (passed, [space, time]) = rules(medium, ends, h, begin, end)?;
-    let mut sum = Integrals::default();
-    if passed == Passed::None {
+    times: [f64; 2],
+) -> Option<SegmentIntegrals> {
+    let rules = smooth_rules(waves, ends, h, times[0], times[1])?;
+    let mut sum = SegmentIntegrals::default();
+    if rules.passed == PassedWaves::None {
         return Some(sum);
     }
-    let (half, width) = (0.5 * (ends[1] - ends[0]), 0.5 * (end - begin));
-    for (x, weight) in time.nodes.iter().zip(&time.weights) {
-        let t = begin + width * (1.0 + x);
-        for (y, other) in space.nodes.iter().zip(&space.weights) {
-            let s = ends[0] + half * (1.0 + y);
-            let value = impulse(medium, s, h, t, passed == Passed::Both);
-            sum.add(half * width * weight * other, &value);
+    let both = rules.passed == PassedWaves::Both;
+    let half_length = 0.5 * (ends[1] - ends[0]);
+    let half_step = 0.5 * (times[1] - times[0]);
+    for (x, time_weight) in rules.time.nodes.iter().zip(&rules.time.weights) {
+        let time = times[0] + half_step * (1.0 + x);
+        for (y, space_weight) in rules.space.nodes.iter().zip(&rules.space.weights) {
+            let s = ends[0] + half_length * (1.0 + y);
+            let value = impulse_response(waves, s, h, time, both);
+            sum.add(half_length * half_step * time_weight * space_weight, &value);
         }
     }
     Some(sum)

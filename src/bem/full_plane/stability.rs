@@ -6,7 +6,7 @@
 //! growth factor 1/|ζ| per step. Zeros are counted by the argument principle on circles (F has no poles
 //! there, since its coefficients do not grow), and the smallest modulus is found by bisection.
 
-use super::stability_symbol::Symbol;
+use super::stability_symbol::BoundarySymbol;
 use super::stability_zeros::smallest_zero;
 use super::{BoundaryCondition, BoundaryKernel};
 use crate::error::{Result, require};
@@ -65,11 +65,11 @@ impl Stability {
         conditions: &[BoundaryCondition],
         smallest_growth: f64,
     ) -> Result<Self> {
-        Self::from_symbol(&Symbol::new(kernel, conditions)?, smallest_growth)
+        Self::from_symbol(&BoundarySymbol::new(kernel, conditions)?, smallest_growth)
     }
 
     /// Stability of a boundary equation with this symbol.
-    pub(super) fn from_symbol(symbol: &Symbol, smallest_growth: f64) -> Result<Self> {
+    pub(super) fn from_symbol(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Self> {
         let fits = (1e-7..=0.5).contains(&smallest_growth);
         require("growth looked for", smallest_growth, fits, "between 1e-7 and 0.5 per step")?;
         let found = smallest_zero(symbol, smallest_growth)?;

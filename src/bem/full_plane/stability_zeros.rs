@@ -2,27 +2,31 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::stability_symbol::Symbol;
+use super::stability_symbol::BoundarySymbol;
 use crate::error::{Error, Result};
 use crate::linalg::DenseFactor;
 use realfft::num_complex::Complex64;
 
 /// Initial number of points on the whole circle.
-const POINTS: usize = 1024;
+const CIRCLE_POINT_COUNT: usize = 1024;
 
 /// Largest phase change of the determinant between neighbours, rad; above, more points are inserted.
-const TURN: f64 = 0.7;
+const MAX_PHASE_CHANGE: f64 = 0.7;
 
 /// Largest number of halvings of the distance between neighbours.
-const HALVINGS: u32 = 24;
+const MAX_ARC_HALVINGS: u32 = 24;
 
 /// Largest number of halvings of ln |ζ| in the search for the smallest zero.
-const BISECTIONS: usize = 30;
+const MAX_BISECTIONS: usize = 30;
 
-/// Half width of the bracket over its middle: below `COARSE` the secant method is tried, below `FINE` the
-/// search ends.
-const COARSE: f64 = 0.25;
-const FINE: f64 = 0.01;
+/// Half width of the bracket over its middle, below which the secant method is tried.
+const SECANT_BRACKET_WIDTH: f64 = 0.25;
+
+/// Half width of the bracket over its middle, below which the search ends.
+const FINAL_BRACKET_WIDTH: f64 = 0.01;
+
+/// ln of the largest growth factor that is searched for.
+const MAX_LOG_GROWTH: f64 = 4.0;
 
 /// Zeros inside a circle: their number, and the smallest.
 pub(super) struct Zeros {
@@ -33,8 +37,8 @@ pub(super) struct Zeros {
 }
 
 /// Counts zeros with 1/|ζ| > 1 + `smallest_growth` and finds the smallest one.
-pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zeros> {
-    let mut search = Search {
+pub(super) fn smallest_zero(symbol: &BoundarySymbol, smallest_growth: f64) -> Result<Zeros> {
+    let mut search = ZeroSearch {
         symbol,
         factor: DenseFactor::with_capacity(symbol.order()),
         sum: vec![],
@@ -42,48 +46,66 @@ pub(super) fn smallest_zero(symbol: &Symbol, smallest_growth: f64) -> Result<Zer
     };
     // At ζ = 0 the operator equals the operator of lag 0.
     search.log_determinant(Complex64::default())?;
-    let (count, mut seed) = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
+    let circle = search.zeros_inside(1.0 / (1.0 + smallest_growth))?;
+    let count = circle.count;
     if count == 0 {
         return Ok(Zeros { count, zero: None });
     }
-    let (mut low, mut high) = (-LARGEST_GROWTH, -smallest_growth.ln_1p());
-    for _ in 0..BISECTIONS {
+    let mut seed = circle.fastest_point;
+    let mut low = -MAX_LOG_GROWTH;
+    let mut high = -smallest_growth.ln_1p();
+    for _ in 0..MAX_BISECTIONS {
         let middle = 0.5 * (low + high);
-        let (inside, near) = search.zeros_inside(middle.exp())?;
-        if inside == 0 {
-            (low, seed) = (middle, near);
+        let circle = search.zeros_inside(middle.exp())?;
+        if circle.count == 0 {
+            low = middle;
+            seed = circle.fastest_point;
         } else {
             high = middle;
         }
         // The secant method starts on the inner circle, at the angle where the phase of the determinant
         // changes fastest.
         let width = (high - low) / (low + high).abs();
-        if width < COARSE
+        if width < SECANT_BRACKET_WIDTH
             && let Some(zero) = search.secant(seed)
             && search.is_smallest(zero)?
         {
             return Ok(Zeros { count, zero: Some(zero) });
         }
-        if width < FINE {
+        if width < FINAL_BRACKET_WIDTH {
             break;
         }
     }
     // Several zeros of nearly the same modulus, or a multiple zero: return the bracket's middle.
-    let size = (0.5 * (low + high)).exp();
-    Ok(Zeros { count, zero: Some(Complex64::from_polar(size, seed.arg())) })
+    let modulus = (0.5 * (low + high)).exp();
+    Ok(Zeros { count, zero: Some(Complex64::from_polar(modulus, seed.arg())) })
 }
 
-/// ln of the largest growth factor that is searched for.
-const LARGEST_GROWTH: f64 = 4.0;
+/// Result of the argument principle for a circle.
+struct CircleZeros {
+    /// Number of zeros inside.
+    count: usize,
+    /// Point of the circle where the phase of det F changes fastest: nearest to a zero.
+    fastest_point: Complex64,
+}
 
-struct Search<'a> {
-    symbol: &'a Symbol<'a>,
+/// Angle at which the phase of the determinant changes fastest.
+#[derive(Default)]
+struct FastestPhase {
+    /// Phase change per radian.
+    rate: f64,
+    angle: f64,
+}
+
+/// Evaluates the determinant of a symbol, with buffers.
+struct ZeroSearch<'a> {
+    symbol: &'a BoundarySymbol<'a>,
     factor: DenseFactor<Complex64>,
     sum: Vec<Complex64>,
     operator: Vec<Complex64>,
 }
 
-impl Search<'_> {
+impl ZeroSearch<'_> {
     /// ln det F at one ζ.
     fn log_determinant(&mut self, zeta: Complex64) -> Result<Complex64> {
         self.symbol.at(zeta, &mut self.sum)?;
@@ -91,73 +113,82 @@ impl Search<'_> {
         log_determinant(&mut self.factor, &self.operator, self.symbol.order())
     }
 
-    /// Number of zeros in |ζ| < `radius`, and the point of the circle nearest to a zero.
+    /// Counts the zeros in |ζ| < `radius`.
     ///
-    /// At this point the phase of det F changes fastest. F is real on the real axis, so half the circle is
-    /// enough.
-    fn zeros_inside(&mut self, radius: f64) -> Result<(usize, Complex64)> {
-        let operators = self.symbol.operators_on(radius, POINTS);
-        let (factor, order) = (&mut self.factor, self.symbol.order());
+    /// F is real on the real axis, so half the circle is enough.
+    fn zeros_inside(&mut self, radius: f64) -> Result<CircleZeros> {
+        let operators = self.symbol.operators_on(radius, CIRCLE_POINT_COUNT);
+        let factor = &mut self.factor;
+        let order = self.symbol.order();
         let values = operators.iter().map(|operator| log_determinant(factor, operator, order));
         let values: Vec<_> = values.collect::<Result<_>>()?;
-        let step = TAU / POINTS as f64;
-        let (mut turn, mut fastest) = (0.0, (0.0, 0.0));
-        for (k, ends) in values.windows(2).enumerate() {
+        let step = TAU / CIRCLE_POINT_COUNT as f64;
+        let mut phase = 0.0;
+        let mut fastest = FastestPhase::default();
+        for (k, pair) in values.windows(2).enumerate() {
             let angle = step * k as f64;
-            turn +=
-                self.turn(radius, [angle, angle + step], [ends[0], ends[1]], 0, &mut fastest)?;
+            let angles = [angle, angle + step];
+            phase += self.phase_change(radius, angles, [pair[0], pair[1]], 0, &mut fastest)?;
         }
-        let count = (turn / PI).round();
+        let half_turns = (phase / PI).round();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counted")]
-        let count = if count > 0.0 { count as usize } else { 0 };
-        Ok((count, Complex64::from_polar(radius, fastest.1)))
+        let count = if half_turns > 0.0 { half_turns as usize } else { 0 };
+        let fastest_point = Complex64::from_polar(radius, fastest.angle);
+        Ok(CircleZeros { count, fastest_point })
     }
 
-    /// Phase change of the determinant between two angles; halves the interval until the change is
-    /// unambiguous.
-    fn turn(
+    /// Phase change of the determinant between two angles.
+    ///
+    /// Halves the interval until the change is unambiguous.
+    fn phase_change(
         &mut self,
         radius: f64,
         angles: [f64; 2],
         values: [Complex64; 2],
         depth: u32,
-        fastest: &mut (f64, f64),
+        fastest: &mut FastestPhase,
     ) -> Result<f64> {
-        let turn = wrapped(values[1].im - values[0].im);
-        let quiet = turn.abs() < TURN && (values[1].re - values[0].re).abs() < 2.0 * TURN;
-        if quiet || depth == HALVINGS {
-            let rate = turn.abs() / (angles[1] - angles[0]);
-            if rate > fastest.0 {
-                *fastest = (rate, 0.5 * (angles[0] + angles[1]));
-            }
-            return Ok(turn);
-        }
+        let phase_change = wrapped_angle(values[1].im - values[0].im);
+        let modulus_change = values[1].re - values[0].re;
+        let is_unambiguous =
+            phase_change.abs() < MAX_PHASE_CHANGE && modulus_change.abs() < 2.0 * MAX_PHASE_CHANGE;
         let middle = 0.5 * (angles[0] + angles[1]);
+        if is_unambiguous || depth == MAX_ARC_HALVINGS {
+            let rate = phase_change.abs() / (angles[1] - angles[0]);
+            if rate > fastest.rate {
+                *fastest = FastestPhase { rate, angle: middle };
+            }
+            return Ok(phase_change);
+        }
         let value = self.log_determinant(Complex64::from_polar(radius, middle))?;
-        Ok(self.turn(radius, [angles[0], middle], [values[0], value], depth + 1, fastest)?
-            + self.turn(radius, [middle, angles[1]], [value, values[1]], depth + 1, fastest)?)
+        let first = [angles[0], middle];
+        let second = [middle, angles[1]];
+        Ok(self.phase_change(radius, first, [values[0], value], depth + 1, fastest)?
+            + self.phase_change(radius, second, [value, values[1]], depth + 1, fastest)?)
     }
 
     /// Zero of det F near `seed` by the secant method.
     fn secant(&mut self, seed: Complex64) -> Option<Complex64> {
-        let (mut before, mut now) = (seed, seed * (1.0 + 1e-4));
-        let reference = self.log_determinant(before).ok()?;
-        let mut value_before = Complex64::new(1.0, 0.0);
+        let mut previous = seed;
+        let mut zeta = seed * (1.0 + 1e-4);
+        let reference = self.log_determinant(previous).ok()?;
+        let mut previous_value = Complex64::new(1.0, 0.0);
         for _ in 0..40 {
-            // If a pivot is zero, `now` is the zero of the determinant.
-            let Ok(log) = self.log_determinant(now) else { return Some(now) };
+            // If a pivot is zero, `zeta` is the zero of the determinant.
+            let Ok(log) = self.log_determinant(zeta) else { return Some(zeta) };
             let value = (log - reference).exp();
-            let change = (now - before) * value / (value - value_before);
+            let change = (zeta - previous) * value / (value - previous_value);
             if !change.is_finite() {
                 return None;
             }
-            (before, value_before) = (now, value);
-            now -= change;
-            if now.norm() >= 1.0 {
+            previous = zeta;
+            previous_value = value;
+            zeta -= change;
+            if zeta.norm() >= 1.0 {
                 return None;
             }
             if change.norm() < 1e-11 {
-                return Some(now);
+                return Some(zeta);
             }
         }
         None
@@ -166,7 +197,7 @@ impl Search<'_> {
     /// Whether `zero` is a zero, and no other is smaller by more than a thousandth.
     fn is_smallest(&mut self, zero: Complex64) -> Result<bool> {
         let margin = 1e-3 * (1.0 - zero.norm());
-        Ok(self.zeros_inside(zero.norm() - margin)?.0 == 0)
+        Ok(self.zeros_inside(zero.norm() - margin)?.count == 0)
     }
 }
 
@@ -184,6 +215,6 @@ fn log_determinant(
 }
 
 /// Reduces an angle to (−π, π].
-fn wrapped(angle: f64) -> f64 {
+fn wrapped_angle(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }

@@ -4,36 +4,46 @@
 //! L₁ + L₂ to −(c₁⁻²+c₂⁻²) ln(r/L₀), L₀ a length that no static plane fixes.
 
 use super::Boundary;
-use super::pair_classes::PairClasses;
+use super::pair_classes::SegmentPairClasses;
 use crate::error::Result;
 use crate::soil::Soil;
 
 /// The primitives of displacement (dd, dn, nn; 1/2πρ) and traction (μ/2πρ) at one end.
-fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7] {
+///
+/// `slowness_squared` is c₁⁻² and c₂⁻², `reference_length` is L₀.
+fn primitive(
+    slowness_squared: [f64; 2],
+    lame_ratio: f64,
+    s: f64,
+    h: f64,
+    reference_length: f64,
+) -> [f64; 7] {
     let r = s.hypot(h);
-    let d = 0.5 * (square[1] - square[0]);
-    let growth = -(square[0] + square[1]);
-    let log = (r / datum).ln();
+    let d = 0.5 * (slowness_squared[1] - slowness_squared[0]);
+    let growth = -(slowness_squared[0] + slowness_squared[1]);
+    let logarithm = (r / reference_length).ln();
     let angle = if h == 0.0 { 0.0 } else { (s / h).atan() };
-    let logs = s * log - s + h * angle;
-    let middle = 0.5 * (growth * logs - d * s);
-    let dd = middle + d * (s - h * angle);
-    let nn = middle + d * h * angle;
-    let dn = d * h * log;
-    // ∫ h/r², s/r², s h²/r⁴, h³/r⁴; D and Q are constants.
-    let (one, two) = (angle, log);
-    let three = -0.5 * (h / r).powi(2);
-    let four = 0.5 * (h * s / (r * r) + angle);
-    let bend = 8.0 * d + 2.0 * (square[0] - square[1]);
-    let across = 2.0 * d * two - bend * three;
+    let logarithm_integral = s * logarithm - s + h * angle;
+    let isotropic_part = 0.5 * (growth * logarithm_integral - d * s);
+    let dd = isotropic_part + d * (s - h * angle);
+    let nn = isotropic_part + d * h * angle;
+    let dn = d * h * logarithm;
+    // D and Q are constants, so these integrals give the tractions.
+    let h_over_r2 = angle;
+    let s_over_r2 = logarithm;
+    let sh2_over_r4 = -0.5 * (h / r).powi(2);
+    let h3_over_r4 = 0.5 * (h * s / (r * r) + angle);
+    let dyadic_factor = 8.0 * d + 2.0 * (slowness_squared[0] - slowness_squared[1]);
+    let shear_part = 2.0 * d * s_over_r2 - dyadic_factor * sh2_over_r4;
     [
         dd,
         dn,
         nn,
-        (2.0 * d - square[1]) * one - bend * (one - four),
-        across - square[1] * two,
-        across - lame * square[0] * two,
-        (6.0 * d - 2.0 * square[1] - lame * square[0]) * one - bend * four,
+        (2.0 * d - slowness_squared[1]) * h_over_r2 - dyadic_factor * (h_over_r2 - h3_over_r4),
+        shear_part - slowness_squared[1] * s_over_r2,
+        shear_part - lame_ratio * slowness_squared[0] * s_over_r2,
+        (6.0 * d - 2.0 * slowness_squared[1] - lame_ratio * slowness_squared[0]) * h_over_r2
+            - dyadic_factor * h3_over_r4,
     ]
 }
 
@@ -43,48 +53,59 @@ fn primitive(square: [f64; 2], lame: f64, s: f64, h: f64, datum: f64) -> [f64; 7
 pub(super) fn static_compliance(
     soil: Soil,
     boundary: &Boundary,
-    datum: f64,
+    reference_length: f64,
     matrix: &mut [f64],
 ) -> Result<()> {
-    let (segments, layout) = (boundary.segments(), boundary.layout());
-    let square = [soil.pressure_wave_speed(), soil.shear_wave_speed()].map(|c| 1.0 / (c * c));
-    let lame = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
+    let segments = boundary.segments();
+    let layout = boundary.layout();
+    let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
+    let slowness_squared = speeds.map(|c| 1.0 / (c * c));
+    let lame_ratio = 2.0 * soil.poisson() / (1.0 - 2.0 * soil.poisson());
     let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
-    let (mut g, mut h) = (vec![0.0; layout.square()], vec![0.0; layout.square()]);
-    PairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |ends, height| {
-        let [low, high] = ends.map(|s| primitive(square, lame, s, height, datum));
-        let at = |k: usize| unit * (high[k] - low[k]);
+    let mut g = vec![0.0; layout.square()];
+    let mut h = vec![0.0; layout.square()];
+    SegmentPairClasses::new(segments).fill(segments, &mut g, &mut h, 0.5, |view| {
+        let at_ends = view
+            .ends
+            .map(|s| primitive(slowness_squared, lame_ratio, s, view.height, reference_length));
+        let mut integrals = [0.0; 7];
+        for (k, integral) in integrals.iter_mut().enumerate() {
+            *integral = unit * (at_ends[1][k] - at_ends[0][k]);
+        }
+        let [dd, dn, nn, t_dd, t_dn, t_nd, t_nn] = integrals;
         let mu = soil.shear_modulus();
-        [[[at(0), at(1)], [at(1), at(2)]], [[mu * at(3), mu * at(5)], [mu * at(4), mu * at(6)]]]
+        [[[dd, dn], [dn, nn]], [[mu * t_dd, mu * t_nd], [mu * t_dn, mu * t_nn]]]
     });
-    let (_, mobility) = boundary.mobility(&g, &h)?;
-    boundary.compliance(&mobility, matrix);
+    let mobility = boundary.mobility(&g, &h)?;
+    boundary.compliance(&mobility.columns, matrix);
     Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bem::full_plane::step_integrals::{Medium, step_integrals};
+    use crate::bem::full_plane::step_integrals::{WaveConstants, step_integrals};
 
     /// Response to a load that was switched on long ago, without its growth in time.
     #[test]
-    fn a_held_load_tends_to_the_static_limit() {
+    fn a_constant_load_leads_to_the_static_limit() {
         let soil = Soil::new(1.0, 0.2, 1.0).unwrap();
         let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
-        let square = speeds.map(|c| 1.0 / (c * c));
-        let medium = Medium { speeds, lame: 0.4 / 0.6 };
+        let slowness_squared = speeds.map(|c| 1.0 / (c * c));
+        let waves = WaveConstants { speeds, lame_ratio: 0.4 / 0.6 };
         for (ends, h) in [([0.3, 1.1], 0.0), ([-0.4, 0.9], 0.6), ([1.0, 2.0], -0.5)] {
-            let [low, high] = ends.map(|s| primitive(square, medium.lame, s, h, 1.0));
-            let late = step_integrals(&medium, ends, h, 1e4);
+            let at_ends = ends.map(|s| primitive(slowness_squared, waves.lame_ratio, s, h, 1.0));
+            let late = step_integrals(&waves, ends, h, 1e4);
             let t = late.traction.as_flattened();
-            let [dd, dn, nn] = late.displacement;
+            let u = late.displacement;
             // ½ Σ c⁻² ln(2 c t) of each displacement.
-            let growth: f64 = (0..2).map(|k| 0.5 * square[k] * (2e4 * speeds[k]).ln()).sum();
-            let rise = growth * (ends[1] - ends[0]);
-            let found = [dd - rise, dn, nn - rise, t[0], t[1], t[2], t[3]];
+            let growth: f64 =
+                (0..2).map(|k| 0.5 * slowness_squared[k] * (2e4 * speeds[k]).ln()).sum();
+            let growth_integral = growth * (ends[1] - ends[0]);
+            let found =
+                [u[0] - growth_integral, u[1], u[2] - growth_integral, t[0], t[1], t[2], t[3]];
             for k in 0..7 {
-                let wanted = high[k] - low[k];
+                let wanted = at_ends[1][k] - at_ends[0][k];
                 assert!((found[k] - wanted).abs() < 2e-7, "{ends:?} {k}: {} {wanted}", found[k]);
             }
         }

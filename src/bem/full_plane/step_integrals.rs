@@ -23,14 +23,14 @@ use std::f64::consts::FRAC_PI_2;
 
 /// Displacements and tractions integrated over an element, in its axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Integrals {
+pub(super) struct SegmentIntegrals {
     /// dd, dn = nd, nn; in units of 1/2πρ.
     pub(super) displacement: [f64; 3],
     /// `t[i][j]`: component i for a load j (d, n); in units of μ/2πρ.
     pub(super) traction: [[f64; 2]; 2],
 }
 
-impl Integrals {
+impl SegmentIntegrals {
     /// Adds `factor` times `other`.
     pub(super) fn add(&mut self, factor: f64, other: &Self) {
         for (a, b) in self.displacement.iter_mut().zip(other.displacement) {
@@ -45,11 +45,11 @@ impl Integrals {
 
 /// Constants of the soil in the kernel.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Medium {
+pub(super) struct WaveConstants {
     /// c₁, c₂.
     pub(super) speeds: [f64; 2],
     /// λ/μ.
-    pub(super) lame: f64,
+    pub(super) lame_ratio: f64,
 }
 
 /// Front of a wave at one end of the element.
@@ -59,20 +59,27 @@ struct Front {
     present: bool,
     /// Whether the wave has passed this end.
     covered: bool,
+    /// T.
     reach: f64,
+    /// R.
     root: f64,
+    /// arcosh(T/r).
     logarithm: f64,
+    /// asin(s/√(T²−h²)).
     arc: f64,
+    /// A.
     angle: f64,
 }
 
 impl Front {
     fn new(speed: f64, time: f64, s: f64, height: f64, r: f64) -> Self {
         let reach = speed * time;
-        let (present, covered) = (reach > height, r < reach);
+        let present = reach > height;
+        let covered = r < reach;
         if covered {
             let root = ((reach - r) * (reach + r)).sqrt();
-            let (arc, angle) = (s.atan2(root), (s * reach).atan2(height * root));
+            let arc = s.atan2(root);
+            let angle = (s * reach).atan2(height * root);
             return Self {
                 present,
                 covered,
@@ -98,9 +105,15 @@ fn arctangent_defect(y: f64) -> f64 {
     (0..26).rev().fold(0.0, |sum, k| 1.0 / f64::from(2 * k + 3) - square * sum)
 }
 
+/// Weighs the values of the two waves by ±1/c² and adds them.
+fn wave_difference(slowness_squared: [f64; 2], values: [f64; 2]) -> f64 {
+    slowness_squared[0] * values[0] - slowness_squared[1] * values[1]
+}
+
 /// `pole`, and (`pole` + s D)/2h.
 fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f64) -> [f64; 2] {
-    let [p, q] = fronts;
+    let p = &fronts[0];
+    let q = &fronts[1];
     let square = time * time;
     if !p.present {
         return [0.0; 2];
@@ -118,21 +131,25 @@ fn pole_terms(fronts: &[Front; 2], time: f64, s: f64, height: f64, r: f64, d: f6
         let w = height * slope;
         let defect = slope * w * slope * arctangent_defect(w);
         let pole = -(slope - height * height * slope * slope * slope * arctangent_defect(w));
-        let half = 0.5 * (defect - w / (r * r));
-        return [(square * pole).copysign_of(s), (square * half).copysign_of(s)];
+        let half_sum = 0.5 * (defect - w / (r * r));
+        return [(square * pole).copysign_of(s), (square * half_sum).copysign_of(s)];
     }
-    let (reaches, roots) = (p.reach * q.reach, p.root * q.root);
-    let below = height * height * roots + s * s * reaches;
+    let reach_product = p.reach * q.reach;
+    let root_product = p.root * q.root;
+    let denominator = height * height * root_product + s * s * reach_product;
     // −X of tan(A₁ − A₂) = h X; D = t² k/(q₁+q₂).
-    let x = -s * (r * r) * d * reaches / (square * below);
+    let x = -s * (r * r) * d * reach_product / (square * denominator);
     let y = height * x;
     let cubic = x * y * y * arctangent_defect(y);
     // T₁T₂ − R₁R₂ without cancellation.
-    let (u1, u2) = ((r / p.reach).powi(2), (r / q.reach).powi(2));
-    let lost = reaches * (u1 + u2 - u1 * u2) / (1.0 + roots / reaches);
+    let u1 = (r / p.reach).powi(2);
+    let u2 = (r / q.reach).powi(2);
+    let product_difference =
+        reach_product * (u1 + u2 - u1 * u2) / (1.0 + root_product / reach_product);
     let cubic_over_height = x * x * y * arctangent_defect(y);
-    let half = -0.5 * (square * cubic_over_height + s * d * height * lost / below);
-    [square * (x - cubic), half]
+    let half_sum =
+        -0.5 * (square * cubic_over_height + s * d * height * product_difference / denominator);
+    [square * (x - cubic), half_sum]
 }
 
 /// Changes the sign of `self` if the other number is negative.
@@ -147,71 +164,82 @@ impl CopySignOf for f64 {
 }
 
 /// The primitives at one end.
-fn primitive(medium: &Medium, s: f64, h: f64, time: f64) -> Integrals {
+fn primitive(waves: &WaveConstants, s: f64, h: f64, time: f64) -> SegmentIntegrals {
     let height = h.abs();
     let sign = if h == 0.0 { 0.0 } else { h.signum() };
     let r = s.hypot(height);
-    let fronts = medium.speeds.map(|c| Front::new(c, time, s, height, r));
-    let square = medium.speeds.map(|c| 1.0 / (c * c));
-    let both = |f: &dyn Fn(&Front) -> f64| square[0] * f(&fronts[0]) - square[1] * f(&fronts[1]);
+    let fronts = waves.speeds.map(|c| Front::new(c, time, s, height, r));
+    let slowness_squared = waves.speeds.map(|c| 1.0 / (c * c));
     let d = match (fronts[0].covered, fronts[1].covered) {
         (true, true) => {
             let q = fronts.map(|f| f.root / f.reach);
-            (square[1] - square[0]) / (q[0] + q[1])
+            (slowness_squared[1] - slowness_squared[0]) / (q[0] + q[1])
         }
-        (true, false) => square[0] * fronts[0].reach / r * (fronts[0].root / r),
+        (true, false) => slowness_squared[0] * fronts[0].reach / r * (fronts[0].root / r),
         _ => 0.0,
     };
-    let [pole, half_pole] = pole_terms(&fronts, time, s, height, r, d);
+    let pole_terms = pole_terms(&fronts, time, s, height, r, d);
+    let pole = pole_terms[0];
 
-    let angles = both(&|f| f.angle);
-    let arcs = both(&|f| f.reach * f.arc);
-    let logarithms = both(&|f| f.logarithm);
-    let zero = pole - arcs;
-    let two = 0.5 * (pole - s * d + height * angles) - arcs;
-    let one = 0.5 * h * (logarithms - d);
+    let angles = wave_difference(slowness_squared, fronts.map(|f| f.angle));
+    let arcs = wave_difference(slowness_squared, fronts.map(|f| f.reach * f.arc));
+    let logarithms = wave_difference(slowness_squared, fronts.map(|f| f.logarithm));
+    // ∫ D, ∫ D s²/r², ∫ D s h/r².
+    let d0 = pole - arcs;
+    let ds2 = 0.5 * (pole - s * d + height * angles) - arcs;
+    let dsh = 0.5 * h * (logarithms - d);
     let growth: f64 = (0..2)
         .map(|k| {
             let f = &fronts[k];
-            square[k] * (s * f.logarithm + f.reach * f.arc - height * f.angle)
+            slowness_squared[k] * (s * f.logarithm + f.reach * f.arc - height * f.angle)
         })
         .sum();
-    let middle = 0.5 * (growth - zero);
-    let displacement = [middle + two, one, middle + zero - two];
+    let isotropic_part = 0.5 * (growth - d0);
+    let displacement = [isotropic_part + ds2, dsh, isotropic_part + d0 - ds2];
 
-    // ∫ D h/r², ∫ D s/r², ∫ D s h²/r⁴, ∫ D h³/r⁴, and the same of Q.
-    let dh = sign * (half_pole - 0.5 * angles);
+    // ∫ D h/r², ∫ D s/r², ∫ D s h²/r⁴, ∫ D h³/r⁴.
+    let dh = sign * (pole_terms[1] - 0.5 * angles);
     let ds = 0.5 * (logarithms - d);
-    let share = (height / r).powi(2);
-    let bend = |f: &Front| share * f.root / f.reach + (height / f.reach).powi(2) * f.logarithm;
-    let dsh2 = -0.25 * share * d + 0.125 * both(&bend);
-    let side = height * s / (r * r);
-    let turned = both(&|f| (1.0 - (height / f.reach).powi(2)) * f.angle);
-    let dh3 = 0.75 * dh + 0.125 * sign * (side * (2.0 * d - both(&|f| f.root / f.reach)) + turned);
-    let qh = |k: usize| sign * square[k] * fronts[k].angle;
-    let qs = |k: usize| -square[k] * fronts[k].logarithm;
-    let qsh2 = -0.5 * both(&bend);
-    let thirds =
-        |f: &Front| 0.5 * (side * f.root / f.reach + (1.0 + (height / f.reach).powi(2)) * f.angle);
-    let qh3 = sign * both(&thirds);
-    let across = 2.0 * ds - 8.0 * dsh2 - 2.0 * qsh2;
+    let sin2 = (height / r).powi(2);
+    let sin_cos = height * s / (r * r);
+    let sh2 = fronts.map(|f| sin2 * f.root / f.reach + (height / f.reach).powi(2) * f.logarithm);
+    let sh2 = wave_difference(slowness_squared, sh2);
+    let dsh2 = -0.25 * sin2 * d + 0.125 * sh2;
+    let reduced_angles = fronts.map(|f| (1.0 - (height / f.reach).powi(2)) * f.angle);
+    let reduced_angles = wave_difference(slowness_squared, reduced_angles);
+    let root_ratios = wave_difference(slowness_squared, fronts.map(|f| f.root / f.reach));
+    let dh3 = 0.75 * dh + 0.125 * sign * (sin_cos * (2.0 * d - root_ratios) + reduced_angles);
+    // The same of Q₁, Q₂ and of Q₁ − Q₂.
+    let qh = [0, 1].map(|k| sign * slowness_squared[k] * fronts[k].angle);
+    let qs = [0, 1].map(|k| -slowness_squared[k] * fronts[k].logarithm);
+    let qsh2 = -0.5 * sh2;
+    let h3 = fronts
+        .map(|f| 0.5 * (sin_cos * f.root / f.reach + (1.0 + (height / f.reach).powi(2)) * f.angle));
+    let qh3 = sign * wave_difference(slowness_squared, h3);
+    let shear_part = 2.0 * ds - 8.0 * dsh2 - 2.0 * qsh2;
+    let lame_ratio = waves.lame_ratio;
     let traction = [
-        [2.0 * dh - qh(1) - 8.0 * (dh - dh3) - 2.0 * (qh(0) - qh(1) - qh3), across - qs(1)],
+        [2.0 * dh - qh[1] - 8.0 * (dh - dh3) - 2.0 * (qh[0] - qh[1] - qh3), shear_part - qs[1]],
         [
-            across - medium.lame * qs(0),
-            6.0 * dh - 2.0 * qh(1) - medium.lame * qh(0) - 8.0 * dh3 - 2.0 * qh3,
+            shear_part - lame_ratio * qs[0],
+            6.0 * dh - 2.0 * qh[1] - lame_ratio * qh[0] - 8.0 * dh3 - 2.0 * qh3,
         ],
     ];
-    Integrals { displacement, traction }
+    SegmentIntegrals { displacement, traction }
 }
 
 /// Integrals over s from `ends[0]` to `ends[1]` at signed height `h`, `time` after the load began.
 ///
 /// They are principal values where the load lies on the element (h = 0).
-pub(super) fn step_integrals(medium: &Medium, ends: [f64; 2], h: f64, time: f64) -> Integrals {
-    let mut out = primitive(medium, ends[1], h, time);
-    out.add(-1.0, &primitive(medium, ends[0], h, time));
-    out
+pub(super) fn step_integrals(
+    waves: &WaveConstants,
+    ends: [f64; 2],
+    h: f64,
+    time: f64,
+) -> SegmentIntegrals {
+    let mut integrals = primitive(waves, ends[1], h, time);
+    integrals.add(-1.0, &primitive(waves, ends[0], h, time));
+    integrals
 }
 
 #[cfg(test)]
@@ -222,12 +250,13 @@ mod tests {
     use crate::linalg::gauss;
 
     /// ∫ f from `low` to `high`, with square-root singularities at both ends.
-    fn between(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {
+    fn singular_integral(low: f64, high: f64, f: &dyn Fn(f64) -> [f64; 7]) -> [f64; 7] {
         let rule = gauss::largest();
         let mut sum = [0.0; 7];
         let pieces = 12;
         for k in 0..pieces {
-            let (a, b) = (f64::from(k) / f64::from(pieces), f64::from(k + 1) / f64::from(pieces));
+            let a = f64::from(k) / f64::from(pieces);
+            let b = f64::from(k + 1) / f64::from(pieces);
             for (node, weight) in rule.nodes.iter().zip(&rule.weights) {
                 // The substitution s = low + (high − low) sin²θ removes both singularities.
                 let theta = FRAC_PI_2 * (a + 0.5 * (b - a) * (1.0 + node));
@@ -244,13 +273,6 @@ mod tests {
     /// Integrals of an element and a step by quadrature of the fundamental solution between its fronts.
     fn by_quadrature(soil: Soil, ends: [f64; 2], h: f64, time: f64) -> [f64; 7] {
         let plane = FullPlane::new(soil);
-        let f = |s: f64| {
-            let [u, t] = [
-                plane.displacement([s, h], time, LoadHistory::Step).unwrap(),
-                plane.traction([s, h], [0.0, 1.0], time, LoadHistory::Step).unwrap(),
-            ];
-            [u[0][0], u[0][1], u[1][1], t[0][0], t[0][1], t[1][0], t[1][1]]
-        };
         let mut nodes = vec![ends[0], ends[1]];
         if h == 0.0 {
             nodes.push(0.0);
@@ -265,7 +287,11 @@ mod tests {
         nodes.sort_by(f64::total_cmp);
         let mut sum = [0.0; 7];
         for pair in nodes.windows(2) {
-            let part = between(pair[0], pair[1], &f);
+            let part = singular_integral(pair[0], pair[1], &|s| {
+                let u = plane.displacement([s, h], time, LoadHistory::Step).unwrap();
+                let t = plane.traction([s, h], [0.0, 1.0], time, LoadHistory::Step).unwrap();
+                [u[0][0], u[0][1], u[1][1], t[0][0], t[0][1], t[1][0], t[1][1]]
+            });
             sum.iter_mut().zip(part).for_each(|(a, b)| *a += b);
         }
         sum
@@ -276,7 +302,8 @@ mod tests {
         for poisson in [-0.3, 0.0, 0.25, 1.0 / 3.0, 0.48] {
             let soil = Soil::new(2.0, poisson, 1.3).unwrap();
             let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
-            let medium = Medium { speeds, lame: 2.0 * poisson / (1.0 - 2.0 * poisson) };
+            let lame_ratio = 2.0 * poisson / (1.0 - 2.0 * poisson);
+            let waves = WaveConstants { speeds, lame_ratio };
             let unit = 1.0 / (2.0 * std::f64::consts::PI * soil.density());
             for (ends, h) in [
                 ([-0.5, 0.5], 0.3),
@@ -289,13 +316,12 @@ mod tests {
                 ([1.0, 2.0], 1e-7),
             ] {
                 for time in [0.1, 0.3, 0.5, 0.8, 1.2, 2.0] {
-                    let found = step_integrals(&medium, ends, h, time);
-                    let [dd, dn, nn] = found.displacement.map(|v| v * unit);
-                    let t = found.traction.as_flattened();
-                    let wanted = by_quadrature(soil, ends, h, time);
+                    let integrals = step_integrals(&waves, ends, h, time);
+                    let u = integrals.displacement.map(|v| v * unit);
                     let scale = unit * soil.shear_modulus();
-                    let found =
-                        [dd, dn, nn, scale * t[0], scale * t[1], scale * t[2], scale * t[3]];
+                    let t = integrals.traction.map(|row| row.map(|v| scale * v));
+                    let found = [u[0], u[1], u[2], t[0][0], t[0][1], t[1][0], t[1][1]];
+                    let wanted = by_quadrature(soil, ends, h, time);
                     for k in 0..7 {
                         let size = if k < 3 { 0.5 } else { 1.0 };
                         assert!(

@@ -1,13 +1,13 @@
 //! Coefficients in time by the formulation of the paper, with exact integrals.
 
-use super::pair_classes::PairClasses;
+use super::pair_classes::SegmentPairClasses;
 use super::segment::check_segments;
 use super::smooth_integrals::smooth_integrals;
-use super::step_integrals::{Integrals, Medium, step_integrals};
+use super::step_integrals::{SegmentIntegrals, WaveConstants, step_integrals};
 use super::{BoundaryKernel, Segment};
 use crate::error::{Result, positive, require, same_length};
 use crate::fundamental::{FullPlane, FundamentalSolution, LoadHistory};
-use crate::geometry::{ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -36,12 +36,21 @@ use crate::soil::Soil;
 #[derive(Debug, Clone)]
 pub struct TimeKernel {
     segments: Vec<Segment>,
-    pairs: PairClasses,
+    pairs: SegmentPairClasses,
     soil: Soil,
-    medium: Medium,
+    waves: WaveConstants,
     time_step: f64,
-    /// Number of sub-elements, and points in each.
-    subelements: Option<[usize; 2]>,
+    /// Replaces exact integrals in space.
+    subelements: Option<SubelementRule>,
+}
+
+/// Gauss rule of equal sub-elements.
+#[derive(Debug, Clone, Copy)]
+struct SubelementRule {
+    /// Number of sub-elements.
+    count: usize,
+    /// Number of points of each.
+    points: usize,
 }
 
 impl TimeKernel {
@@ -56,12 +65,12 @@ impl TimeKernel {
         positive("time step", time_step)?;
         positive("shear wave travel in a step", soil.shear_wave_speed() * time_step)?;
         let poisson = soil.poisson();
-        let medium = Medium {
+        let waves = WaveConstants {
             speeds: [soil.pressure_wave_speed(), soil.shear_wave_speed()],
-            lame: 2.0 * poisson / (1.0 - 2.0 * poisson),
+            lame_ratio: 2.0 * poisson / (1.0 - 2.0 * poisson),
         };
-        let pairs = PairClasses::new(segments);
-        Ok(Self { segments: segments.to_vec(), pairs, soil, medium, time_step, subelements: None })
+        let pairs = SegmentPairClasses::new(segments);
+        Ok(Self { segments: segments.to_vec(), pairs, soil, waves, time_step, subelements: None })
     }
 
     /// Replaces exact integrals in space by midpoint rules over `count` sub-elements.
@@ -85,7 +94,7 @@ impl TimeKernel {
         let fits = (1..=8).contains(&points);
         require("number of Gauss points of a sub-element", points as f64, fits, "from 1 to 8")?;
         require("number of sub-elements", count as f64, count > 0, "at least 1")?;
-        self.subelements = Some([count, points]);
+        self.subelements = Some(SubelementRule { count, points });
         Ok(self)
     }
 
@@ -99,59 +108,68 @@ impl TimeKernel {
         self.time_step
     }
 
-    /// Integrals of one element over one step, in its axes.
-    fn local(&self, ends: [f64; 2], h: f64, lag: usize) -> Integrals {
-        let (begin, end) = (lag as f64 * self.time_step, (lag as f64 + 1.0) * self.time_step);
+    /// Integrals of one element over the step at `lag`, in its axes.
+    fn lag_integrals(&self, ends: [f64; 2], h: f64, lag: usize) -> SegmentIntegrals {
+        let begin = lag as f64 * self.time_step;
+        let end = (lag as f64 + 1.0) * self.time_step;
         if let Some(rule) = self.subelements {
-            return self.by_subelements(ends, h, [begin, end], rule);
+            return self.subelement_integrals(ends, h, [begin, end], rule);
         }
-        self.exact(ends, h, [begin, end])
+        self.exact_integrals(ends, h, [begin, end])
     }
 
-    fn exact(&self, ends: [f64; 2], h: f64, [begin, end]: [f64; 2]) -> Integrals {
-        if let Some(integrals) = smooth_integrals(&self.medium, ends, h, [begin, end]) {
+    /// Integrals between two times after the load began.
+    fn exact_integrals(&self, ends: [f64; 2], h: f64, times: [f64; 2]) -> SegmentIntegrals {
+        if let Some(integrals) = smooth_integrals(&self.waves, ends, h, times) {
             return integrals;
         }
-        let mut integrals = step_integrals(&self.medium, ends, h, end);
-        if begin > 0.0 {
-            integrals.add(-1.0, &step_integrals(&self.medium, ends, h, begin));
+        let mut integrals = step_integrals(&self.waves, ends, h, times[1]);
+        if times[0] > 0.0 {
+            integrals.add(-1.0, &step_integrals(&self.waves, ends, h, times[0]));
         }
         integrals
     }
 
-    fn by_subelements(
+    /// The same by Gauss rules; sub-elements next to the load remain exact.
+    fn subelement_integrals(
         &self,
         ends: [f64; 2],
         h: f64,
-        [begin, end]: [f64; 2],
-        [count, points]: [usize; 2],
-    ) -> Integrals {
-        let length = (ends[1] - ends[0]) / count as f64;
+        times: [f64; 2],
+        rule: SubelementRule,
+    ) -> SegmentIntegrals {
+        let length = (ends[1] - ends[0]) / rule.count as f64;
         // Positions and weights on a sub-element from −½ to ½.
-        let rule: Vec<[f64; 2]> = if points == 1 {
+        let points: Vec<[f64; 2]> = if rule.points == 1 {
             vec![[0.0, 1.0]]
         } else {
-            let gauss = gauss::rule(points);
+            let gauss = gauss::rule(rule.points);
             gauss.nodes.iter().zip(&gauss.weights).map(|(x, w)| [0.5 * x, 0.5 * w]).collect()
         };
-        let mut sum = Integrals::default();
-        for k in 0..count {
+        let mut sum = SegmentIntegrals::default();
+        for k in 0..rule.count {
             let first = ends[0] + k as f64 * length;
             let middle = first + 0.5 * length;
             if middle.hypot(h) < length {
-                sum.add(1.0, &self.exact([first, first + length], h, [begin, end]));
+                sum.add(1.0, &self.exact_integrals([first, first + length], h, times));
                 continue;
             }
-            for [place, weight] in &rule {
-                let offset = [middle + place * length, h];
-                self.add_point(&mut sum, weight * length, offset, [begin, end]);
+            for [position, weight] in &points {
+                let offset = [middle + position * length, h];
+                self.add_point(&mut sum, weight * length, offset, times);
             }
         }
         sum
     }
 
     /// Adds `length` times the integrands at a point.
-    fn add_point(&self, sum: &mut Integrals, length: f64, offset: [f64; 2], times: [f64; 2]) {
+    fn add_point(
+        &self,
+        sum: &mut SegmentIntegrals,
+        length: f64,
+        offset: [f64; 2],
+        times: [f64; 2],
+    ) {
         let plane = FullPlane::new(self.soil);
         let unit = 2.0 * std::f64::consts::PI * self.soil.density() * length;
         for (sign, time) in [(1.0, times[1]), (-1.0, times[0])] {
@@ -163,7 +181,7 @@ impl TimeKernel {
                 continue;
             };
             let t = t.map(|row| row.map(|t| t / self.soil.shear_modulus()));
-            let value = Integrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
+            let value = SegmentIntegrals { displacement: [u[0][0], u[0][1], u[1][1]], traction: t };
             sum.add(sign * unit, &value);
         }
     }
@@ -175,18 +193,18 @@ impl BoundaryKernel for TimeKernel {
     }
 
     fn coefficients(&self, lag: usize, g: &mut [f64], h: &mut [f64]) -> Result<()> {
-        let size = ContactLayout::new(PLANE, self.segments.len()).square();
+        let size = ContactLayout::new(COMPONENTS_IN_PLANE, self.segments.len()).square();
         same_length("displacement coefficients", g.len(), size)?;
         same_length("traction coefficients", h.len(), size)?;
         let unit = 1.0 / (2.0 * std::f64::consts::PI * self.soil.density());
         let scales = [unit, unit * self.soil.shear_modulus()];
         let free = if lag == 0 { 0.5 } else { 0.0 };
-        self.pairs.fill(&self.segments, g, h, free, |ends, height| {
-            let local = self.local(ends, height, lag);
-            let [dd, dn, nn] = local.displacement.map(|u| u * scales[0]);
-            let t = local.traction.map(|row| row.map(|t| t * scales[1]));
+        self.pairs.fill(&self.segments, g, h, free, |view| {
+            let integrals = self.lag_integrals(view.ends, view.height, lag);
+            let u = integrals.displacement.map(|u| u * scales[0]);
+            let t = integrals.traction.map(|row| row.map(|t| t * scales[1]));
             // The index of the boundary equation's load is the row.
-            [[[dd, dn], [dn, nn]], [[t[0][0], t[1][0]], [t[0][1], t[1][1]]]]
+            [[[u[0], u[1]], [u[1], u[2]]], [[t[0][0], t[1][0]], [t[0][1], t[1][1]]]]
         });
         Ok(())
     }

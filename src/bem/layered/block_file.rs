@@ -1,23 +1,25 @@
-//! Files of blocks of coefficients.
+//! Files of blocks of convolution weights.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::coefficients::{BLOCKS, Block};
+use super::lag_block::{LagBlock, MAX_BLOCK_COUNT};
 use crate::error::{FileFault, Result};
 use crate::text::check_sum::CheckSum;
 use crate::text::file::write_file;
 
-const MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
+/// First word of a kernel file.
+const FILE_MAGIC: u64 = u64::from_le_bytes(*b"BASEMATK");
 
 /// Version of the rule by which contours are sampled.
 ///
 /// 1: every point of the circles; 2: panels; 3: panels divided by powers of z; 4: only panels predicted as resolved; 5:
 /// integrals more accurate than the weights; 6: also in plan.
-const FORMAT: u64 = 6;
+const FILE_FORMAT: u64 = 6;
 
-const HEADER: usize = 5;
+/// Number of words before the weights.
+const HEADER_WORDS: usize = 5;
 
 /// The blocks of a file, in order; none without a file, or for another kernel or format.
 ///
@@ -26,73 +28,87 @@ const HEADER: usize = 5;
 pub(super) fn read(
     path: &Path,
     fingerprint: u64,
-    [classes, kinds]: [usize; 2],
-) -> Result<Vec<Block>> {
-    match contents(path, fingerprint, [classes, kinds]) {
+    classes: usize,
+    kinds: usize,
+) -> Result<Vec<LagBlock>> {
+    match contents(path, fingerprint, classes, kinds) {
         Err(FileFault::Unreadable(std::io::ErrorKind::NotFound)) => Ok(vec![]),
-        found => found.map_err(|fault| fault.of(path.display().to_string(), 0)),
+        outcome => outcome.map_err(|fault| fault.of(path.display().to_string(), 0)),
     }
 }
 
+/// Reads as [`read`], with faults that do not yet name the file.
 fn contents(
     path: &Path,
     fingerprint: u64,
-    [classes, kinds]: [usize; 2],
-) -> std::result::Result<Vec<Block>, FileFault> {
-    let unreadable = |error: std::io::Error| FileFault::Unreadable(error.kind());
+    classes: usize,
+    kinds: usize,
+) -> std::result::Result<Vec<LagBlock>, FileFault> {
     let mut file = File::open(path).map_err(unreadable)?;
-    let found = file.metadata().map_err(unreadable)?.len();
-    let mut begin = vec![];
-    file.by_ref().take(8 * HEADER as u64).read_to_end(&mut begin).map_err(unreadable)?;
+    let file_size = file.metadata().map_err(unreadable)?.len();
+    let mut header_bytes = vec![];
+    file.by_ref()
+        .take(8 * HEADER_WORDS as u64)
+        .read_to_end(&mut header_bytes)
+        .map_err(unreadable)?;
     let header: Vec<u64> =
-        begin.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
-    if header.first() != Some(&MAGIC) {
+        header_bytes.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect();
+    if header.first() != Some(&FILE_MAGIC) {
         return Err(FileFault::format(
             "other data",
             "convolution weights: the file is not written over",
         ));
     }
-    if header.get(1).is_some_and(|format| *format != FORMAT) {
+    if header.get(1).is_some_and(|format| *format != FILE_FORMAT) {
         return Ok(vec![]);
     }
-    let [_, _, whose, found_classes, blocks] = header[..] else {
-        return Err(wrong_length(found, None));
+    let [_magic, _format, stored_fingerprint, stored_classes, block_count] = header[..] else {
+        return Err(wrong_length(file_size, None));
     };
-    if whose != fingerprint || found_classes != classes as u64 {
+    if stored_fingerprint != fingerprint || stored_classes != classes as u64 {
         return Ok(vec![]);
     }
-    let blocks = usize::try_from(blocks).unwrap_or(usize::MAX);
-    let size = |blocks: usize| {
-        let lags: usize = (0..blocks).map(Block::lags).sum();
-        (HEADER + kinds * classes * lags + 1) as u64 * 8
-    };
-    let needed = (blocks <= BLOCKS).then(|| size(blocks));
-    if needed != Some(found) {
-        return Err(wrong_length(found, needed));
+    let block_count = usize::try_from(block_count).unwrap_or(usize::MAX);
+    let needed_size = (block_count <= MAX_BLOCK_COUNT).then(|| {
+        let lags: usize = (0..block_count).map(LagBlock::lags).sum();
+        (HEADER_WORDS + kinds * classes * lags + 1) as u64 * 8
+    });
+    if needed_size != Some(file_size) {
+        return Err(wrong_length(file_size, needed_size));
     }
     let mut bytes = vec![];
     file.read_to_end(&mut bytes).map_err(unreadable)?;
-    let (words, _) = bytes.as_chunks::<8>();
-    let Some((stored, data)) = words.split_last() else {
-        return Err(wrong_length(found, needed));
+    let words = bytes.as_chunks::<8>().0;
+    let Some((stored_sum, data)) = words.split_last() else {
+        return Err(wrong_length(file_size, needed_size));
     };
     let mut sum = CheckSum::default();
-    for word in begin.as_chunks().0.iter().chain(data) {
+    for word in header_bytes.as_chunks().0.iter().chain(data) {
         sum.add(u64::from_le_bytes(*word));
     }
-    if sum.value() != u64::from_le_bytes(*stored) {
+    if sum.value() != u64::from_le_bytes(*stored_sum) {
         return Err(damaged());
     }
     let mut numbers = data.iter().map(|word| f64::from_le_bytes(*word));
     if !numbers.clone().all(f64::is_finite) {
         return Err(damaged());
     }
-    let mut list = |lags: usize| numbers.by_ref().take(lags).collect::<Vec<_>>();
-    let mut block = |number: usize| {
-        let lags = Block::lags(number);
-        Block { values: (0..kinds * classes).map(|_| list(lags)).collect() }
-    };
-    Ok((0..blocks).map(&mut block).collect())
+    let mut blocks = Vec::with_capacity(block_count);
+    for number in 0..block_count {
+        let lags = LagBlock::lags(number);
+        let mut values = Vec::with_capacity(kinds * classes);
+        for _ in 0..kinds * classes {
+            values.push(numbers.by_ref().take(lags).collect());
+        }
+        blocks.push(LagBlock { values });
+    }
+    Ok(blocks)
+}
+
+/// Fault of a file that the system does not read.
+#[allow(clippy::needless_pass_by_value, reason = "for `map_err`")]
+fn unreadable(error: std::io::Error) -> FileFault {
+    FileFault::Unreadable(error.kind())
 }
 
 /// Fault of a file that is shorter or longer than its header states, in bytes.
@@ -102,6 +118,7 @@ fn wrong_length(found: u64, needed: Option<u64>) -> FileFault {
     FileFault::value("number of bytes", found.to_string(), needed)
 }
 
+/// Fault of a file whose check sum differs.
 fn damaged() -> FileFault {
     FileFault::Damaged { quantity: "file".into() }
 }
@@ -111,14 +128,14 @@ pub(super) fn write(
     path: &Path,
     fingerprint: u64,
     classes: usize,
-    blocks: &[&Block],
+    blocks: &[&LagBlock],
 ) -> Result<()> {
-    let lists = || blocks.iter().flat_map(|block| &block.values);
-    let count = lists().map(Vec::len).sum::<usize>() + HEADER + 1;
+    let weights = blocks.iter().flat_map(|block| block.values.iter().flatten());
+    let count = weights.clone().count() + HEADER_WORDS + 1;
     let mut bytes: Vec<u8> = Vec::with_capacity(8 * count);
     let mut sum = CheckSum::default();
-    let header = [MAGIC, FORMAT, fingerprint, classes as u64, blocks.len() as u64];
-    for word in header.into_iter().chain(lists().flatten().map(|number| number.to_bits())) {
+    let header = [FILE_MAGIC, FILE_FORMAT, fingerprint, classes as u64, blocks.len() as u64];
+    for word in header.into_iter().chain(weights.map(|weight| weight.to_bits())) {
         sum.add(word);
         bytes.extend(word.to_le_bytes());
     }

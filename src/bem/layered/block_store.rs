@@ -10,7 +10,7 @@
 //! | then | convolution weights: by block, class, kind (zz, xx, zx), lag |
 //! | last | check sum of all words before |
 //!
-//! The fingerprint is a hash of the mobility at the points of the passivity gate, bit for bit, with step,
+//! The fingerprint is a hash of the mobility at the points of the passivity check, bit for bit, with step,
 //! stages, tolerance and elements. Any change that changes a weight therefore changes it: a layer, a damping
 //! law of the user's own, the crate's arithmetic or the machine's. The format number also identifies the rule
 //! by which contours are sampled.
@@ -21,30 +21,33 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, TryLockError};
 use std::time::Duration;
 
 use super::block_file::{read, write};
-use super::coefficients::{BLOCKS, Block, FIRST};
+use super::lag_block::{FIRST_BLOCK_LAGS, LagBlock, MAX_BLOCK_COUNT};
 use crate::error::{Error, Result, Watch, require, same_length};
 
 /// Time between two checks whether another thread has finished.
-const WAIT: Duration = Duration::from_millis(20);
+const LOCK_POLL_INTERVAL: Duration = Duration::from_millis(20);
 
 /// Blocks of a kernel computed so far.
 #[derive(Debug)]
 pub(crate) struct BlockStore {
-    /// Fingerprint of the weights after the passivity gate.
-    checked: OnceLock<Result<u64>>,
-    blocks: [OnceLock<Result<Block>>; BLOCKS],
+    /// Fingerprint of the weights, after the passivity check.
+    fingerprint: OnceLock<Result<u64>>,
+    blocks: [OnceLock<Result<LagBlock>>; MAX_BLOCK_COUNT],
     /// Locked by the thread that computes.
-    making: Mutex<()>,
+    computing: Mutex<()>,
     file: Option<PathBuf>,
-    /// Numbers of classes and of kinds.
-    sizes: [usize; 2],
+    /// Number of classes of pairs of elements.
+    classes: usize,
+    /// Number of kinds of weights for each class.
+    kinds: usize,
 }
 
 impl BlockStore {
     /// Empty store for blocks with these numbers of classes and kinds.
-    pub(crate) fn new(sizes: [usize; 2], file: Option<PathBuf>) -> Self {
+    pub(crate) fn new(classes: usize, kinds: usize, file: Option<PathBuf>) -> Self {
         let blocks = std::array::from_fn(|_| OnceLock::new());
-        Self { checked: OnceLock::new(), blocks, making: Mutex::default(), file, sizes }
+        let fingerprint = OnceLock::new();
+        Self { fingerprint, blocks, computing: Mutex::default(), file, classes, kinds }
     }
 
     /// Block `number`; computed now if it is not stored.
@@ -52,9 +55,9 @@ impl BlockStore {
         &self,
         number: usize,
         watch: &mut Watch,
-        make: impl FnOnce(&mut Watch) -> Result<Block>,
-    ) -> Result<&Block> {
-        self.once(&self.blocks[number], watch, make)
+        compute: impl FnOnce(&mut Watch) -> Result<LagBlock>,
+    ) -> Result<&LagBlock> {
+        self.once(&self.blocks[number], watch, compute)
     }
 
     /// Whether block `number` is stored.
@@ -62,34 +65,36 @@ impl BlockStore {
         self.blocks[number].get().is_some()
     }
 
-    /// Range of `wanted` from the first block that is not stored.
-    pub(crate) fn missing(&self, wanted: Range<usize>) -> Range<usize> {
-        wanted.start + wanted.clone().take_while(|number| self.has(*number)).count()..wanted.end
+    /// Part of a range of blocks from the first one that is not stored.
+    pub(crate) fn missing(&self, range: Range<usize>) -> Range<usize> {
+        let stored = range.clone().take_while(|number| self.has(*number)).count();
+        range.start + stored..range.end
     }
 
     /// Fingerprint from `check`, which runs once; afterwards the blocks of the file are stored.
-    pub(crate) fn gate(
+    pub(crate) fn fingerprint(
         &self,
         watch: &mut Watch,
         check: impl FnOnce(&mut Watch) -> Result<u64>,
     ) -> Result<u64> {
-        let checked = self.once(&self.checked, watch, |watch| {
+        let outcome = self.once(&self.fingerprint, watch, |watch| {
             let fingerprint = check(watch)?;
             if let Some(path) = &self.file {
-                for (place, block) in self.blocks.iter().zip(read(path, fingerprint, self.sizes)?) {
+                let stored = read(path, fingerprint, self.classes, self.kinds)?;
+                for (place, block) in self.blocks.iter().zip(stored) {
                     let _ = place.set(Ok(block));
                 }
             }
             Ok(fingerprint)
         });
-        checked.copied()
+        outcome.copied()
     }
 
     /// Writes all blocks to the file, if there is one.
     pub(crate) fn write(&self, fingerprint: u64) -> Result<()> {
         let Some(path) = &self.file else { return Ok(()) };
         let blocks = self.blocks.iter().map_while(|block| block.get()?.as_ref().ok());
-        write(path, fingerprint, self.sizes[0], &blocks.collect::<Vec<_>>())
+        write(path, fingerprint, self.classes, &blocks.collect::<Vec<_>>())
     }
 
     /// Content of `place`; computed now if it is empty.
@@ -99,35 +104,35 @@ impl BlockStore {
         &self,
         place: &'a OnceLock<Result<T>>,
         watch: &mut Watch,
-        make: impl FnOnce(&mut Watch) -> Result<T>,
+        compute: impl FnOnce(&mut Watch) -> Result<T>,
     ) -> Result<&'a T> {
-        let found = |made: &'a Result<T>| made.as_ref().map_err(Clone::clone);
-        if let Some(made) = place.get() {
-            return found(made);
+        if let Some(stored) = place.get() {
+            return stored.as_ref().map_err(Clone::clone);
         }
-        let _making = self.enter(watch)?;
-        if let Some(made) = place.get() {
-            return found(made);
+        let _guard = self.lock(watch)?;
+        // Another thread may have computed the content while this one waited.
+        if let Some(stored) = place.get() {
+            return stored.as_ref().map_err(Clone::clone);
         }
-        match make(watch) {
+        match compute(watch) {
             Err(stopped @ Error::Stopped(_)) => Err(stopped),
-            made => found(place.get_or_init(|| made)),
+            outcome => place.get_or_init(|| outcome).as_ref().map_err(Clone::clone),
         }
     }
 
     /// Waits for the lock; returns early if the observer stops the run.
-    fn enter(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
+    fn lock(&self, watch: &mut Watch) -> Result<MutexGuard<'_, ()>> {
         while watch.has_observer() {
-            match self.making.try_lock() {
-                Ok(making) => return Ok(making),
+            match self.computing.try_lock() {
+                Ok(guard) => return Ok(guard),
                 Err(TryLockError::Poisoned(poisoned)) => return Ok(poisoned.into_inner()),
                 Err(TryLockError::WouldBlock) => {
                     watch.reach(0)?;
-                    std::thread::sleep(WAIT);
+                    std::thread::sleep(LOCK_POLL_INTERVAL);
                 }
             }
         }
-        Ok(self.making.lock().unwrap_or_else(PoisonError::into_inner))
+        Ok(self.computing.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
@@ -138,7 +143,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
     class: usize,
     first_lag: usize,
     mut values: [&mut [f64]; KINDS],
-    mut block: impl FnMut(usize) -> Result<&'a Block>,
+    mut block: impl FnMut(usize) -> Result<&'a LagBlock>,
 ) -> Result<()> {
     let lags = values[0].len();
     for others in &values[1..] {
@@ -148,11 +153,13 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
     last_block(first_lag.saturating_add(lags))?;
     let mut done = 0;
     while done < lags {
-        let (number, place) = Block::place(first_lag + done);
-        let found = block(number)?.from::<KINDS>(class, place);
-        let count = found[0].len().min(lags - done);
-        for (values, found) in values.iter_mut().zip(found) {
-            values[done..done + count].copy_from_slice(&found[..count]);
+        let lag = first_lag + done;
+        let number = LagBlock::number_of(lag);
+        let position = lag - LagBlock::first_lag(number);
+        let stored = block(number)?.lags_from::<KINDS>(class, position);
+        let count = stored[0].len().min(lags - done);
+        for (values, stored) in values.iter_mut().zip(stored) {
+            values[done..done + count].copy_from_slice(&stored[..count]);
         }
         done += count;
     }
@@ -161,7 +168,7 @@ pub(crate) fn copy_lags<'a, const KINDS: usize>(
 
 /// Number of the block that contains `lag`.
 pub(crate) fn last_block(lag: usize) -> Result<usize> {
-    let most = FIRST << (BLOCKS - 1);
-    require("lag of a layered ground", lag as f64, lag <= most, "at most 2147483648")?;
-    Ok(Block::place(lag).0)
+    let max_lag = FIRST_BLOCK_LAGS << (MAX_BLOCK_COUNT - 1);
+    require("lag of a layered ground", lag as f64, lag <= max_lag, "at most 2147483648")?;
+    Ok(LagBlock::number_of(lag))
 }

@@ -23,68 +23,24 @@ use std::sync::Arc;
 use realfft::RealFftPlanner;
 
 use super::contour::{
-    Circle, CirclePanel, POINTS, Panels, Polynomials, evaluate, factor, own_classes,
+    CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, evaluate, panel_factor,
+    self_pair_classes,
 };
-use super::runge_kutta::{Node, Stages, on_circle};
+use super::lag_block::LagBlock;
+use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
-use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
+use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
 use crate::error::{Error, Result, Watch};
 use crate::history::{KINDS as STRIP_KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Number of lags of the first block.
-pub(crate) const FIRST: usize = 128;
-/// Largest number of blocks: lags up to 2³¹.
-pub(crate) const BLOCKS: usize = 25;
-/// Number of points of the circle per N, for lags N+1 … 2N; the first block has 2N points.
-const POINTS_PER_LAG: usize = 4;
 /// Tolerance of the integrals relative to the tolerance of the weights: integration errors must not cause halving.
-pub(crate) const FINER: f64 = 0.03;
+pub(crate) const INTEGRAL_TOLERANCE_FACTOR: f64 = 0.03;
 /// A panel is sampled only if it is predicted as resolved to this multiple of the tolerance.
 ///
 /// Half of the panels at this limit are resolved.
-pub(super) const DOUBT: f64 = 100.0;
-
-/// Weights of consecutive lags, for all classes.
-#[derive(Debug)]
-pub(crate) struct Block {
-    /// One list of lags for each class and kind, class by class.
-    pub(crate) values: Vec<Vec<f64>>,
-}
-
-impl Block {
-    /// Number of the block that contains `lag` ≥ 1, and the position of the lag in it.
-    pub(crate) fn place(lag: usize) -> (usize, usize) {
-        let index = lag - 1;
-        if index < FIRST {
-            return (0, index);
-        }
-        let block = (index / FIRST).ilog2() as usize + 1;
-        (block, index - (FIRST << (block - 1)))
-    }
-
-    /// Number of lags in block `number`.
-    pub(crate) fn lags(number: usize) -> usize {
-        FIRST << number.saturating_sub(1)
-    }
-
-    /// Circle for the transform of block `number`, for a relative accuracy of F.
-    pub(crate) fn circle(number: usize, tolerance: f64) -> Circle {
-        let length = POINTS_PER_LAG * Self::lags(number) / if number == 0 { 2 } else { 1 };
-        Circle::new(length, tolerance)
-    }
-
-    /// The last lag in block `number`.
-    pub(crate) fn last(number: usize) -> usize {
-        FIRST << number
-    }
-
-    /// Weights of one class from position `place` to the block's end.
-    pub(crate) fn from<const KINDS: usize>(&self, class: usize, place: usize) -> [&[f64]; KINDS] {
-        std::array::from_fn(|kind| &self.values[class * KINDS + kind][place..])
-    }
-}
+pub(super) const SAMPLING_TOLERANCE_FACTOR: f64 = 100.0;
 
 /// Progress of a block's samples, reported to its observer.
 pub(crate) struct Samples<'w, 'a> {
@@ -96,6 +52,7 @@ pub(crate) struct Samples<'w, 'a> {
 }
 
 impl<'w, 'a> Samples<'w, 'a> {
+    /// No samples yet of a block with these `expected` numbers.
     pub(crate) fn new(watch: &'w mut Watch<'a>, expected: Range<usize>) -> Self {
         Self { watch, expected, done: 0 }
     }
@@ -116,9 +73,12 @@ impl<'w, 'a> Samples<'w, 'a> {
 #[derive(Debug)]
 pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> {
     pub(crate) profile: SoilProfile,
+    /// Element compliances F(s).
     pub(crate) integrals: I,
+    /// Number of classes of pairs.
     pub(crate) classes: usize,
     pub(crate) stages: Stages,
+    /// s.
     pub(crate) time_step: f64,
     /// Relative accuracy of F.
     pub(crate) tolerance: f64,
@@ -127,6 +87,7 @@ pub(crate) struct Quadrature<I = Wavenumbers, const KINDS: usize = STRIP_KINDS> 
 }
 
 impl Quadrature {
+    /// Quadrature for the pairs of elements of a patch.
     pub(crate) fn new(
         profile: SoilProfile,
         classes: &PairClasses,
@@ -134,50 +95,55 @@ impl Quadrature {
         time_step: f64,
         tolerance: f64,
     ) -> Self {
-        let integrals = Wavenumbers::new(classes, FINER * tolerance);
-        Self::over(profile, integrals, own_classes(classes), stages, [time_step, tolerance])
+        let integrals = Wavenumbers::new(classes, INTEGRAL_TOLERANCE_FACTOR * tolerance);
+        let self_pairs = self_pair_classes(classes);
+        Self::over(profile, integrals, self_pairs, stages, time_step, tolerance)
     }
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
-    /// Quadrature of the given integrals.
+    /// Quadrature of any `integrals`.
     ///
-    /// `own` has, for each class, the classes of the pairs of its two elements with themselves.
+    /// `self_pairs` has, for each class, the classes of the pairs of its two elements with themselves.
     pub(crate) fn over(
         profile: SoilProfile,
         integrals: I,
-        own: Vec<[usize; 2]>,
+        self_pairs: Vec<[usize; 2]>,
         stages: Stages,
-        [time_step, tolerance]: [f64; 2],
+        time_step: f64,
+        tolerance: f64,
     ) -> Self {
-        let (classes, own) = (own.len(), Arc::from(own));
-        let panels = (0..stages.count()).map(|_| Panels::new(&own)).collect();
+        let classes = self_pairs.len();
+        let self_pairs = Arc::from(self_pairs);
+        let panels = (0..stages.count()).map(|_| Panels::new(&self_pairs)).collect();
         Self { profile, integrals, classes, stages, time_step, tolerance, panels }
     }
 
-    /// Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z) for all classes, at the z with the given ln |z| and angle.
+    /// Overwrites `sums` with the mobility of all classes, Σ wⱼ λⱼ F(λⱼ/Δt) = (1−z) Ĝ(z).
+    ///
+    /// `log_z`: ln |z| and angle.
     pub(crate) fn mobility(
         &self,
-        place: [f64; 2],
+        log_z: [f64; 2],
         work: &mut I::Workspace,
         scratch: &mut [[Complex; KINDS]],
         sums: &mut [[Complex; KINDS]],
     ) -> Result<()> {
         sums.fill([Complex::default(); KINDS]);
-        for node in self.nodes(place) {
-            self.add(node, work, scratch, sums)?;
+        for node in self.nodes(log_z) {
+            self.add_sample(node, work, scratch, sums)?;
         }
         Ok(())
     }
 
-    /// Eigenvalues and weights at the z with the given ln |z| and angle.
-    pub(crate) fn nodes(&self, [logarithm, angle]: [f64; 2]) -> impl Iterator<Item = Node> {
-        let [z, rest] = on_circle(logarithm, angle);
+    /// Eigenvalues and weights at a z.
+    pub(crate) fn nodes(&self, log_z: [f64; 2]) -> impl Iterator<Item = Node> {
+        let CirclePoint { z, rest } = on_circle(log_z[0], log_z[1]);
         self.stages.nodes(z, rest)
     }
 
     /// Adds the contribution of one sample to the mobility.
-    pub(super) fn add(
+    pub(super) fn add_sample(
         &self,
         node: Node,
         work: &mut I::Workspace,
@@ -204,41 +170,44 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         number: usize,
         threads: usize,
         mut samples: Samples,
-    ) -> Result<Block> {
-        let lags = Block::lags(number);
+    ) -> Result<LagBlock> {
+        let lags = LagBlock::lags(number);
         let first = if number == 0 { 0 } else { lags };
-        let circle = Block::circle(number, self.tolerance);
+        let circle = LagBlock::circle(number, self.tolerance);
         let Circle { length, logarithm } = circle;
         let spectra = self.spectra(circle, threads, &mut samples)?;
         // Factor 1/(1−z) from the mobility to the transform of Gⁿ.
-        let over: Vec<_> = (0..circle.points())
-            .map(|point| on_circle(logarithm, circle.angle(point))[1].inverse())
+        let inverse_rest: Vec<_> = (0..circle.points())
+            .map(|point| on_circle(logarithm, circle.angle(point)).rest.inverse())
             .collect();
         let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
-        let growth: Vec<_> =
+        // r⁻ⁿ/L.
+        let scales: Vec<_> =
             (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();
         let mut values = vec![vec![]; self.classes * KINDS];
-        let turn = |buffers: &mut Option<_>, (row, lags): (&[Complex], &mut Vec<f64>)| {
+        let transform_row = |buffers: &mut Option<_>, (row, lags): (&[Complex], &mut Vec<f64>)| {
             let (input, output, scratch) = buffers.get_or_insert_with(|| {
-                let [input, scratch] = [transform.make_input_vec(), transform.make_scratch_vec()];
+                let input = transform.make_input_vec();
+                let scratch = transform.make_scratch_vec();
                 (input, transform.make_output_vec(), scratch)
             });
-            for (input, (value, over)) in input.iter_mut().zip(row.iter().zip(&over)) {
+            for (input, (value, factor)) in input.iter_mut().zip(row.iter().zip(&inverse_rest)) {
                 // The transform has the opposite sign in its exponent.
-                *input = (*value * *over).conj().inner();
+                *input = (*value * *factor).conj().inner();
             }
             // The values at both ends of the half circle are real.
-            [input[0].im, input[length / 2].im] = [0.0; 2];
+            input[0].im = 0.0;
+            input[length / 2].im = 0.0;
             transform.process_with_scratch(input, output, scratch).map_err(|_| {
                 Error::Singular { matrix: "spectrum of convolution weights", order: length }
             })?;
-            lags.extend(output[first..].iter().zip(&growth).map(|(value, scale)| value * scale));
+            lags.extend(output[first..].iter().zip(&scales).map(|(value, scale)| value * scale));
             Ok(())
         };
         let rows = spectra.chunks_exact(circle.points()).zip(&mut values);
-        on_threads(threads, rows, turn, |_| samples.reach(0))?;
+        on_threads(threads, rows, transform_row, |_| samples.reach(0))?;
         samples.end()?;
-        Ok(Block { values })
+        Ok(LagBlock { values })
     }
 
     /// Computes the mobility on the upper half of a circle: all points of one class and component, then the next.
@@ -248,7 +217,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         threads: usize,
         samples: &mut Samples,
     ) -> Result<Vec<Complex>> {
-        let (count, functions) = (circle.points(), self.classes * KINDS);
+        let count = circle.points();
+        let functions = self.classes * KINDS;
         let mut spectra = vec![];
         spectra.try_reserve_exact(count * functions).map_err(|_| Error::Input {
             quantity: "number of lags of a layered ground",
@@ -261,109 +231,136 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
             spectra.resize(count * function, Complex::default());
         }
         for (node, panels) in self.panels.iter().enumerate() {
-            let (covering, alone) = circle.covered(node, |places| {
-                self.sample(node, panels, places, threads, samples)?;
-                Ok(places.iter().map(|place| panels.known(*place) == Some(true)).collect())
+            let cover = circle.cover(node, |candidates| {
+                self.sample_panels(node, panels, candidates, threads, samples)?;
+                let are_resolved =
+                    candidates.iter().map(|panel| panels.is_resolved(*panel) == Some(true));
+                Ok(are_resolved.collect())
             })?;
-            for place in covering {
-                let Some(Some(panel)) = panels.stored().get(&place).cloned() else { continue };
-                evaluate(node, &panel, place, circle, &mut spectra, || samples.reach(0))?;
+            for panel in cover.panels {
+                let Some(Some(polynomials)) = panels.stored().get(&panel).cloned() else {
+                    continue;
+                };
+                evaluate(node, &polynomials, panel, circle, &mut spectra, || samples.reach(0))?;
             }
-            let places = alone.iter().map(|point| [circle.logarithm, circle.angle(*point)]);
-            let values = self.shares(node, &places.collect::<Vec<_>>(), threads, samples)?;
+            let mut points = Vec::with_capacity(cover.points.len());
+            for point in &cover.points {
+                points.push([circle.logarithm, circle.angle(*point)]);
+            }
+            let values = self.contributions(node, &points, threads, samples)?;
             for (function, row) in spectra.chunks_exact_mut(count).enumerate() {
                 samples.reach(0)?;
                 let values = values.as_flattened().iter().skip(function).step_by(functions);
-                alone.iter().zip(values).for_each(|(point, value)| row[*point] += *value);
+                for (point, value) in cover.points.iter().zip(values) {
+                    row[*point] += *value;
+                }
             }
         }
         Ok(spectra)
     }
 
     /// Largest number of samples of a block: all points of its circle, for each eigenvalue.
-    pub(super) fn most_samples(&self, number: usize) -> usize {
-        Block::circle(number, self.tolerance).points() * self.stages.count()
+    pub(super) fn max_samples(&self, number: usize) -> usize {
+        LagBlock::circle(number, self.tolerance).points() * self.stages.count()
     }
 
     /// Largest memory of the first `blocks` blocks while the last is computed, bytes.
     pub(super) fn memory(&self, blocks: usize) -> f64 {
         let Some(last) = blocks.checked_sub(1) else { return 0.0 };
-        let points = Block::circle(last, self.tolerance).points() as f64;
-        let own = 8.0 * Block::last(last) as f64 + size_of::<Complex>() as f64 * points;
-        own * (KINDS * self.classes) as f64
+        let points = LagBlock::circle(last, self.tolerance).points() as f64;
+        let bytes_per_function =
+            8.0 * LagBlock::last_lag(last) as f64 + size_of::<Complex>() as f64 * points;
+        bytes_per_function * (KINDS * self.classes) as f64
     }
 
-    /// Returns a test: whether a panel is predicted as resolved to a given multiple of the tolerance.
-    pub(super) fn looks(
+    /// Whether a panel is predicted as resolved to a multiple `factor` of the tolerance.
+    pub(super) fn is_promising(
         &self,
         node: usize,
-        place: CirclePanel,
+        panel: CirclePanel,
+        factor: f64,
         work: &mut I::Workspace,
-    ) -> Result<impl Fn(f64) -> bool> {
+    ) -> Result<bool> {
         let mut values = vec![];
-        for point in place.places() {
-            let over = factor(node, point).inverse();
+        for point in panel.chebyshev_points() {
+            let inverse_factor = panel_factor(node, point).inverse();
             let Some(node) = self.nodes(point).nth(node) else { continue };
             let first = values.len();
             self.integrals.outlook(&self.profile, self.variable(node), work, &mut values)?;
-            let weight = node.weight * over;
-            values[first..].iter_mut().for_each(|value| *value = *value * weight);
+            let weight = node.weight * inverse_factor;
+            for value in &mut values[first..] {
+                *value = *value * weight;
+            }
         }
-        let own: Vec<_> = (0..values.len() / (POINTS * OUTLOOK)).map(|place| [place; 2]).collect();
-        let tolerance = self.tolerance;
-        Ok(move |times| Polynomials::through::<OUTLOOK>(&values, &own, times * tolerance).is_some())
+        let count = values.len() / (CHEBYSHEV_POINTS * OUTLOOK_COMPONENTS);
+        // Each function is compared with itself.
+        let self_pairs: Vec<_> = (0..count).map(|function| [function; 2]).collect();
+        let tolerance = factor * self.tolerance;
+        let polynomials =
+            PanelPolynomials::through::<OUTLOOK_COMPONENTS>(&values, &self_pairs, tolerance);
+        Ok(polynomials.is_some())
     }
 
-    /// Samples those panels at `places` that are new and predicted as resolved.
-    fn sample(
+    /// Samples those `candidates` that are new and predicted as resolved.
+    fn sample_panels(
         &self,
         node: usize,
         panels: &Panels,
-        places: &[CirclePanel],
+        candidates: &[CirclePanel],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<()> {
-        let (mut missing, mut work) = (vec![], I::Workspace::default());
-        for place in places.iter().filter(|place| panels.known(**place).is_none()) {
+        let mut missing = vec![];
+        let mut work = I::Workspace::default();
+        for panel in candidates.iter().filter(|panel| panels.is_resolved(**panel).is_none()) {
             samples.reach(0)?;
-            if self.looks(node, *place, &mut work)?(DOUBT) {
-                missing.push(place);
+            if self.is_promising(node, *panel, SAMPLING_TOLERANCE_FACTOR, &mut work)? {
+                missing.push(panel);
             } else {
-                panels.stored().insert(*place, None);
+                panels.stored().insert(*panel, None);
             }
         }
-        let points: Vec<_> = missing.iter().flat_map(|place| place.places()).collect();
-        let mut values = self.shares(node, &points, threads, samples)?;
+        let points: Vec<_> = missing.iter().flat_map(|panel| panel.chebyshev_points()).collect();
+        let mut values = self.contributions(node, &points, threads, samples)?;
         for (point, row) in points.iter().zip(values.chunks_mut(self.classes)) {
-            let over = factor(node, *point).inverse();
-            row.as_flattened_mut().iter_mut().for_each(|value| *value = *value * over);
+            let inverse_factor = panel_factor(node, *point).inverse();
+            for value in row.as_flattened_mut() {
+                *value = *value * inverse_factor;
+            }
         }
         let mut stored = panels.stored();
-        for (place, values) in missing.into_iter().zip(values.chunks(POINTS * self.classes)) {
-            let found =
-                Polynomials::through::<KINDS>(values.as_flattened(), &panels.own, self.tolerance);
-            stored.insert(*place, found.map(Arc::new));
+        let rows = values.chunks(CHEBYSHEV_POINTS * self.classes);
+        for (panel, values) in missing.into_iter().zip(rows) {
+            let polynomials = PanelPolynomials::through::<KINDS>(
+                values.as_flattened(),
+                &panels.self_pairs,
+                self.tolerance,
+            );
+            stored.insert(*panel, polynomials.map(Arc::new));
         }
         Ok(())
     }
 
-    /// Computes the contribution of an eigenvalue to the mobility at each ln |z| and angle, class by class.
-    fn shares(
+    /// Computes the contribution of an eigenvalue to the mobility at points ln |z|, angle; class by class.
+    fn contributions(
         &self,
         node: usize,
-        places: &[[f64; 2]],
+        points: &[[f64; 2]],
         threads: usize,
         samples: &mut Samples,
     ) -> Result<Vec<[Complex; KINDS]>> {
-        let mut values = vec![[Complex::default(); KINDS]; places.len() * self.classes];
-        let items = places.iter().zip(values.chunks_mut(self.classes));
-        let add = |(work, scratch): &mut (_, Vec<_>), (place, sums): (&[f64; 2], &mut [_])| {
+        let mut values = vec![[Complex::default(); KINDS]; points.len() * self.classes];
+        let items = points.iter().zip(values.chunks_mut(self.classes));
+        let add_sample = |(work, scratch): &mut (_, Vec<_>),
+                          (point, sums): (&[f64; 2], &mut [_])| {
             scratch.resize(self.classes, [Complex::default(); KINDS]);
-            let own = self.nodes(*place).nth(node);
-            own.map_or(Ok(()), |node| self.add(node, work, scratch, sums))
+            match self.nodes(*point).nth(node) {
+                Some(node) => self.add_sample(node, work, scratch, sums),
+                None => Ok(()),
+            }
         };
-        on_threads(threads, items, add, |done| samples.reach(done))?;
-        samples.done += places.len();
+        on_threads(threads, items, add_sample, |done| samples.reach(done))?;
+        samples.done += points.len();
         Ok(values)
     }
 }

@@ -30,6 +30,10 @@ use crate::error::Result;
 use crate::linalg::Complex;
 use crate::soil::{Bedrock, SoilProfile};
 
+mod square;
+
+use square::Square;
+
 /// C at one wavenumber, m/Pa.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct SurfaceCompliance {
@@ -43,7 +47,7 @@ pub(crate) struct SurfaceCompliance {
 
 /// A layer at one Laplace variable.
 #[derive(Debug, Clone, Copy)]
-struct Layer {
+struct LaplaceLayer {
     modulus: Complex,
     q1: Complex,
     q2: Complex,
@@ -51,64 +55,90 @@ struct Layer {
     thickness: f64,
 }
 
+/// μ(s), q₂ and a² of a soil at one Laplace variable.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LaplaceSoil {
+    pub(crate) modulus: Complex,
+    pub(crate) q2: Complex,
+    pub(crate) a2: f64,
+}
+
 /// C(k, s) of one profile at one s.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Compliance {
-    layers: Vec<Layer>,
-    rigid: bool,
+pub(crate) struct LayeredCompliance {
+    layers: Vec<LaplaceLayer>,
+    has_rigid_bedrock: bool,
     moduli: Vec<Complex>,
     /// α, β of the layers down to the last that affects the surface.
     roots: Vec<[Complex; 2]>,
 }
 
-/// |β|h below which a layer is thin.
-const THIN: f64 = 0.2;
+/// Largest |β|h of a layer that counts as thin.
+const THIN_LAYER_PHASE: f64 = 0.2;
 /// Size of the last term of the power series, relative to the first.
-const SMALL: f64 = 1e-18;
+const SERIES_CUTOFF: f64 = 1e-18;
 
-impl Layer {
+impl LaplaceLayer {
+    fn soil(&self) -> LaplaceSoil {
+        LaplaceSoil { modulus: self.modulus, q2: self.q2, a2: self.a2 }
+    }
+
     /// Whether the phase and decay of the layer's waves over its thickness are small at the wavenumber `k`.
     fn is_thin(&self, k: f64) -> bool {
-        let turn = (k * k + self.q2.abs()).sqrt() * self.thickness;
-        turn < THIN
+        (k * k + self.q2.abs()).sqrt() * self.thickness < THIN_LAYER_PHASE
     }
 
     /// Displacements and stresses at the layer's top, from the values at its bottom.
     ///
     /// With `even` = [U; `σ_zz`/μ] and `odd` = [W; `σ_xz`/μ]: even′ = P odd and odd′ = Q even.
-    fn carry(&self, k: f64, (u, t): (Square, Square)) -> (Square, Square) {
-        let (a2, q2, h) = (self.a2, self.q2, self.thickness);
-        let (wave, one) = (Complex::real(k), Complex::real(1.0));
+    fn top_state(&self, k: f64, bottom: PlaneState) -> PlaneState {
+        let a2 = self.a2;
+        let q2 = self.q2;
+        let h = self.thickness;
+        let wave = Complex::real(k);
+        let one = Complex::real(1.0);
         let poisson = Complex::real((1.0 - 2.0 * a2) * k);
         let membrane = Complex::real(4.0 * (1.0 - a2) * k * k) + q2;
         let p = Square([wave, one, q2, -wave]);
         let q = Square([-poisson, Complex::real(a2), membrane, poisson]);
-        let unit = self.modulus.inverse();
-        let [xz_x, xz_z, zz_x, zz_z] = t.0.map(|stress| stress * unit);
-        let [u_x, u_z, w_x, w_z] = u.0;
-        let mut terms = [Square([u_x, u_z, zz_x, zz_z]), Square([w_x, w_z, xz_x, xz_z])];
-        let [mut even, mut odd] = terms;
+        // Rows: U, W; σ_xz, σ_zz.
+        let u = bottom.displacement.0;
+        let t = bottom.stress.scaled(self.modulus.inverse()).0;
+        let mut even = Square([u[0], u[1], t[2], t[3]]);
+        let mut odd = Square([u[2], u[3], t[0], t[1]]);
+        let mut even_term = even;
+        let mut odd_term = odd;
         // Every other power of h k and h √q₂ may be absent from an entry.
-        let turn = 2.0 * (k + q2.abs().sqrt()) * h;
-        let (mut n, mut size) = (0.0, 1.0);
-        while size > SMALL {
+        let term_ratio = 2.0 * (k + q2.abs().sqrt()) * h;
+        let mut n = 0.0;
+        let mut size = 1.0;
+        while size > SERIES_CUTOFF {
             n += 1.0;
-            size *= turn / n;
+            size *= term_ratio / n;
             let factor = Complex::real(-h / n);
-            let [one, other] = terms;
-            terms = [p.times(other), q.times(one)].map(|m| Square(m.0.map(|x| x * factor)));
-            (even, odd) = (even.plus(terms[0]), odd.plus(terms[1]));
+            let next_even = p.times(odd_term).scaled(factor);
+            odd_term = q.times(even_term).scaled(factor);
+            even_term = next_even;
+            even = even.plus(even_term);
+            odd = odd.plus(odd_term);
         }
-        let ([u_x, u_z, zz_x, zz_z], [w_x, w_z, xz_x, xz_z]) = (even.0, odd.0);
-        let stress = Square([xz_x, xz_z, zz_x, zz_z].map(|x| x * self.modulus));
-        (Square([u_x, u_z, w_x, w_z]), stress)
+        let stress = Square([odd.0[2], odd.0[3], even.0[2], even.0[3]]).scaled(self.modulus);
+        let displacement = Square([even.0[0], even.0[1], odd.0[0], odd.0[1]]);
+        PlaneState { displacement, stress }
     }
 }
 
-/// Depth in decay lengths below which no wave returns to the surface: e^(−2·21) is 6e-19.
-const OPAQUE: f64 = 21.0;
+/// Displacements and stresses on a horizontal plane, U and T: two independent solutions in columns.
+#[derive(Clone, Copy)]
+struct PlaneState {
+    displacement: Square,
+    stress: Square,
+}
 
-impl Compliance {
+/// Depth, in decay lengths, below which no wave returns to the surface: e^(−2·21) is 6e-19.
+const OPAQUE_DECAY_EXPONENT: f64 = 21.0;
+
+impl LayeredCompliance {
     /// Sets the Laplace variable `s` and the moduli of the layers.
     ///
     /// # Errors
@@ -116,31 +146,33 @@ impl Compliance {
     pub(crate) fn set(&mut self, profile: &SoilProfile, s: Complex) -> Result<()> {
         profile.check()?;
         profile.moduli(s, &mut self.moduli)?;
-        self.rigid = matches!(profile.bedrock(), Bedrock::Rigid);
+        self.has_rigid_bedrock = matches!(profile.bedrock(), Bedrock::Rigid);
         self.layers.clear();
-        let thicknesses = profile.layers().iter().map(|layer| layer.thickness);
-        let thicknesses = thicknesses.chain(std::iter::once(f64::INFINITY));
-        for (((soil, _), modulus), thickness) in profile.soils().zip(&self.moduli).zip(thicknesses)
-        {
+        for (number, ((soil, _), modulus)) in profile.soils().zip(&self.moduli).enumerate() {
+            let thickness =
+                profile.layers().get(number).map_or(f64::INFINITY, |layer| layer.thickness);
             let a2 = soil.speed_ratio_squared();
-            // s is multiplied twice, because its square may leave the range of f64 when this product does
-            // not.
+            // s is multiplied twice, because its square may exceed the range of f64 where the product does not.
             let q2 = (s / *modulus) * s.scale(soil.density());
-            self.layers.push(Layer { modulus: *modulus, q1: q2.scale(a2), q2, a2, thickness });
+            self.layers.push(LaplaceLayer {
+                modulus: *modulus,
+                q1: q2.scale(a2),
+                q2,
+                a2,
+                thickness,
+            });
         }
         Ok(())
     }
 
-    /// μ(s), q₂ and a² of the top layer.
-    pub(crate) fn top(&self) -> (Complex, Complex, f64) {
-        let top = &self.layers[0];
-        (top.modulus, top.q2, top.a2)
+    /// Soil of the top layer.
+    pub(crate) fn top(&self) -> LaplaceSoil {
+        self.layers[0].soil()
     }
 
-    /// μ(s), q₂ and a² of the half-plane below; `None` on rigid bedrock.
-    pub(crate) fn half_plane(&self) -> Option<(Complex, Complex, f64)> {
-        let last = self.layers.last().filter(|_| !self.rigid)?;
-        Some((last.modulus, last.q2, last.a2))
+    /// Soil of the half-plane below; `None` on rigid bedrock.
+    pub(crate) fn half_plane(&self) -> Option<LaplaceSoil> {
+        self.layers.last().filter(|_| !self.has_rigid_bedrock).map(LaplaceLayer::soil)
     }
 
     /// |√q₂| of the top layer, 1/m; infinite if the result is not a number.
@@ -155,70 +187,78 @@ impl Compliance {
         let mut decay = 0.0;
         for layer in &self.layers {
             let square = Complex::real(k * k);
-            let (alpha, beta) = ((square + layer.q1).sqrt(), (square + layer.q2).sqrt());
+            let alpha = (square + layer.q1).sqrt();
+            let beta = (square + layer.q2).sqrt();
             self.roots.push([alpha, beta]);
             decay += alpha.re.min(beta.re) * layer.thickness;
-            if decay > OPAQUE {
+            if decay > OPAQUE_DECAY_EXPONENT {
                 break;
             }
         }
         let last = self.roots.len() - 1;
         let lowest = &self.layers[last];
-        let waves = || Waves::new(lowest, k, self.roots[last]);
         // A layer from whose bottom no wave returns is a half-plane.
-        let (mut u, mut t) = if lowest.thickness.is_infinite() || decay > OPAQUE {
-            let waves = waves();
-            (waves.u, waves.t)
-        } else if lowest.is_thin(k) {
-            lowest.carry(k, (Square::default(), Square::UNIT))
+        let is_half_plane = lowest.thickness.is_infinite() || decay > OPAQUE_DECAY_EXPONENT;
+        let mut top = if !is_half_plane && lowest.is_thin(k) {
+            let rigid =
+                PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
+            lowest.top_state(k, rigid)
         } else {
-            let waves = waves();
-            let up = waves.u.mirrored();
-            waves.above(lowest, up.solve(waves.u).negative())
+            let waves = LayerWaves::new(lowest, k, self.roots[last]);
+            if is_half_plane {
+                waves.down
+            } else {
+                let reflection = waves.up().displacement.solve(waves.down.displacement).negative();
+                waves.above(lowest, reflection)
+            }
         };
         for (layer, roots) in self.layers[..last].iter().zip(&self.roots).rev() {
-            let z = t.times_inverse(u);
+            let z = top.stress.times_inverse(top.displacement);
             if layer.is_thin(k) {
-                (u, t) = layer.carry(k, (Square::UNIT, z));
+                top = layer
+                    .top_state(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
                 continue;
             }
-            let waves = Waves::new(layer, k, *roots);
-            let (u_up, t_up) = (waves.u.mirrored(), waves.t.mirrored().negative());
-            let reflected = t_up.minus(z.times(u_up)).solve(z.times(waves.u).minus(waves.t));
-            (u, t) = waves.above(layer, reflected);
+            let waves = LayerWaves::new(layer, k, *roots);
+            let down = waves.down;
+            let up = waves.up();
+            let reflection = up
+                .stress
+                .minus(z.times(up.displacement))
+                .solve(z.times(down.displacement).minus(down.stress));
+            top = waves.above(layer, reflection);
         }
-        let c = u.times_inverse(t);
+        let c = top.displacement.times_inverse(top.stress);
         SurfaceCompliance { xx: -c.0[0], zz: -c.0[3], xz: (c.0[1] + c.0[2]).scale(-0.5) }
     }
 
     /// `C_tt` = 1/Z: displacement per shear across the wavenumber of the last evaluation, m/Pa.
     pub(crate) fn across(&self) -> Complex {
         // Below the last layer that affects the surface any base is valid, so it starts as rigid.
-        let mut below = None;
+        let mut impedance = None;
         for (layer, [_, beta]) in self.layers.iter().zip(&self.roots).rev() {
-            let own = layer.modulus * *beta;
+            let z0 = layer.modulus * *beta;
             if layer.thickness.is_infinite() {
-                below = Some(own);
+                impedance = Some(z0);
                 continue;
             }
-            let missing = one_less_exponential(beta.scale(2.0 * layer.thickness));
-            let rest = Complex::real(2.0) - missing;
-            let (above, under) = match below {
-                Some(z) => (own * missing + z * rest, own * rest + z * missing),
-                None => (rest, missing),
-            };
-            below = Some(own * above / under);
+            let e = one_less_exponential(beta.scale(2.0 * layer.thickness));
+            let two_less_e = Complex::real(2.0) - e;
+            impedance = Some(match impedance {
+                Some(z) => z0 * (z0 * e + z * two_less_e) / (z0 * two_less_e + z * e),
+                None => z0 * two_less_e / e,
+            });
         }
-        below.map_or_else(Complex::default, Complex::inverse)
+        impedance.map_or_else(Complex::default, Complex::inverse)
     }
 }
 
-/// |x| below which 1 − e^(−x) is summed as a series.
-const SERIES: f64 = 0.3;
+/// Largest |x| for which 1 − e^(−x) is summed as a series.
+const EXPONENTIAL_SERIES_LIMIT: f64 = 0.3;
 
 /// 1 − e^(−x) for Re x ≥ 0.
 fn one_less_exponential(x: Complex) -> Complex {
-    if x.square() > SERIES * SERIES {
+    if x.square() > EXPONENTIAL_SERIES_LIMIT * EXPONENTIAL_SERIES_LIMIT {
         return Complex::real(1.0) - (-x).exp();
     }
     let terms = (2..=13).rev().map(f64::from);
@@ -227,53 +267,66 @@ fn one_less_exponential(x: Complex) -> Complex {
 }
 
 /// Down-going waves of a layer.
-struct Waves {
+struct LayerWaves {
     alpha: Complex,
     beta: Complex,
     /// β − α.
-    gap: Complex,
-    u: Square,
-    t: Square,
+    root_difference: Complex,
+    /// U and T of these waves at the top of the layer.
+    down: PlaneState,
 }
 
-impl Waves {
-    fn new(layer: &Layer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
+impl LayerWaves {
+    /// Waves of a layer at the wavenumber `k`, with its α and β.
+    fn new(layer: &LaplaceLayer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
         let wave = Complex::real(k);
         let sum = alpha + beta;
-        let rest = 1.0 / (1.0 - layer.a2);
+        let inverse_ratio = 1.0 / (1.0 - layer.a2);
         // 1/(β + k) and 1/(k + α), with one division.
-        let (right, left) = (beta + wave, alpha + wave);
-        let both = (right * left).inverse();
-        let (over_right, over_left) = (both * left, both * right);
-        let u0 = (sum * over_right).scale(rest);
-        let u1 = (sum * over_left).scale(-layer.a2 * rest);
+        let beta_sum = beta + wave;
+        let alpha_sum = alpha + wave;
+        let inverse_product = (beta_sum * alpha_sum).inverse();
+        let inverse_beta_sum = inverse_product * alpha_sum;
+        let inverse_alpha_sum = inverse_product * beta_sum;
+        let u0 = (sum * inverse_beta_sum).scale(inverse_ratio);
+        let u1 = (sum * inverse_alpha_sum).scale(-layer.a2 * inverse_ratio);
         let minus = -layer.modulus;
-        let t0 = sum - layer.q1 * over_left * u1;
-        let t1 = -(layer.q2 * over_right * u0);
+        let t0 = sum - layer.q1 * inverse_alpha_sum * u1;
+        let t1 = -(layer.q2 * inverse_beta_sum * u0);
         let square = Complex::real(2.0 * k * k) + layer.q2;
+        let displacement = Square([wave, u0, alpha, u1]);
+        let stress = Square([minus * alpha.scale(2.0 * k), minus * t0, minus * square, minus * t1]);
         Self {
             alpha,
             beta,
-            gap: layer.q2.scale(1.0 - layer.a2) / sum,
-            u: Square([wave, u0, alpha, u1]),
-            t: Square([minus * alpha.scale(2.0 * k), minus * t0, minus * square, minus * t1]),
+            root_difference: layer.q2.scale(1.0 - layer.a2) / sum,
+            down: PlaneState { displacement, stress },
         }
     }
 
+    /// U and T of the up-going waves.
+    fn up(&self) -> PlaneState {
+        let displacement = self.down.displacement.mirrored();
+        PlaneState { displacement, stress: self.down.stress.mirrored().negative() }
+    }
+
     /// Displacements and stresses at the layer's top for the reflection R at its bottom.
-    fn above(&self, layer: &Layer, reflection: Square) -> (Square, Square) {
+    fn above(&self, layer: &LaplaceLayer, reflection: Square) -> PlaneState {
         let x = self.transfer(layer.thickness).around(reflection);
-        let (u_up, t_up) = (self.u.mirrored(), self.t.mirrored().negative());
-        (self.u.plus(u_up.times(x)), self.t.plus(t_up.times(x)))
+        let up = self.up();
+        PlaneState {
+            displacement: self.down.displacement.plus(up.displacement.times(x)),
+            stress: self.down.stress.plus(up.stress.times(x)),
+        }
     }
 
     /// Λ = [[e^(−αh), −g], [0, e^(−βh)]], g = (e^(−αh) − e^(−βh))/(β − α).
     fn transfer(&self, h: f64) -> Transfer {
         let pressure = self.alpha.scale(-h).exp();
-        let x = self.gap.scale(-h);
+        let x = self.root_difference.scale(-h);
         if x.square() > 0.01 {
             let shear = self.beta.scale(-h).exp();
-            return Transfer { pressure, shear, mixed: (pressure - shear) / self.gap };
+            return Transfer { pressure, shear, mixed: (pressure - shear) / self.root_difference };
         }
         // e^(−βh) is the product of e^(−αh) and e^x; φ₁(x) = (e^x − 1)/x by its series.
         let mut phi = Complex::real(1.0);
@@ -297,65 +350,19 @@ impl Transfer {
     /// Λ R Λ.
     fn around(&self, r: Square) -> Square {
         let Square([a, b, c, d]) = r;
-        let (first, second) =
-            (self.pressure * a - self.mixed * c, self.pressure * b - self.mixed * d);
-        let (third, fourth) = (self.shear * c, self.shear * d);
+        // Λ R.
+        let left = [
+            self.pressure * a - self.mixed * c,
+            self.pressure * b - self.mixed * d,
+            self.shear * c,
+            self.shear * d,
+        ];
         Square([
-            first * self.pressure,
-            second * self.shear - first * self.mixed,
-            third * self.pressure,
-            fourth * self.shear - third * self.mixed,
+            left[0] * self.pressure,
+            left[1] * self.shear - left[0] * self.mixed,
+            left[2] * self.pressure,
+            left[3] * self.shear - left[2] * self.mixed,
         ])
-    }
-}
-
-/// A complex 2 × 2 matrix, row by row.
-#[derive(Clone, Copy, Default)]
-struct Square([Complex; 4]);
-
-impl Square {
-    const UNIT: Self = {
-        let (zero, one) = (Complex::new(0.0, 0.0), Complex::new(1.0, 0.0));
-        Self([one, zero, zero, one])
-    };
-
-    /// diag(1, −1) A: displacements of the mirrored waves.
-    fn mirrored(self) -> Self {
-        let Self([a, b, c, d]) = self;
-        Self([a, b, -c, -d])
-    }
-
-    fn negative(self) -> Self {
-        Self(self.0.map(|x| -x))
-    }
-
-    fn plus(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-
-    fn minus(self, other: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - other.0[i]))
-    }
-
-    fn times(self, other: Self) -> Self {
-        let (Self([a, b, c, d]), Self([e, f, g, h])) = (self, other);
-        Self([a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h])
-    }
-
-    /// A⁻¹ B.
-    fn solve(self, other: Self) -> Self {
-        let Self([a, b, c, d]) = self;
-        let scale = (a * d - b * c).inverse();
-        let Self([e, f, g, h]) = other;
-        Self([d * e - b * g, d * f - b * h, a * g - c * e, a * h - c * f].map(|x| x * scale))
-    }
-
-    /// A B⁻¹.
-    fn times_inverse(self, other: Self) -> Self {
-        let Self([e, f, g, h]) = other;
-        let scale = (e * h - f * g).inverse();
-        let Self([a, b, c, d]) = self;
-        Self([a * h - b * g, b * e - a * f, c * h - d * g, d * e - c * f].map(|x| x * scale))
     }
 }
 

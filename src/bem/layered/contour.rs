@@ -29,20 +29,21 @@ use crate::history::PairClasses;
 use crate::linalg::Complex;
 
 /// Number of Chebyshev points of a panel.
-pub(crate) const POINTS: usize = 24;
-/// Number of halvings of θ = 0 … π for the first panels.
-const COARSEST: u32 = 2;
+pub(crate) const CHEBYSHEV_POINTS: usize = 24;
+/// Number of halvings of θ = 0 … π that give the first panels.
+const COARSEST_DEPTH: u32 = 2;
 /// −ln |z| of a panel, divided by its width.
-const ASIDE: f64 = 1.0 / 20.0;
-/// Limit of the last Chebyshev coefficients, relative to the tolerance. Their errors grow with the lag, errors of F do
-/// not.
-const LAST: f64 = 0.3;
+const PANEL_OFFSET_RATIO: f64 = 1.0 / 20.0;
+/// Limit of the last Chebyshev coefficients, relative to the tolerance.
+///
+/// It is below one because their errors grow with the lag, and errors of F do not.
+const COEFFICIENT_LIMIT_FACTOR: f64 = 0.3;
 /// Phase change over half a panel of the powers of z by which functions are divided, in the order of trial.
 ///
 /// Responses come late and never early, so the powers are not negative.
-const TURNS: [f64; 2] = [0.0, 4.0];
+const TRIAL_PHASES: [f64; 2] = [0.0, 4.0];
 /// Number of points of a circle evaluated together.
-const LANES: usize = 32;
+const POINT_LANES: usize = 32;
 
 /// Circle |z| = r for the transform of a block.
 #[derive(Debug, Clone, Copy)]
@@ -72,50 +73,52 @@ impl Circle {
 }
 
 /// Ratio of an eigenvalue's contribution to the mobility and the function that panels represent.
-pub(crate) fn factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
-    let [_, rest] = on_circle(logarithm, angle);
+pub(crate) fn panel_factor(node: usize, [logarithm, angle]: [f64; 2]) -> Complex {
+    let rest = on_circle(logarithm, angle).rest;
     if node == 0 { Complex::real(1.0) } else { rest * rest }
 }
 
 /// Panels tested so far, with polynomials on the resolved ones.
 #[derive(Debug)]
 pub(crate) struct Panels {
-    stored: Mutex<HashMap<CirclePanel, Option<Arc<Polynomials>>>>,
+    stored: Mutex<HashMap<CirclePanel, Option<Arc<PanelPolynomials>>>>,
     /// For each class: the classes of the pairs of its two elements with themselves.
-    pub(super) own: Arc<[[usize; 2]]>,
+    pub(super) self_pairs: Arc<[[usize; 2]]>,
 }
 
 /// Functions on a panel, divided by a power of z, by Chebyshev coefficients.
 #[derive(Debug)]
-pub(crate) struct Polynomials {
+pub(crate) struct PanelPolynomials {
     /// Coefficients degree by degree, one column for each function.
     coefficients: Vec<Complex>,
     /// Phase change of the power over half the panel.
-    turn: f64,
+    phase: f64,
 }
 
-impl Polynomials {
+impl PanelPolynomials {
     /// Polynomials through `values` at the points of a panel, one column for each function.
     ///
-    /// `None` if no power resolves them. `own` and `tolerance` as in [`is_resolved`].
+    /// `None` if no power resolves them. `self_pairs` and `tolerance` as in [`is_resolved`].
     pub(crate) fn through<const KINDS: usize>(
         values: &[Complex],
-        own: &[[usize; 2]],
+        self_pairs: &[[usize; 2]],
         tolerance: f64,
     ) -> Option<Self> {
-        TURNS.into_iter().find_map(|turn| {
-            let mut values = values.to_vec();
-            let count = values.len() / POINTS;
-            for (x, row) in nodes().zip(values.chunks_exact_mut(count)) {
-                let back = Complex::polar(1.0, -turn * x);
+        let count = values.len() / CHEBYSHEV_POINTS;
+        for phase in TRIAL_PHASES {
+            let mut divided = values.to_vec();
+            for (x, row) in nodes().zip(divided.chunks_exact_mut(count)) {
+                let inverse_power = Complex::polar(1.0, -phase * x);
                 for value in row {
-                    *value = *value * back;
+                    *value = *value * inverse_power;
                 }
             }
-            let coefficients = transformed(&values);
-            let resolved = is_resolved::<KINDS>(&coefficients, own, tolerance, turn);
-            resolved.then_some(Self { coefficients, turn })
-        })
+            let coefficients = chebyshev_coefficients(&divided);
+            if is_resolved::<KINDS>(&coefficients, self_pairs, tolerance, phase) {
+                return Some(Self { coefficients, phase });
+            }
+        }
+        None
     }
 }
 
@@ -127,10 +130,12 @@ pub(crate) struct CirclePanel {
 }
 
 impl CirclePanel {
+    /// Panels of half the width.
     fn halves(self) -> [Self; 2] {
         [0, 1].map(|half| Self { depth: self.depth + 1, index: 2 * self.index + half })
     }
 
+    /// Angle, rad.
     fn width(self) -> f64 {
         PI / (1_usize << self.depth) as f64
     }
@@ -142,25 +147,27 @@ impl CirclePanel {
     }
 
     /// ln |z| and angle of the Chebyshev points of this panel.
-    pub(crate) fn places(self) -> impl Iterator<Item = [f64; 2]> {
+    pub(crate) fn chebyshev_points(self) -> impl Iterator<Item = [f64; 2]> {
         let width = self.width();
-        nodes().map(move |x| [-ASIDE * width, width * (self.index as f64 + 0.5 * (1.0 + x))])
+        nodes().map(move |x| {
+            [-PANEL_OFFSET_RATIO * width, width * (self.index as f64 + 0.5 * (1.0 + x))]
+        })
     }
 }
 
 /// Chebyshev points.
 fn nodes() -> impl Iterator<Item = f64> {
-    (0..POINTS).map(|i| (PI * (i as f64 + 0.5) / POINTS as f64).cos())
+    (0..CHEBYSHEV_POINTS).map(|i| (PI * (i as f64 + 0.5) / CHEBYSHEV_POINTS as f64).cos())
 }
 
 /// Chebyshev coefficients of values at the points, one column for each function.
-fn transformed(values: &[Complex]) -> Vec<Complex> {
-    let count = values.len() / POINTS;
+fn chebyshev_coefficients(values: &[Complex]) -> Vec<Complex> {
+    let count = values.len() / CHEBYSHEV_POINTS;
     let mut coefficients = vec![Complex::default(); values.len()];
     for (degree, row) in coefficients.chunks_exact_mut(count).enumerate() {
         for (i, values) in values.chunks_exact(count).enumerate() {
-            let angle = PI * (degree as f64 * (i as f64 + 0.5)) / POINTS as f64;
-            let unit = if degree == 0 { 1.0 } else { 2.0 } / POINTS as f64;
+            let angle = PI * (degree as f64 * (i as f64 + 0.5)) / CHEBYSHEV_POINTS as f64;
+            let unit = if degree == 0 { 1.0 } else { 2.0 } / CHEBYSHEV_POINTS as f64;
             let factor = unit * angle.cos();
             for (sum, value) in row.iter_mut().zip(values) {
                 *sum += value.scale(factor);
@@ -171,158 +178,181 @@ fn transformed(values: &[Complex]) -> Vec<Complex> {
 }
 
 impl Panels {
-    pub(crate) fn new(own: &Arc<[[usize; 2]]>) -> Self {
-        Self { stored: Mutex::default(), own: Arc::clone(own) }
+    /// No panels yet; `self_pairs`: as the field.
+    pub(crate) fn new(self_pairs: &Arc<[[usize; 2]]>) -> Self {
+        Self { stored: Mutex::default(), self_pairs: Arc::clone(self_pairs) }
     }
 
-    pub(super) fn stored(&self) -> MutexGuard<'_, HashMap<CirclePanel, Option<Arc<Polynomials>>>> {
+    pub(super) fn stored(
+        &self,
+    ) -> MutexGuard<'_, HashMap<CirclePanel, Option<Arc<PanelPolynomials>>>> {
         self.stored.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether the panel at `place` is resolved; `None` if it has not been tested.
-    pub(crate) fn known(&self, place: CirclePanel) -> Option<bool> {
-        self.stored().get(&place).map(Option::is_some)
+    /// Whether `panel` is resolved; `None` if it has not been tested.
+    pub(crate) fn is_resolved(&self, panel: CirclePanel) -> Option<bool> {
+        self.stored().get(&panel).map(Option::is_some)
     }
 }
 
 /// For each class: the classes of the pairs of its two elements with themselves.
-pub(in crate::bem) fn own_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
-    let mut own = vec![[0; 2]; classes.count()];
-    let (pairs, elements) = (classes.pairs(), classes.elements().len());
-    for (place, pair) in pairs.iter().enumerate() {
-        let ends = [place / elements, place % elements];
-        own[pair.class] = ends.map(|element| pairs[element * (elements + 1)].class);
+pub(in crate::bem) fn self_pair_classes(classes: &PairClasses) -> Vec<[usize; 2]> {
+    let mut self_pairs = vec![[0; 2]; classes.count()];
+    let pairs = classes.pairs();
+    let elements = classes.elements().len();
+    for (number, pair) in pairs.iter().enumerate() {
+        let members = [number / elements, number % elements];
+        self_pairs[pair.class] = members.map(|element| pairs[element * (elements + 1)].class);
     }
-    own
+    self_pairs
 }
 
 /// Whether the last two `coefficients` are small, up to the unit circle.
 ///
-/// They are compared with the coefficients of the pairs of the elements with themselves; `own` has, for each
-/// class, the classes of these pairs. `turn` belongs to the coefficients.
+/// They are compared with the coefficients of the pairs of the elements with themselves; `self_pairs` has, for each
+/// class, the classes of these pairs. `phase` belongs to the coefficients.
 fn is_resolved<const KINDS: usize>(
     coefficients: &[Complex],
-    own: &[[usize; 2]],
+    self_pairs: &[[usize; 2]],
     tolerance: f64,
-    turn: f64,
+    phase: f64,
 ) -> bool {
-    let shift = 2.0 * ASIDE;
+    let shift = 2.0 * PANEL_OFFSET_RATIO;
     let growth = shift + (1.0 + shift * shift).sqrt();
-    let most = LAST * tolerance / growth.powf((POINTS - 1) as f64) / (turn * shift).exp();
+    let limit = COEFFICIENT_LIMIT_FACTOR * tolerance
+        / growth.powf((CHEBYSHEV_POINTS - 1) as f64)
+        / (phase * shift).exp();
     let degrees: Vec<_> = coefficients
-        .chunks_exact(own.len() * KINDS)
+        .chunks_exact(self_pairs.len() * KINDS)
         .map(|row| row.as_chunks::<KINDS>().0)
         .collect();
-    let largest = |class: usize, kind: usize| {
-        degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max)
-    };
-    // The diagonal of a symmetric matrix comes first.
-    let least = |class: usize| {
-        (0..KINDS.div_ceil(2)).map(|kind| largest(class, kind)).fold(f64::INFINITY, f64::min)
-    };
-    let sizes: Vec<_> = (0..own.len()).map(least).collect();
-    let [.., one, two] = &degrees[..] else { return false };
-    one.iter().zip(*two).zip(own).all(|((one, two), own)| {
-        let allowed = most * own.map(|class| sizes[class]).iter().product::<f64>().sqrt();
-        one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= allowed)
+    let mut sizes = Vec::with_capacity(self_pairs.len());
+    for class in 0..self_pairs.len() {
+        // The diagonal of a symmetric matrix comes first.
+        let mut size = f64::INFINITY;
+        for kind in 0..KINDS.div_ceil(2) {
+            size = size.min(degrees.iter().map(|row| row[class][kind].abs()).fold(0.0, f64::max));
+        }
+        sizes.push(size);
+    }
+    let [.., next_to_last, last] = &degrees[..] else { return false };
+    next_to_last.iter().zip(*last).zip(self_pairs).all(|((one, two), classes)| {
+        let max_size = limit * classes.map(|class| sizes[class]).iter().product::<f64>().sqrt();
+        one.iter().zip(two).all(|(one, two)| one.abs() + two.abs() <= max_size)
     })
 }
 
+/// Panels and single points that cover the upper half of a circle.
+pub(crate) struct CircleCover {
+    pub(crate) panels: Vec<CirclePanel>,
+    /// Points on none of the panels, in ascending order.
+    pub(crate) points: Vec<usize>,
+}
+
 impl Circle {
-    /// Panels that cover the upper half of a circle, and the points not covered, in ascending order.
+    /// Covers the upper half of a circle by resolved panels and single points.
     ///
-    /// `resolved` returns for panels of one width which of them are resolved.
-    pub(crate) fn covered(
+    /// `are_resolved` returns for each of some panels of one width whether it is resolved.
+    pub(crate) fn cover(
         self,
         node: usize,
-        mut resolved: impl FnMut(&[CirclePanel]) -> Result<Vec<bool>>,
-    ) -> Result<(Vec<CirclePanel>, Vec<usize>)> {
-        let mut covering = vec![];
-        let mut panels: Vec<_> =
-            (0..1 << COARSEST).map(|index| CirclePanel { depth: COARSEST, index }).collect();
-        let serves = |panel: &CirclePanel| {
-            let beside = -self.logarithm <= 2.0 * ASIDE * panel.width();
-            beside && panel.points_of(self).len() > POINTS
-        };
-        while panels.first().is_some_and(serves) {
+        mut are_resolved: impl FnMut(&[CirclePanel]) -> Result<Vec<bool>>,
+    ) -> Result<CircleCover> {
+        let mut resolved_panels = vec![];
+        let mut panels: Vec<_> = (0..1 << COARSEST_DEPTH)
+            .map(|index| CirclePanel { depth: COARSEST_DEPTH, index })
+            .collect();
+        while panels.first().is_some_and(|panel| self.can_use(*panel)) {
             // The panel at the branch point of long waves is never resolved.
-            let never = node == 0 && panels[0].index == 0;
-            let (first, rest) = panels.split_at(usize::from(never));
-            let mut halves = first.to_vec();
-            for (panel, resolved) in rest.iter().zip(resolved(rest)?) {
-                if resolved { &mut covering } else { &mut halves }.push(*panel);
+            let unresolved_count = usize::from(node == 0 && panels[0].index == 0);
+            let mut unresolved = panels[..unresolved_count].to_vec();
+            let candidates = &panels[unresolved_count..];
+            for (panel, is_resolved) in candidates.iter().zip(are_resolved(candidates)?) {
+                if is_resolved { &mut resolved_panels } else { &mut unresolved }.push(*panel);
             }
-            panels = halves.into_iter().flat_map(CirclePanel::halves).collect();
+            panels = unresolved.into_iter().flat_map(CirclePanel::halves).collect();
         }
-        let mut alone: Vec<_> =
+        let mut points: Vec<_> =
             panels.into_iter().flat_map(|panel| panel.points_of(self)).collect();
-        alone.push(self.points() - 1);
-        Ok((covering, alone))
+        points.push(self.points() - 1);
+        Ok(CircleCover { panels: resolved_panels, points })
+    }
+
+    /// Whether a panel lies near enough to the circle, and replaces more points than it has.
+    fn can_use(self, panel: CirclePanel) -> bool {
+        let is_near = -self.logarithm <= 2.0 * PANEL_OFFSET_RATIO * panel.width();
+        is_near && panel.points_of(self).len() > CHEBYSHEV_POINTS
     }
 }
 
-/// Approximate number of values between two calls of `heard`: a hundredth of a second.
-const HEARD: usize = 1 << 18;
+/// Approximate number of values between two calls of `report`: a hundredth of a second.
+const VALUES_PER_REPORT: usize = 1 << 18;
 
-/// Chebyshev polynomials of all degrees at several places.
+/// Chebyshev polynomials of all degrees at several points.
 #[inline]
-fn chebyshev(x: [f64; LANES]) -> [[f64; LANES]; POINTS] {
-    let mut polynomials = [[1.0; LANES]; POINTS];
+fn chebyshev(x: [f64; POINT_LANES]) -> [[f64; POINT_LANES]; CHEBYSHEV_POINTS] {
+    let mut polynomials = [[1.0; POINT_LANES]; CHEBYSHEV_POINTS];
     polynomials[1] = x;
-    for degree in 2..POINTS {
-        let [before, last] = [polynomials[degree - 2], polynomials[degree - 1]];
-        polynomials[degree] = std::array::from_fn(|lane| 2.0 * x[lane] * last[lane] - before[lane]);
+    for degree in 2..CHEBYSHEV_POINTS {
+        let before = polynomials[degree - 2];
+        let previous = polynomials[degree - 1];
+        polynomials[degree] =
+            std::array::from_fn(|lane| 2.0 * x[lane] * previous[lane] - before[lane]);
     }
     polynomials
 }
 
 /// Adds the contribution of an eigenvalue on a panel to the values at the points of a circle.
 ///
-/// `spectra` has one row for each function. An error of `heard` ends the evaluation.
+/// `spectra` has one row for each function. An error of `report` ends the evaluation.
 pub(super) fn evaluate(
     node: usize,
-    panel: &Polynomials,
-    place: CirclePanel,
+    polynomials: &PanelPolynomials,
+    panel: CirclePanel,
     circle: Circle,
     spectra: &mut [Complex],
-    mut heard: impl FnMut() -> Result<()>,
+    mut report: impl FnMut() -> Result<()>,
 ) -> Result<()> {
-    let Polynomials { coefficients: panel, turn } = panel;
-    let count = panel.len() / POINTS;
-    let points = place.points_of(circle);
+    let PanelPolynomials { coefficients, phase } = polynomials;
+    let count = coefficients.len() / CHEBYSHEV_POINTS;
+    let points = panel.points_of(circle);
     // Converts the polynomials from the panel's line to the circle's, x − iy.
-    let shift = -(circle.logarithm + ASIDE * place.width()) / (0.5 * place.width());
-    let mut moved = vec![Complex::default(); panel.len()];
-    for (x, values) in nodes().zip(moved.chunks_exact_mut(count)) {
+    let shift = -(circle.logarithm + PANEL_OFFSET_RATIO * panel.width()) / (0.5 * panel.width());
+    let mut values_on_circle = vec![Complex::default(); coefficients.len()];
+    for (x, values) in nodes().zip(values_on_circle.chunks_exact_mut(count)) {
         let x = Complex::new(x, shift);
-        let [mut last, mut value] = [x, Complex::real(1.0)];
-        for row in panel.chunks_exact(count) {
+        let mut previous = x;
+        let mut polynomial = Complex::real(1.0);
+        for row in coefficients.chunks_exact(count) {
             for (sum, coefficient) in values.iter_mut().zip(row) {
-                *sum += value * *coefficient;
+                *sum += polynomial * *coefficient;
             }
-            (last, value) = (value, x.scale(2.0) * value - last);
+            let next = x.scale(2.0) * polynomial - previous;
+            previous = polynomial;
+            polynomial = next;
         }
     }
-    let panel = transformed(&moved);
-    let between = (HEARD / (LANES * count)).max(1);
-    for first in points.clone().step_by(LANES) {
-        if ((first - points.start) / LANES).is_multiple_of(between) {
-            heard()?;
+    let coefficients = chebyshev_coefficients(&values_on_circle);
+    let steps_per_report = (VALUES_PER_REPORT / (POINT_LANES * count)).max(1);
+    for first in points.clone().step_by(POINT_LANES) {
+        if ((first - points.start) / POINT_LANES).is_multiple_of(steps_per_report) {
+            report()?;
         }
-        let x: [f64; LANES] = std::array::from_fn(|lane| {
+        let x: [f64; POINT_LANES] = std::array::from_fn(|lane| {
             2.0 * (first + lane - points.start) as f64 / points.len() as f64 - 1.0
         });
-        let polynomials = chebyshev(x);
-        let factors: [Complex; LANES] = std::array::from_fn(|lane| {
-            let turned = Complex::polar((-turn * shift).exp(), turn * x[lane]);
-            turned * factor(node, [circle.logarithm, circle.angle(first + lane)])
+        let chebyshev_values = chebyshev(x);
+        let factors: [Complex; POINT_LANES] = std::array::from_fn(|lane| {
+            let power = Complex::polar((-phase * shift).exp(), phase * x[lane]);
+            power * panel_factor(node, [circle.logarithm, circle.angle(first + lane)])
         });
-        let end = points.end.min(first + LANES);
+        let end = points.end.min(first + POINT_LANES);
         for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {
-            let [mut re, mut im] = [[0.0; LANES]; 2];
-            for (polynomial, row) in polynomials.iter().zip(panel.chunks_exact(count)) {
+            let mut re = [0.0; POINT_LANES];
+            let mut im = [0.0; POINT_LANES];
+            for (polynomial, row) in chebyshev_values.iter().zip(coefficients.chunks_exact(count)) {
                 let coefficient = row[function];
-                for lane in 0..LANES {
+                for lane in 0..POINT_LANES {
                     re[lane] += coefficient.re * polynomial[lane];
                     im[lane] += coefficient.im * polynomial[lane];
                 }

@@ -16,22 +16,22 @@ use crate::history::PairClasses;
 use crate::linalg::gauss::Rule;
 
 /// Number of Gauss points of a panel.
-pub(crate) const POINTS: usize = 16;
+pub(crate) const PANEL_POINTS: usize = 16;
 /// Number of Legendre coefficients of the form factors on a panel: J₃₂(8) is 7e-17.
-pub(crate) const DEGREES: usize = 32;
+pub(crate) const LEGENDRE_DEGREES: usize = 32;
 /// Phase change of the fastest form factor over a panel, rad.
-const TURN: f64 = 16.0;
+const PANEL_PHASE: f64 = 16.0;
 /// Number of pairs summed together.
-pub(crate) const LANES: usize = 4;
+pub(crate) const PAIR_LANES: usize = 4;
 /// Number of panel widths, each twice the one before.
-pub(crate) const LEVELS: usize = 14;
+pub(crate) const PANEL_LEVEL_COUNT: usize = 14;
 /// Largest memory for tables at Gauss points, bytes; panels beyond it are computed each time.
-const MEMORY: usize = 256 << 20;
+const MAX_TABLE_BYTES: usize = 256 << 20;
 
-/// zz, xx, zx: real and imaginary part of each, for [`LANES`] pairs.
-pub(crate) type Sums = [[f64; LANES]; 6];
-/// Even and odd form factors of [`LANES`] pairs.
-pub(crate) type FormRow = [[f64; LANES]; 2];
+/// zz, xx, zx: real and imaginary part of each, for [`PAIR_LANES`] pairs.
+pub(crate) type Sums = [[f64; PAIR_LANES]; 6];
+/// Even and odd form factors of [`PAIR_LANES`] pairs.
+pub(crate) type FormRow = [[f64; PAIR_LANES]; 2];
 
 /// A pair of elements in the wavenumber domain.
 #[derive(Debug, Clone, Copy)]
@@ -52,17 +52,19 @@ impl PairShape {
     }
 
     /// Even and odd form factor at the wavenumber `k`, m².
-    fn at(&self, k: f64) -> [f64; 2] {
-        let [one, two] = self.lengths.map(|length| {
-            let half = 0.5 * k * length;
-            if half < 1e-4 {
-                length * (1.0 - half * half / 6.0)
+    fn form_factors(&self, k: f64) -> [f64; 2] {
+        let factors = self.lengths.map(|length| {
+            let half_phase = 0.5 * k * length;
+            if half_phase < 1e-4 {
+                length * (1.0 - half_phase * half_phase / 6.0)
             } else {
-                length * half.sin() / half
+                length * half_phase.sin() / half_phase
             }
         });
-        let (sin, cos) = (k * self.offset).sin_cos();
-        [one * two * cos, one * two * sin]
+        let phase = k * self.offset;
+        let sin = phase.sin();
+        let cos = phase.cos();
+        [factors[0] * factors[1] * cos, factors[0] * factors[1] * sin]
     }
 
     /// Four waves whose sum is k² times the form factors.
@@ -70,16 +72,19 @@ impl PairShape {
     /// For each wave: the distance y ≥ 0 of cos ky and sin ky, and the factors of both.
     pub(crate) fn waves(&self) -> [(f64, [f64; 2]); 4] {
         let Self { lengths: [q, p], offset } = *self;
-        let (sum, difference) = (0.5 * (p + q), 0.5 * (p - q));
+        let half_sum = 0.5 * (p + q);
+        let half_difference = 0.5 * (p - q);
         let ends = [
-            (offset + sum, -1.0),
-            (offset - difference, 1.0),
-            (offset + difference, 1.0),
-            (offset - sum, -1.0),
+            (offset + half_sum, -1.0),
+            (offset - half_difference, 1.0),
+            (offset + half_difference, 1.0),
+            (offset - half_sum, -1.0),
         ];
-        // The odd part of an element with itself is exactly zero.
-        let odd = |y: f64| if offset == 0.0 { 0.0 } else { y.signum() };
-        ends.map(|(y, sign)| (y.abs(), [sign, sign * odd(y)]))
+        ends.map(|(y, sign)| {
+            // The odd part of an element with itself is exactly zero.
+            let direction = if offset == 0.0 { 0.0 } else { y.signum() };
+            (y.abs(), [sign, sign * direction])
+        })
     }
 }
 
@@ -104,48 +109,55 @@ pub(crate) struct FormFactors {
     /// Width of a panel, 1/m.
     pub(crate) width: f64,
     pub(crate) rule: Rule,
-    fine: Rule,
+    /// Rule for Legendre coefficients of the form factors.
+    projection_rule: Rule,
     /// For each panel: blocks of pairs with rows of Gauss points.
-    values: Vec<OnceLock<Box<[FormRow]>>>,
+    values: Tables,
     /// For each panel: blocks of pairs with rows of Legendre coefficients.
-    legendre: Vec<OnceLock<Box<[FormRow]>>>,
+    legendre: Tables,
     /// For each level above the first: as `values`.
-    wide: [OnceLock<Tables>; LEVELS],
+    wide: [OnceLock<Tables>; PANEL_LEVEL_COUNT],
     /// Number of panels of one level whose tables are stored.
-    room: usize,
+    stored_panels: usize,
 }
 
+/// Tables of some panels, computed when first needed.
 type Tables = Box<[OnceLock<Box<[FormRow]>>]>;
 
+/// Tables of `count` panels, not yet computed.
+fn empty_tables(count: usize) -> Tables {
+    (0..count).map(|_| OnceLock::new()).collect()
+}
+
 impl FormFactors {
+    /// Form factors of all classes of pairs, not yet computed.
     pub(crate) fn new(classes: &PairClasses) -> Self {
         let shapes: Vec<_> = (0..classes.count())
             .filter_map(|class| classes.representative(class).ok())
             .map(|[source, receiver]| PairShape::new(source, receiver))
             .collect();
-        let blocks = shapes.len().div_ceil(LANES);
-        let panels = MEMORY / (blocks * POINTS * size_of::<FormRow>()).max(1);
-        let empty = |count: usize| (0..count).map(|_| OnceLock::new()).collect::<Vec<_>>();
+        let blocks = shapes.len().div_ceil(PAIR_LANES);
+        let panels = MAX_TABLE_BYTES / (blocks * PANEL_POINTS * size_of::<FormRow>()).max(1);
         Self {
-            width: TURN / classes.span(),
-            rule: Rule::new(POINTS),
-            fine: Rule::new(DEGREES + 8),
-            values: empty(panels.min(1 << 14)),
-            legendre: empty((panels / 4).clamp(1, 1 << 12)),
-            wide: [const { OnceLock::new() }; LEVELS],
-            room: (panels / 8).max(1),
+            width: PANEL_PHASE / classes.span(),
+            rule: Rule::new(PANEL_POINTS),
+            projection_rule: Rule::new(LEGENDRE_DEGREES + 8),
+            values: empty_tables(panels.min(1 << 14)),
+            legendre: empty_tables((panels / 4).clamp(1, 1 << 12)),
+            wide: [const { OnceLock::new() }; PANEL_LEVEL_COUNT],
+            stored_panels: (panels / 8).max(1),
             shapes,
         }
     }
 
-    /// Number of blocks of [`LANES`] pairs.
+    /// Number of blocks of [`PAIR_LANES`] pairs.
     pub(crate) fn blocks(&self) -> usize {
-        self.shapes.len().div_ceil(LANES)
+        self.shapes.len().div_ceil(PAIR_LANES)
     }
 
     /// Number of wide panels of a level whose tables are stored.
-    fn wide_room(&self, level: u32) -> usize {
-        self.room.min((1 << 17) >> level)
+    fn stored_wide_panels(&self, level: u32) -> usize {
+        self.stored_panels.min((1 << 17) >> level)
     }
 
     /// Left end of a panel and its width, 1/m.
@@ -158,40 +170,45 @@ impl FormFactors {
     pub(crate) fn with_values(&self, panel: Panel, apply: impl FnOnce(&[FormRow])) {
         let index = panel.index;
         if panel.level == 0 {
-            return Self::with(&self.values, index, || self.table(index, &self.rule), apply);
+            return Self::with_table(&self.values, index, || self.table(index, &self.rule), apply);
         }
-        let empty = || (0..self.wide_room(panel.level)).map(|_| OnceLock::new()).collect();
-        let tables = self.wide[(panel.level as usize).min(LEVELS - 1)].get_or_init(empty);
-        Self::with(tables, index, || self.wide_table(panel), apply);
+        let level = (panel.level as usize).min(PANEL_LEVEL_COUNT - 1);
+        let tables =
+            self.wide[level].get_or_init(|| empty_tables(self.stored_wide_panels(panel.level)));
+        Self::with_table(tables, index, || self.wide_table(panel), apply);
     }
 
-    /// Calls `apply` with the rows of `panel` for Legendre polynomials of degree 0, 1, …, weights of ∫ C Pₙ
-    /// dk.
+    /// Calls `apply` with the rows of `panel` for Legendre polynomials.
+    ///
+    /// Degrees 0, 1, …; rows are weights of ∫ C Pₙ dk.
     pub(crate) fn with_legendre(&self, panel: usize, apply: impl FnOnce(&[FormRow])) {
-        Self::with(&self.legendre, panel, || self.projected(panel), apply);
+        Self::with_table(&self.legendre, panel, || self.legendre_table(panel), apply);
     }
 
-    fn with(
+    /// Calls `apply` with the table of a panel, which is computed now if it is not stored.
+    fn with_table(
         tables: &[OnceLock<Box<[FormRow]>>],
         panel: usize,
-        make: impl FnOnce() -> Box<[FormRow]>,
+        compute: impl FnOnce() -> Box<[FormRow]>,
         apply: impl FnOnce(&[FormRow]),
     ) {
         match tables.get(panel) {
-            Some(table) => apply(table.get_or_init(make)),
-            None => apply(&make()),
+            Some(table) => apply(table.get_or_init(compute)),
+            None => apply(&compute()),
         }
     }
 
+    /// Rows of a narrow panel at the points of a rule.
     fn table(&self, panel: usize, rule: &Rule) -> Box<[FormRow]> {
         let points = rule.nodes.len();
         let mut rows = vec![FormRow::default(); self.blocks() * points];
         for (class, shape) in self.shapes.iter().enumerate() {
             for (i, node) in rule.nodes.iter().enumerate() {
                 let k = self.width * (panel as f64 + 0.5 * (1.0 + node));
-                let [even, odd] = shape.at(k);
-                let row = &mut rows[class / LANES * points + i];
-                (row[0][class % LANES], row[1][class % LANES]) = (even, odd);
+                let row = &mut rows[class / PAIR_LANES * points + i];
+                for (part, value) in shape.form_factors(k).into_iter().enumerate() {
+                    row[part][class % PAIR_LANES] = value;
+                }
             }
         }
         rows.into_boxed_slice()
@@ -199,49 +216,55 @@ impl FormFactors {
 
     /// Rows of a wide panel: factors of the sum of C and weights over Gauss points.
     fn wide_table(&self, panel: Panel) -> Box<[FormRow]> {
-        let [left, width] = self.extent(panel);
-        let (half, middle) = (0.5 * width, left + 0.5 * width);
-        let mut rows = vec![FormRow::default(); self.blocks() * POINTS];
+        let extent = self.extent(panel);
+        let half_width = 0.5 * extent[1];
+        let middle = extent[0] + 0.5 * extent[1];
+        let mut rows = vec![FormRow::default(); self.blocks() * PANEL_POINTS];
         let polynomials: Vec<_> = self.rule.nodes.iter().map(|x| legendre(*x)).collect();
         for (class, shape) in self.shapes.iter().enumerate() {
-            let mut moments = [[0.0; 2]; POINTS];
+            let mut moments = [[0.0; 2]; PANEL_POINTS];
             for (y, factors) in shape.waves() {
-                let (sin, cos) = (middle * y).sin_cos();
-                // iⁿ e^(iκy).
-                let turned = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
-                for (n, bessel) in spherical_bessel(half * y).into_iter().enumerate() {
+                let phase = middle * y;
+                let sin = phase.sin();
+                let cos = phase.cos();
+                // Real and imaginary part of iⁿ e^(iκy), n = 0 … 3.
+                let phases = [[cos, sin], [-sin, cos], [-cos, -sin], [sin, -cos]];
+                for (n, bessel) in spherical_bessel(half_width * y).into_iter().enumerate() {
                     for part in 0..2 {
                         let size = 2.0 * (n as f64 + 0.5) * bessel;
-                        moments[n][part] += factors[part] * size * turned[n % 4][part];
+                        moments[n][part] += factors[part] * size * phases[n % 4][part];
                     }
                 }
             }
             for (i, (node, polynomials)) in self.rule.nodes.iter().zip(&polynomials).enumerate() {
-                let k = middle + half * node;
-                let row = &mut rows[class / LANES * POINTS + i];
+                let k = middle + half_width * node;
+                let row = &mut rows[class / PAIR_LANES * PANEL_POINTS + i];
                 for part in 0..2 {
                     let terms = moments.iter().zip(polynomials);
                     let sum: f64 = terms.map(|(moment, p)| moment[part] * p).sum();
-                    row[part][class % LANES] = sum / (k * k);
+                    row[part][class % PAIR_LANES] = sum / (k * k);
                 }
             }
         }
         rows.into_boxed_slice()
     }
 
-    fn projected(&self, panel: usize) -> Box<[FormRow]> {
-        let points = self.fine.nodes.len();
-        let values = self.table(panel, &self.fine);
-        let mut rows = vec![FormRow::default(); self.blocks() * DEGREES];
-        for (i, (node, weight)) in self.fine.nodes.iter().zip(&self.fine.weights).enumerate() {
+    /// Rows of a narrow panel for Legendre polynomials.
+    fn legendre_table(&self, panel: usize) -> Box<[FormRow]> {
+        let points = self.projection_rule.nodes.len();
+        let values = self.table(panel, &self.projection_rule);
+        let mut rows = vec![FormRow::default(); self.blocks() * LEGENDRE_DEGREES];
+        for (i, (node, weight)) in
+            self.projection_rule.nodes.iter().zip(&self.projection_rule.weights).enumerate()
+        {
             let polynomials = legendre(*node);
             for block in 0..self.blocks() {
                 let value = &values[block * points + i];
                 for (degree, polynomial) in polynomials.iter().enumerate() {
                     let factor = (degree as f64 + 0.5) * weight * polynomial;
-                    let row = &mut rows[block * DEGREES + degree];
+                    let row = &mut rows[block * LEGENDRE_DEGREES + degree];
                     for part in 0..2 {
-                        for lane in 0..LANES {
+                        for lane in 0..PAIR_LANES {
                             row[part][lane] += factor * value[part][lane];
                         }
                     }
@@ -253,10 +276,10 @@ impl FormFactors {
 }
 
 /// jₙ(t), n = 0 … 15, for t ≥ 0.
-fn spherical_bessel(t: f64) -> [f64; POINTS] {
+fn spherical_bessel(t: f64) -> [f64; PANEL_POINTS] {
     /// Degree from which the downward recurrence is stable to the degrees needed, for t up to their number.
-    const ABOVE: usize = 64;
-    let mut values = [0.0; POINTS];
+    const DOWNWARD_START_DEGREE: usize = 64;
+    let mut values = [0.0; PANEL_POINTS];
     if t < 1.0 {
         // tⁿ/(2n+1)!! (1 − t²/2/(2n+3) (1 − t²/4/(2n+5) (1 − …)))
         let mut power = 1.0;
@@ -269,41 +292,45 @@ fn spherical_bessel(t: f64) -> [f64; POINTS] {
         }
         return values;
     }
-    let (sin, cos) = t.sin_cos();
-    if t > POINTS as f64 {
-        [values[0], values[1]] = [sin / t, (sin / t - cos) / t];
-        for n in 1..POINTS - 1 {
+    let sin = t.sin();
+    let cos = t.cos();
+    if t > PANEL_POINTS as f64 {
+        values[0] = sin / t;
+        values[1] = (sin / t - cos) / t;
+        for n in 1..PANEL_POINTS - 1 {
             values[n + 1] = (2 * n + 1) as f64 / t * values[n] - values[n - 1];
         }
         return values;
     }
-    let [mut above, mut value] = [0.0, 1e-200];
-    for n in (1..=ABOVE).rev() {
+    let mut above = 0.0;
+    let mut value = 1e-200;
+    for n in (1..=DOWNWARD_START_DEGREE).rev() {
         let below = (2 * n + 1) as f64 / t * value - above;
         (above, value) = (value, below);
-        if n <= POINTS {
+        if n <= PANEL_POINTS {
             values[n - 1] = value;
         }
     }
-    // The larger of the first two is not zero.
-    let [zero, one] = [sin / t, (sin / t - cos) / t];
-    let scale = if zero.abs() > one.abs() { zero / values[0] } else { one / values[1] };
+    // The recurrence gives multiples of the functions. The larger of the first two, which is not zero, gives the factor.
+    let j0 = sin / t;
+    let j1 = (sin / t - cos) / t;
+    let scale = if j0.abs() > j1.abs() { j0 / values[0] } else { j1 / values[1] };
     values.map(|value| scale * value)
 }
 
 /// Legendre polynomials at x.
-pub(crate) fn legendre(x: f64) -> [f64; DEGREES] {
+pub(crate) fn legendre(x: f64) -> [f64; LEGENDRE_DEGREES] {
     legendre_at([x]).map(|[value]| value)
 }
 
 /// Legendre polynomials at several x.
-pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; DEGREES] {
-    let mut values = [[1.0; N]; DEGREES];
+pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; LEGENDRE_DEGREES] {
+    let mut values = [[1.0; N]; LEGENDRE_DEGREES];
     values[1] = x;
-    for n in 2..DEGREES {
-        let [one, two] = RECURRENCE[n];
+    for n in 2..LEGENDRE_DEGREES {
+        let factors = LEGENDRE_RECURRENCE[n];
         for i in 0..N {
-            values[n][i] = one * x[i] * values[n - 1][i] - two * values[n - 2][i];
+            values[n][i] = factors[0] * x[i] * values[n - 1][i] - factors[1] * values[n - 2][i];
         }
     }
     values
@@ -311,10 +338,10 @@ pub(crate) fn legendre_at<const N: usize>(x: [f64; N]) -> [[f64; N]; DEGREES] {
 
 /// Factors (2n−1)/n and (n−1)/n of [`next_legendre`](crate::linalg::gauss::next_legendre), divided at compile
 /// time.
-const RECURRENCE: [[f64; 2]; DEGREES] = {
-    let mut factors = [[0.0; 2]; DEGREES];
+const LEGENDRE_RECURRENCE: [[f64; 2]; LEGENDRE_DEGREES] = {
+    let mut factors = [[0.0; 2]; LEGENDRE_DEGREES];
     let mut n = 1;
-    while n < DEGREES {
+    while n < LEGENDRE_DEGREES {
         factors[n] = [(2 * n - 1) as f64 / n as f64, (n - 1) as f64 / n as f64];
         n += 1;
     }
@@ -326,7 +353,7 @@ pub(crate) fn accumulate(rows: &[FormRow], coefficients: &[[f64; 6]], sums: &mut
     for (rows, sums) in rows.chunks_exact(coefficients.len()).zip(sums) {
         let mut local = *sums;
         for (row, c) in rows.iter().zip(coefficients) {
-            for lane in 0..LANES {
+            for lane in 0..PAIR_LANES {
                 local[0][lane] += c[0] * row[0][lane];
                 local[1][lane] += c[1] * row[0][lane];
                 local[2][lane] += c[2] * row[0][lane];

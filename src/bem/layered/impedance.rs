@@ -11,7 +11,7 @@ use realfft::num_complex::Complex64;
 
 use super::passivity::assembled;
 use super::static_compliance;
-use super::wavenumber::{Compliances, Wavenumbers, Workspace, unresolved};
+use super::wavenumber::{Compliances, StripWorkspace, Wavenumbers, unresolved};
 use crate::error::{Error, Observer, Result, Watch, not_negative, require};
 use crate::geometry::ContactElement;
 use crate::history::{KINDS, PairClasses};
@@ -42,20 +42,21 @@ pub struct StripImpedance {
 }
 
 impl StripImpedance {
-    fn all(&self) -> [Complex; 4] {
+    /// The entries, in the order of the fields.
+    fn entries(&self) -> [Complex; 4] {
         [self.horizontal, self.vertical, self.rocking, self.coupling]
     }
 
     /// Spring stiffnesses Re K, in the order of the fields.
     pub fn stiffnesses(&self) -> [f64; 4] {
-        self.all().map(|k| k.re)
+        self.entries().map(|k| k.re)
     }
 
     /// Dashpot coefficients Im K/ω in the same order; N s/m² for `horizontal`.
     ///
     /// At frequency zero they are not defined (NaN).
     pub fn dashpots(&self) -> [f64; 4] {
-        self.all().map(|k| k.im / (std::f64::consts::TAU * self.frequency))
+        self.entries().map(|k| k.im / (std::f64::consts::TAU * self.frequency))
     }
 }
 
@@ -67,27 +68,29 @@ pub enum StripContact {
     /// Soil and strip move together.
     #[default]
     Bonded,
-    /// Vertical motions without shear, horizontal motions without pressure; no coupling.
+    /// Vertical motions cause no shear, horizontal motions no pressure; no coupling.
     Relaxed,
 }
 
-/// Accuracy of the element compliances; the error of the elements themselves is much larger.
-const TOLERANCE: f64 = 1e-9;
-/// Im μ/|μ| below which a layer counts as undamped.
-const LOSSLESS: f64 = 1e-6;
+/// Relative tolerance of the element compliances; the error of the elements themselves is much larger.
+const COMPLIANCE_TOLERANCE: f64 = 1e-9;
+/// Largest Im μ/|μ| of a layer that counts as undamped.
+const UNDAMPED_LOSS_RATIO: f64 = 1e-6;
 /// Number of points of the extrapolation.
-const PER_FREQUENCY: usize = 8;
-/// Distance of the points relative to ω, and to the inverse of the wave travel time.
-const SPACING: [f64; 2] = [0.04, 0.1];
+const POINTS_PER_FREQUENCY: usize = 8;
+/// Largest distance between these points, relative to ω.
+const MAX_SPACING_PER_FREQUENCY: f64 = 0.04;
+/// Largest distance between these points, times the travel time of waves.
+const MAX_SPACING_BY_TRAVEL_TIME: f64 = 0.1;
 /// Largest relative difference between the extrapolations from 8 and from 7 points.
-const SETTLED: f64 = 1e-3;
+const EXTRAPOLATION_TOLERANCE: f64 = 1e-3;
 
 /// Progress of impedances at `frequencies`; its parts are points of the Laplace plane, eight per frequency.
 pub(in crate::bem) fn impedance_watch<'a>(
     frequencies: &[f64],
     observer: &'a mut Observer<'_>,
 ) -> Watch<'a> {
-    Watch::new("impedances", PER_FREQUENCY * frequencies.len(), observer)
+    Watch::new("impedances", POINTS_PER_FREQUENCY * frequencies.len(), observer)
 }
 
 /// Dynamic stiffness of all `elements` on `profile` as one rigid body, at each of `frequencies` (Hz).
@@ -98,25 +101,32 @@ pub(in crate::bem) fn strip_impedances(
     contact: StripContact,
     watch: &mut Watch,
 ) -> Result<Vec<StripImpedance>> {
-    let strip = RigidStrip::new(profile, elements, contact)?;
-    let mut lists = Vec::with_capacity(frequencies.len());
+    let strip = RigidStripSystem::new(profile, elements, contact)?;
+    let mut variables = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
         let exists = *frequency != 0.0 || matches!(profile.bedrock(), Bedrock::Rigid);
         require("frequency of an impedance on a half-plane", *frequency, exists, "above zero")?;
-        lists.push(points(profile, strip.classes.span(), *frequency)?);
+        variables.push(laplace_variables(profile, strip.classes.span(), *frequency)?);
     }
-    let found = stiffnesses(&lists, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
-    let impedance = |(frequency, values): (&f64, [Complex; 4])| {
-        let [horizontal, vertical, rocking, coupling] = values;
-        StripImpedance { frequency: *frequency, horizontal, vertical, rocking, coupling }
-    };
-    Ok(frequencies.iter().zip(found).map(impedance).collect())
+    let stiffnesses =
+        extrapolated_stiffnesses(&variables, &[0, 1, 2], watch, |s| strip.stiffness(s))?;
+    let mut impedances = Vec::with_capacity(frequencies.len());
+    for (&frequency, entries) in frequencies.iter().zip(stiffnesses) {
+        impedances.push(StripImpedance {
+            frequency,
+            horizontal: entries[0],
+            vertical: entries[1],
+            rocking: entries[2],
+            coupling: entries[3],
+        });
+    }
+    Ok(impedances)
 }
 
 /// Laplace variables at which the stiffness is evaluated for a `frequency` (Hz) and elements over `span` (m).
 ///
-/// The only variable is iω; with undamped layers, [`PER_FREQUENCY`] points next to iω.
-pub(in crate::bem) fn points(
+/// The only variable is iω; with undamped layers, [`POINTS_PER_FREQUENCY`] points next to iω.
+pub(in crate::bem) fn laplace_variables(
     profile: &SoilProfile,
     span: f64,
     frequency: f64,
@@ -125,75 +135,81 @@ pub(in crate::bem) fn points(
     let s = Complex::new(0.0, omega);
     let mut moduli = vec![];
     profile.moduli(s, &mut moduli)?;
-    let damped = moduli.iter().all(|modulus| modulus.im.abs() > LOSSLESS * modulus.abs());
-    if damped || omega == 0.0 {
+    let is_damped =
+        moduli.iter().all(|modulus| modulus.im.abs() > UNDAMPED_LOSS_RATIO * modulus.abs());
+    if is_damped || omega == 0.0 {
         return Ok(vec![s]);
     }
-    let slowest = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
-    let time = span / slowest + 2.0 * profile.travel_time();
-    let step = (SPACING[0] * omega).min(SPACING[1] / time);
-    Ok((1..=PER_FREQUENCY).map(|j| Complex::new(step * j as f64, omega)).collect())
+    let speed = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
+    let travel_time = span / speed + 2.0 * profile.travel_time();
+    let spacing = (MAX_SPACING_PER_FREQUENCY * omega).min(MAX_SPACING_BY_TRAVEL_TIME / travel_time);
+    Ok((1..=POINTS_PER_FREQUENCY).map(|j| Complex::new(spacing * j as f64, omega)).collect())
 }
 
-/// K(iω) from its samples `at` the [`points`] of each frequency; `watch` is notified of each sample.
+/// K(iω) of each frequency from its samples at the [`laplace_variables`] of the frequency.
 ///
-/// The entries `judged` must agree between the extrapolations from all samples and from all but the last.
+/// `stiffness` returns a sample; `watch` is notified of each. The entries in `checked_entries` must agree between the
+/// extrapolations from all samples and from all but the last.
 ///
 /// # Errors
-/// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) if the entries do not agree; as for `at`.
-pub(in crate::bem) fn stiffnesses<const N: usize>(
-    lists: &[Vec<Complex>],
-    judged: &[usize],
+/// [`GroundError::Unresolved`](crate::bem::GroundError::Unresolved) if the entries do not agree; as for `stiffness`.
+pub(in crate::bem) fn extrapolated_stiffnesses<const N: usize>(
+    variables: &[Vec<Complex>],
+    checked_entries: &[usize],
     watch: &mut Watch,
-    mut at: impl FnMut(Complex) -> Result<[Complex; N]>,
+    mut stiffness: impl FnMut(Complex) -> Result<[Complex; N]>,
 ) -> Result<Vec<[Complex; N]>> {
-    let mut found = Vec::with_capacity(lists.len());
-    for (number, list) in lists.iter().enumerate() {
-        let mut samples = Vec::with_capacity(list.len());
-        for s in list {
-            samples.push(at(*s)?);
-            if samples.len() < list.len() {
-                watch.reach(PER_FREQUENCY * number + samples.len())?;
+    let mut stiffnesses = Vec::with_capacity(variables.len());
+    for (number, points) in variables.iter().enumerate() {
+        let mut samples = Vec::with_capacity(points.len());
+        for s in points {
+            samples.push(stiffness(*s)?);
+            if samples.len() < points.len() {
+                watch.reach(POINTS_PER_FREQUENCY * number + samples.len())?;
             }
         }
-        found.push(extrapolated(&samples, judged, list[0].im)?);
-        watch.reach(PER_FREQUENCY * (number + 1))?;
+        stiffnesses.push(extrapolate(&samples, checked_entries, points[0].im)?);
+        watch.reach(POINTS_PER_FREQUENCY * (number + 1))?;
     }
-    Ok(found)
+    Ok(stiffnesses)
 }
 
 /// K(iω) at one frequency from its samples.
-fn extrapolated<const N: usize>(
+fn extrapolate<const N: usize>(
     samples: &[[Complex; N]],
-    judged: &[usize],
+    checked_entries: &[usize],
     omega: f64,
 ) -> Result<[Complex; N]> {
-    if let [only] = samples {
-        return Ok(*only);
+    if let [sample] = samples {
+        return Ok(*sample);
     }
-    // Lagrange's polynomial at zero.
-    let limit = |count: usize| {
-        let mut sum = [Complex::default(); N];
-        for (j, sample) in (1..=count).zip(samples) {
-            let others = (1..=count).filter(|m| *m != j);
-            let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
-            for (sum, value) in sum.iter_mut().zip(sample) {
-                *sum += value.scale(weight);
-            }
-        }
-        sum
-    };
-    let (found, coarse) = (limit(samples.len()), limit(samples.len() - 1));
-    for place in judged {
-        let change = (found[*place] - coarse[*place]).abs();
-        if change.is_nan() || change > SETTLED * found[*place].abs() {
+    let limit = polynomial_at_zero(samples);
+    let coarse_limit = polynomial_at_zero(&samples[..samples.len() - 1]);
+    for &entry in checked_entries {
+        let change = (limit[entry] - coarse_limit[entry]).abs();
+        if change.is_nan() || change > EXTRAPOLATION_TOLERANCE * limit[entry].abs() {
             return Err(unresolved(Complex::new(0.0, omega), 0.0));
         }
     }
-    Ok(found)
+    Ok(limit)
 }
 
-struct RigidStrip<'a> {
+/// Lagrange's polynomial through samples at 1, 2, …, at zero.
+fn polynomial_at_zero<const N: usize>(samples: &[[Complex; N]]) -> [Complex; N] {
+    let count = samples.len();
+    let mut sum = [Complex::default(); N];
+    for (j, sample) in (1..=count).zip(samples) {
+        let others = (1..=count).filter(|m| *m != j);
+        let weight: f64 = others.map(|m| m as f64 / (m as f64 - j as f64)).product();
+        for (sum, value) in sum.iter_mut().zip(sample) {
+            *sum += value.scale(weight);
+        }
+    }
+    sum
+}
+
+/// A rigid strip on a layered ground.
+struct RigidStripSystem<'a> {
     profile: &'a SoilProfile,
     contact: StripContact,
     classes: PairClasses,
@@ -202,22 +218,24 @@ struct RigidStrip<'a> {
     motions: Vec<Complex64>,
 }
 
-impl<'a> RigidStrip<'a> {
+impl<'a> RigidStripSystem<'a> {
     fn new(
         profile: &'a SoilProfile,
         elements: &[ContactElement],
         contact: StripContact,
     ) -> Result<Self> {
         let classes = PairClasses::new(elements.to_vec())?;
-        let integrals = Wavenumbers::new(&classes, TOLERANCE);
+        let integrals = Wavenumbers::new(&classes, COMPLIANCE_TOLERANCE);
         let layout = classes.layout();
         let middle = 0.5 * (elements[0].left() + elements[elements.len() - 1].right());
         let mut motions = vec![Complex64::default(); 3 * layout.len()];
         for (p, element) in elements.iter().enumerate() {
-            let (length, [down, along]) = (element.length(), layout.places(p));
-            motions[3 * along].re = length;
-            motions[3 * down + 1].re = length;
-            motions[3 * down + 2].re = length * (element.center()[0] - middle);
+            let length = element.length();
+            let vertical = layout.place(0, p);
+            let horizontal = layout.place(1, p);
+            motions[3 * horizontal].re = length;
+            motions[3 * vertical + 1].re = length;
+            motions[3 * vertical + 2].re = length * (element.center()[0] - middle);
         }
         Ok(Self { profile, contact, classes, integrals, motions })
     }
@@ -228,7 +246,12 @@ impl<'a> RigidStrip<'a> {
             static_compliance::pairs(self.profile, &self.classes)?
         } else {
             let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
-            self.integrals.compliance(self.profile, s, &mut Workspace::default(), &mut values)?;
+            self.integrals.compliance(
+                self.profile,
+                s,
+                &mut StripWorkspace::default(),
+                &mut values,
+            )?;
             values
         };
         let mut matrix = assembled(&self.classes, &compliances);
@@ -248,12 +271,16 @@ impl<'a> RigidStrip<'a> {
             return Err(Error::Singular { matrix: "compliance of a strip", order });
         }
         factor.solve_columns(&mut tractions, 3);
-        let product = |i: usize, j: usize| {
-            let rows = self.motions.chunks_exact(3).zip(tractions.chunks_exact(3));
-            let sum: Complex64 = rows.map(|(a, t)| a[i] * t[j]).sum();
-            Complex::new(sum.re, sum.im)
-        };
-        let coupling = (product(0, 2) + product(2, 0)).scale(0.5);
-        Ok([product(0, 0), product(1, 1), product(2, 2), coupling])
+        let coupling =
+            (self.resultant(&tractions, 0, 2) + self.resultant(&tractions, 2, 0)).scale(0.5);
+        let diagonal = [0, 1, 2].map(|i| self.resultant(&tractions, i, i));
+        Ok([diagonal[0], diagonal[1], diagonal[2], coupling])
+    }
+
+    /// Resultant in the rigid motion `i` of the tractions due to the motion `j`.
+    fn resultant(&self, tractions: &[Complex64], i: usize, j: usize) -> Complex {
+        let rows = self.motions.chunks_exact(3).zip(tractions.chunks_exact(3));
+        let sum: Complex64 = rows.map(|(motion, traction)| motion[i] * traction[j]).sum();
+        Complex::new(sum.re, sum.im)
     }
 }

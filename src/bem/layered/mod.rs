@@ -4,8 +4,8 @@
 //! |---|---|
 //! | compliance | surface compliance C(k, s) of a profile |
 //! | wavenumber, halving, form_factors, tail | element compliances F(s): its integrals over k |
-//! | runge_kutta, contour, coefficients | convolution weights Gⁿ by convolution quadrature |
-//! | passivity | the gate that checks convolution weights |
+//! | runge_kutta, contour, coefficients, lag_block | convolution weights Gⁿ by convolution quadrature |
+//! | passivity | the check of convolution weights |
 //! | block_store, block_file | blocks of convolution weights in memory and in a file |
 //! | threads | work on several threads |
 //! | weights | convolution weights for a history |
@@ -19,6 +19,7 @@ mod contour;
 mod form_factors;
 mod halving;
 mod impedance;
+mod lag_block;
 mod passivity;
 mod runge_kutta;
 mod static_compliance;
@@ -29,18 +30,22 @@ mod threads;
 mod wavenumber;
 mod weights;
 
-pub(super) use coefficients::{FINER, Quadrature};
-pub(super) use compliance::{Compliance, SurfaceCompliance};
+pub(super) use coefficients::{INTEGRAL_TOLERANCE_FACTOR, Quadrature};
+pub(super) use compliance::{LayeredCompliance, SurfaceCompliance};
 #[cfg(feature = "embedded")]
-pub(super) use contour::own_classes;
-pub(super) use form_factors::{DEGREES, POINTS, legendre};
-pub(super) use halving::{FLOOR, SHARE, by_halves, last_coefficients, median};
+pub(super) use contour::self_pair_classes;
+pub(super) use form_factors::{LEGENDRE_DEGREES, PANEL_POINTS, legendre};
+pub(super) use halving::{
+    PANEL_TOLERANCE_EXPONENT, ROUNDING_FLOOR_FACTOR, by_halves, last_coefficients, median,
+};
 pub use impedance::{StripContact, StripImpedance};
-pub(super) use impedance::{impedance_watch, points, stiffnesses, strip_impedances};
+pub(super) use impedance::{
+    extrapolated_stiffnesses, impedance_watch, laplace_variables, strip_impedances,
+};
 #[cfg(test)]
 pub(super) use passivity::margin;
 pub use runge_kutta::Stages;
-pub(super) use runge_kutta::on_circle;
+pub(super) use runge_kutta::{CirclePoint, on_circle};
 pub(super) use static_compliance::static_compliance;
 pub(super) use tail::{on_grid, surface_series};
 pub(super) use threads::{on_threads, threads};

@@ -11,9 +11,10 @@ use crate::error::{Error, Result};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Frequency of reflections (Hz), and allowed phase error (rad), in [`Stages::for_profile`].
-const FREQUENCY: f64 = 15.0;
-const PHASE: f64 = 1e-3;
+/// Frequency of the reflections that [`Stages::for_profile`] considers, Hz.
+const REFLECTION_FREQUENCY: f64 = 15.0;
+/// Largest phase error of these reflections with two stages, rad.
+const MAX_PHASE_ERROR: f64 = 1e-3;
 
 /// Number of stages of the Runge–Kutta method for a ground in the time domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -56,9 +57,9 @@ impl Stages {
     /// Two stages are enough if reflections at 15 Hz keep their phase to a thousandth on their way down
     /// through the layers and back: n (ωΔt)⁴/72 < 10⁻³ with n steps on the way.
     pub fn for_profile(profile: &SoilProfile, time_step: f64) -> Self {
-        let angle = std::f64::consts::TAU * FREQUENCY * time_step;
-        let error = 2.0 * profile.travel_time() / time_step * angle.powi(4) / 72.0;
-        if error < PHASE { Self::Two } else { Self::Three }
+        let step_phase = std::f64::consts::TAU * REFLECTION_FREQUENCY * time_step;
+        let phase_error = 2.0 * profile.travel_time() / time_step * step_phase.powi(4) / 72.0;
+        if phase_error < MAX_PHASE_ERROR { Self::Two } else { Self::Three }
     }
 
     /// Number of stages.
@@ -88,8 +89,9 @@ impl Stages {
         };
         for place in 0..2 {
             let exact = -z.ln() + Complex::new(0.0, std::f64::consts::TAU * place as f64);
-            let distance = |root: &usize| (roots[*root] - exact).square();
-            let nearest = (place..self.count()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            let distances = roots.map(|root| (root - exact).square());
+            let nearest =
+                (place..self.count()).min_by(|&a, &b| distances[a].total_cmp(&distances[b]));
             roots.swap(place, nearest.unwrap_or(place));
         }
         roots.into_iter().take(self.count()).map(move |lambda| {
@@ -103,9 +105,10 @@ impl Stages {
     fn quadratic(z: Complex, rest: Complex) -> [Complex; 3] {
         let middle = Complex::real(2.0) + z;
         let root = (z * z + z.scale(10.0) - Complex::real(2.0)).sqrt();
-        let (one, two) = (middle + root, middle - root);
-        let large = if one.square() >= two.square() { one } else { two };
-        [large, rest.scale(6.0) / large, Complex::default()]
+        let one = middle + root;
+        let two = middle - root;
+        let larger = if one.square() >= two.square() { one } else { two };
+        [larger, rest.scale(6.0) / larger, Complex::default()]
     }
 
     /// Roots of x³ − (9−3z)x² + (36+24z)x − 60(1−z), all at once (Aberth's method).
@@ -115,15 +118,15 @@ impl Stages {
         let c1 = Complex::real(60.0) - rest.scale(24.0);
         let c0 = rest.scale(-60.0);
         debug_assert!((rest + z - Complex::real(1.0)).abs() < 1e-10);
-        let value = |x: Complex| ((x + c2) * x + c1) * x + c0;
-        let slope = |x: Complex| (x.scale(3.0) + c2.scale(2.0)) * x + c1;
         // Near z = 1 the roots are 1 − z and 3 ± i√51.
         let mut roots =
             [rest + Complex::new(0.0, 1e-3), Complex::new(3.0, 7.0), Complex::new(3.1, -7.0)];
         for _ in 0..60 {
-            let mut moved = 0.0_f64;
+            let mut largest_change = 0.0_f64;
             for i in 0..3 {
-                let (value, slope) = (value(roots[i]), slope(roots[i]));
+                let x = roots[i];
+                let value = ((x + c2) * x + c1) * x + c0;
+                let slope = (x.scale(3.0) + c2.scale(2.0)) * x + c1;
                 if value.square() == 0.0 {
                     continue;
                 }
@@ -135,10 +138,10 @@ impl Stages {
                 let step = (newton - others).inverse();
                 if step.is_finite() {
                     roots[i] = roots[i] - step;
-                    moved = moved.max(step.square() / roots[i].square());
+                    largest_change = largest_change.max(step.square() / roots[i].square());
                 }
             }
-            if moved < 1e-31 {
+            if largest_change < 1e-31 {
                 break;
             }
         }
@@ -146,18 +149,27 @@ impl Stages {
     }
 }
 
-/// z = r e^(iφ) and 1 − z without cancellation, from ln r and φ.
-pub(crate) fn on_circle(logarithm: f64, angle: f64) -> [Complex; 2] {
-    let z = Complex::polar(logarithm.exp(), angle);
-    let half = (0.5 * angle).sin();
-    let rest = 2.0 * half * half - angle.cos() * logarithm.exp_m1();
-    [z, Complex::new(rest, -z.im)]
+/// A point z of a circle about the origin.
+pub(crate) struct CirclePoint {
+    pub(crate) z: Complex,
+    /// 1 − z without cancellation.
+    pub(crate) rest: Complex,
 }
 
+/// The point z = r e^(iφ), from ln r and φ.
+pub(crate) fn on_circle(logarithm: f64, angle: f64) -> CirclePoint {
+    let z = Complex::polar(logarithm.exp(), angle);
+    let half_sine = (0.5 * angle).sin();
+    let rest = 2.0 * half_sine * half_sine - angle.cos() * logarithm.exp_m1();
+    CirclePoint { z, rest: Complex::new(rest, -z.im) }
+}
+
+/// A polynomial at `x`, constant term first.
 fn polynomial(coefficients: &[f64], x: Complex) -> Complex {
     coefficients.iter().rev().fold(Complex::default(), |sum, c| sum * x + Complex::real(*c))
 }
 
+/// Derivative of the polynomial at `x`.
 fn derivative(coefficients: &[f64], x: Complex) -> Complex {
     let mut sum = Complex::default();
     for (degree, c) in coefficients.iter().enumerate().skip(1).rev() {
@@ -209,7 +221,7 @@ mod tests {
                 (-1e-4, 3.1),
                 (-0.3, -2.0),
             ] {
-                let [z, rest] = on_circle(logarithm, angle);
+                let CirclePoint { z, rest } = on_circle(logarithm, angle);
                 let nodes: Vec<Node> = stages.nodes(z, rest).collect();
                 let one: Complex =
                     nodes.iter().fold(Complex::default(), |s, n| s + n.weight / n.lambda);
@@ -217,15 +229,19 @@ mod tests {
                 assert!(nodes.iter().all(|n| n.lambda.re > 0.0));
                 let s = Complex::new(-1.3, 0.4);
                 // (Δ − s)⁻¹ 1 = (1 − s M)⁻¹ M 1 with M = A + z/(1−z) 1bᵀ.
-                let matrix = |i: usize, j: usize| Complex::real(a[i][j]) + (z / rest).scale(b[j]);
-                let mut rows: Vec<Vec<Complex>> = (0..m)
-                    .map(|i| {
-                        let unit = |j: usize| Complex::real(if i == j { 1.0 } else { 0.0 });
-                        let mut row: Vec<_> = (0..m).map(|j| unit(j) - s * matrix(i, j)).collect();
-                        row.push((0..m).fold(Complex::default(), |sum, j| sum + matrix(i, j)));
-                        row
-                    })
-                    .collect();
+                let mut rows: Vec<Vec<Complex>> = vec![];
+                for i in 0..m {
+                    let mut row = vec![];
+                    let mut sum = Complex::default();
+                    for j in 0..m {
+                        let entry = Complex::real(a[i][j]) + (z / rest).scale(b[j]);
+                        let unit = Complex::real(if i == j { 1.0 } else { 0.0 });
+                        row.push(unit - s * entry);
+                        sum += entry;
+                    }
+                    row.push(sum);
+                    rows.push(row);
+                }
                 for i in 0..m {
                     let pivot = rows[i][i].inverse();
                     for j in 0..=m {
@@ -259,12 +275,12 @@ mod tests {
             [(Stages::Two, 1.0 / 72.0, 4), (Stages::Three, 1.0 / 7200.0, 6)]
         {
             let theta: f64 = 0.05;
-            let [z, rest] = on_circle(0.0, theta);
-            let least = stages
+            let CirclePoint { z, rest } = on_circle(0.0, theta);
+            let smallest = stages
                 .nodes(z, rest)
                 .min_by(|a, b| a.lambda.square().total_cmp(&b.lambda.square()))
                 .unwrap();
-            let error = (least.lambda - Complex::new(0.0, -theta)).abs();
+            let error = (smallest.lambda - Complex::new(0.0, -theta)).abs();
             assert!(
                 (error / (constant * theta.powi(order)) - 1.0).abs() < 0.1,
                 "{stages:?} {error:e}"

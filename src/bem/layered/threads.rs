@@ -26,14 +26,15 @@ pub(in crate::bem) fn on_threads<T: Send, W: Default>(
     mut after: impl FnMut(usize) -> Result<()>,
 ) -> Result<()> {
     let queue = Mutex::new(items.enumerate());
-    let (done, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let take = |after: &mut dyn FnMut(usize) -> Result<()>| {
-        let mut own = W::default();
+    let done = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let work_off_queue = |after: &mut dyn FnMut(usize) -> Result<()>| {
+        let mut workspace = W::default();
         while !stopped.load(Ordering::Relaxed) {
             // If a thread panics, its queue stays valid.
             let next = queue.lock().unwrap_or_else(PoisonError::into_inner).next();
             let Some((number, item)) = next else { break };
-            work(&mut own, item).map_err(|error| (number, error))?;
+            work(&mut workspace, item).map_err(|error| (number, error))?;
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             after(done).map_err(|error| (number, error))?;
         }
@@ -41,24 +42,29 @@ pub(in crate::bem) fn on_threads<T: Send, W: Default>(
     };
     // Separate threads instead of a pool: a waiting worker of a pool may start other work, which may wait for the
     // results of these threads.
-    let mut failed: Vec<(usize, Error)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(|| take(&mut |_| Ok(())))).collect();
-        let own = take(&mut after).err();
-        stopped.store(own.is_some(), Ordering::Relaxed);
-        let joined = others.into_iter().map(|thread| match thread.join() {
-            Ok(outcome) => outcome.err(),
-            // A user's damping law may panic; the panic is passed on.
-            Err(panic) => std::panic::resume_unwind(panic),
-        });
-        let others = joined.collect::<Vec<_>>().into_iter().flatten();
-        own.into_iter().chain(others).collect()
+    let mut failures: Vec<(usize, Error)> = std::thread::scope(|scope| {
+        let others: Vec<_> =
+            (1..threads).map(|_| scope.spawn(|| work_off_queue(&mut |_| Ok(())))).collect();
+        let outcome = work_off_queue(&mut after);
+        stopped.store(outcome.is_err(), Ordering::Relaxed);
+        let mut failures: Vec<_> = outcome.err().into_iter().collect();
+        for thread in others {
+            match thread.join() {
+                Ok(outcome) => failures.extend(outcome.err()),
+                // A user's damping law may panic; the panic is passed on.
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        failures
     });
-    failed.sort_by_key(|(number, _)| *number);
-    failed.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))
+    failures.sort_by_key(|(number, _)| *number);
+    failures.into_iter().next().map_or(Ok(()), |(_, error)| Err(error))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::time::Duration;
+
     use super::*;
     use crate::error::positive;
 
@@ -67,36 +73,43 @@ mod tests {
     fn threads_do_all_items_or_return_the_first_error() {
         for threads in [1, 2, 5] {
             let mut squares = vec![0; 100];
-            let (calls, mut last) = (AtomicUsize::new(0), 0);
-            let work = |own: &mut usize, (item, square): (usize, &mut usize)| {
-                *own += 1;
-                *square += item * item;
-                calls.fetch_add(1, Ordering::Relaxed);
-                Ok(())
-            };
-            let after = |done| {
-                last = done;
-                Ok(())
-            };
-            on_threads(threads, (0..100).zip(&mut squares), work, after).unwrap();
+            let calls = AtomicUsize::new(0);
+            let mut last = 0;
+            on_threads(
+                threads,
+                (0..100).zip(&mut squares),
+                |(): &mut (), (item, square): (usize, &mut usize)| {
+                    *square += item * item;
+                    calls.fetch_add(1, Ordering::Relaxed);
+                    Ok(())
+                },
+                |done| {
+                    last = done;
+                    Ok(())
+                },
+            )
+            .unwrap();
             assert!(squares.iter().enumerate().all(|(item, square)| *square == item * item));
             assert!(calls.into_inner() == 100 && last <= 100);
 
-            // The first item fails last.
-            let fail = |(): &mut (), item: usize| {
-                let wait = std::time::Duration::from_millis(if item == 0 { 100 } else { 0 });
-                std::thread::sleep(wait);
-                positive("item", -0.5 - item as f64).map(|_| ())
-            };
-            let found = on_threads(threads, 0..100, fail, |_| Ok(()));
+            let found = on_threads(threads, 0..100, fail_first_item_last, |_| Ok(()));
             assert!(matches!(found, Err(Error::Input { value: -0.5, .. })), "{found:?}");
-            let stop = |done: usize| positive("rest", 3.0 - done as f64).map(|_| ());
-            // Long enough for this thread to do some of them.
-            let wait = |(): &mut (), _| {
-                std::thread::sleep(std::time::Duration::from_millis(2));
-                Ok(())
-            };
-            assert!(on_threads(threads, 0..100, wait, stop).is_err());
+            assert!(on_threads(threads, 0..100, wait, stop_after_three).is_err());
         }
+    }
+
+    fn fail_first_item_last((): &mut (), item: usize) -> Result<()> {
+        std::thread::sleep(Duration::from_millis(if item == 0 { 100 } else { 0 }));
+        positive("item", -0.5 - item as f64).map(|_| ())
+    }
+
+    /// Long enough for the calling thread to do some of the items.
+    fn wait((): &mut (), _item: usize) -> Result<()> {
+        std::thread::sleep(Duration::from_millis(2));
+        Ok(())
+    }
+
+    fn stop_after_three(done: usize) -> Result<()> {
+        positive("rest", 3.0 - done as f64).map(|_| ())
     }
 }

@@ -11,22 +11,24 @@
 //! moments over the whole panel, so that only C is evaluated more often. Beyond K the integral is a
 //! [series](super::tail).
 
-use super::compliance::{Compliance, SurfaceCompliance};
-use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
-use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
+use super::compliance::{LayeredCompliance, SurfaceCompliance};
+use super::form_factors::{
+    FormFactors, LEGENDRE_DEGREES, PAIR_LANES, PANEL_POINTS, Panel, Sums, accumulate, legendre,
+};
+use super::tail::{TAIL_START_RATIO, TAIL_TERMS, Tails, on_grid, surface_series};
 use crate::error::{Error, GroundError, Result, Watch};
 use crate::history::{KINDS, PairClasses};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
 /// Number of decay lengths in the top layer beyond which its bottom has no effect: e^(−2·20) is 4e-18.
-const DEEP: f64 = 20.0;
-/// K × shortest element below which the second differences of the tail cancel.
-pub(super) const SHORT: f64 = 0.05;
+const OPAQUE_DECAY_LENGTHS: f64 = 20.0;
+/// Smallest K × shortest element for which the second differences of the tail keep their digits.
+pub(super) const MIN_TAIL_PHASE: f64 = 0.05;
 /// Largest number of panels of one integral.
-const MOST_PANELS: f64 = 65_536.0;
+const MAX_PANEL_COUNT: f64 = 65_536.0;
 /// Largest number of panels required by short elements.
-const MOST_FOR_SHORT: f64 = 100.0;
+const MAX_PANELS_FOR_SHORT: f64 = 100.0;
 
 /// Element compliances F(s) of classes of pairs, with several kinds for each class.
 pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
@@ -34,10 +36,10 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     type Workspace: Default;
 
     /// Sum of the errors of late weights, divided by the 2/3 power of the tolerance and the sum of all weights.
-    const LATE_ERROR: f64 = 0.0;
+    const LATE_ERROR_FACTOR: f64 = 0.0;
 
-    /// Number of points of the passivity gate.
-    const GATE_POINTS: usize = 40;
+    /// Number of points of the passivity check.
+    const PASSIVITY_POINTS: usize = 40;
 
     /// Computes the data common to all compliances, if they are missing.
     ///
@@ -61,9 +63,9 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         values: &mut [[Complex; KINDS]],
     ) -> Result<()>;
 
-    /// Appends [`OUTLOOK`] numbers for each of a few wavenumbers, which replace the compliances at `s`.
+    /// Appends the surface compliance at a few wavenumbers, a cheap substitute for the compliances at `s`.
     ///
-    /// They take a hundredth of the time of the compliances.
+    /// [`OUTLOOK_COMPONENTS`] numbers each, in a hundredth of the time.
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`].
@@ -76,12 +78,12 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
     ) -> Result<()>;
 }
 
-/// Wavenumbers at which the surface compliance replaces the mobility, times the length of the patch.
+/// Wavenumbers of an outlook, times the length of the patch.
 ///
 /// The first is always used, the others if a slab carries waves along the patch.
-const WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
+const OUTLOOK_WAVENUMBERS: [f64; 3] = [1e-5, 0.5, 2.0];
 /// Number of components of the surface compliance in an outlook: zz, xx, xz.
-pub(crate) const OUTLOOK: usize = 3;
+pub(crate) const OUTLOOK_COMPONENTS: usize = 3;
 
 /// Integrals over the wavenumber for the pairs of a patch.
 #[derive(Debug)]
@@ -89,7 +91,7 @@ pub(crate) struct Wavenumbers {
     pub(crate) forms: FormFactors,
     tails: Tails,
     /// Legendre polynomials at the Gauss points.
-    pub(super) polynomials: Vec<[f64; DEGREES]>,
+    pub(super) polynomials: Vec<[f64; LEGENDRE_DEGREES]>,
     pub(crate) span: f64,
     pub(crate) shortest: f64,
     pub(super) longest: f64,
@@ -99,15 +101,15 @@ pub(crate) struct Wavenumbers {
 
 /// Workspace of one thread.
 #[derive(Debug, Default)]
-pub(crate) struct Workspace {
-    pub(crate) compliance: Compliance,
-    pub(super) panels: Scratch,
+pub(crate) struct StripWorkspace {
+    pub(crate) compliance: LayeredCompliance,
+    pub(super) panels: IntegralBuffers,
 }
 
 /// Workspace for the panels of successive integrals.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
-    pub(super) samples: Vec<(Panel, [SurfaceCompliance; POINTS])>,
+pub(super) struct IntegralBuffers {
+    pub(super) samples: Vec<(Panel, [SurfaceCompliance; PANEL_POINTS])>,
     sums: Vec<Sums>,
     pub(super) wide: Vec<Panel>,
     pub(super) stack: Vec<(f64, f64, u32)>,
@@ -116,14 +118,14 @@ pub(super) struct Scratch {
 }
 
 /// Result on a panel: C at its points, or the moments of its halves.
-pub(super) enum Found<'a> {
-    Samples(&'a [SurfaceCompliance; POINTS]),
-    Moments(&'a [[f64; 6]; DEGREES]),
+pub(super) enum PanelResult<'a> {
+    Samples(&'a [SurfaceCompliance; PANEL_POINTS]),
+    Moments(&'a [[f64; 6]; LEGENDRE_DEGREES]),
 }
 
 /// Compliances zz, xx and zx of each class.
 impl Compliances<KINDS> for Wavenumbers {
-    type Workspace = Workspace;
+    type Workspace = StripWorkspace;
 
     fn compliance(
         &self,
@@ -132,13 +134,15 @@ impl Compliances<KINDS> for Wavenumbers {
         work: &mut Self::Workspace,
         values: &mut [[Complex; KINDS]],
     ) -> Result<()> {
-        let Workspace { compliance, panels: work } = work;
+        let StripWorkspace { compliance, panels: buffers } = work;
         compliance.set(profile, s)?;
-        let panels = self.panels(Self::reach(compliance).max(deep(profile)))?;
-        let resolved = self.sum(panels, work, &mut |k| compliance.at(k));
-        resolved.map_err(|k| unresolved(s, k))?;
-        self.add_tail(compliance, panels, work);
-        self.read(work, values);
+        // The series of the tail converges from this wavenumber on.
+        let min_k = TAIL_START_RATIO * compliance.root();
+        let panels = self.panels(min_k.max(deep(profile)))?;
+        self.sum_panels(panels, buffers, &mut |k| compliance.at(k))
+            .map_err(|k| unresolved(s, k))?;
+        self.add_tail(compliance, panels, buffers);
+        self.copy_sums(buffers, values);
         Ok(())
     }
 
@@ -152,8 +156,8 @@ impl Compliances<KINDS> for Wavenumbers {
         values: &mut Vec<Complex>,
     ) -> Result<()> {
         work.compliance.set(profile, s)?;
-        work.panels.evaluations +=
-            surface_outlook(profile, &mut work.compliance, [self.shortest, self.span], values);
+        let lengths = [self.shortest, self.span];
+        work.panels.evaluations += surface_outlook(profile, &mut work.compliance, lengths, values);
         Ok(())
     }
 }
@@ -163,22 +167,23 @@ impl Compliances<KINDS> for Wavenumbers {
 /// Returns the number of evaluations.
 pub(crate) fn surface_outlook(
     profile: &SoilProfile,
-    compliance: &mut Compliance,
+    compliance: &mut LayeredCompliance,
     [shortest, span]: [f64; 2],
     values: &mut Vec<Complex>,
 ) -> usize {
-    let slab = profile.layers().first().zip(profile.soils().nth(1));
-    // Whether the top layer carries more along the patch than the ground below it.
-    let has_slab = slab.is_some_and(|(top, (below, _))| {
-        let carried = top.soil.shear_modulus() * top.thickness;
-        carried > below.shear_modulus() * span
-    });
-    let wavenumbers = if has_slab { &WAVENUMBERS[..] } else { &WAVENUMBERS[..1] };
-    let (_, q2, _) = compliance.top();
+    let mut wavenumbers = &OUTLOOK_WAVENUMBERS[..1];
+    if let Some((top, (below, _))) = profile.layers().first().zip(profile.soils().nth(1)) {
+        // A slab stiffer along the patch than the ground below it transmits waves along the patch.
+        let slab_stiffness = top.soil.shear_modulus() * top.thickness;
+        if slab_stiffness > below.shear_modulus() * span {
+            wavenumbers = &OUTLOOK_WAVENUMBERS[..];
+        }
+    }
+    let root = compliance.top().q2.sqrt();
     let one = Complex::real(1.0);
-    let waves = [shortest, span].map(|way| {
-        let turn = q2.sqrt().scale(way);
-        (-turn).exp() / (one + turn)
+    let waves = [shortest, span].map(|distance| {
+        let exponent = root.scale(distance);
+        (-exponent).exp() / (one + exponent)
     });
     let weight = one + waves[0] + waves[1];
     for wavenumber in wavenumbers {
@@ -189,52 +194,54 @@ pub(crate) fn surface_outlook(
 }
 
 impl Wavenumbers {
+    /// Integrals for all classes of pairs.
     pub(crate) fn new(classes: &PairClasses, tolerance: f64) -> Self {
         let forms = FormFactors::new(classes);
-        let lengths = || classes.elements().iter().map(crate::bem::ContactElement::length);
+        let mut shortest = f64::INFINITY;
+        let mut longest = 0.0_f64;
+        for element in classes.elements() {
+            shortest = shortest.min(element.length());
+            longest = longest.max(element.length());
+        }
         Self {
             polynomials: forms.rule.nodes.iter().map(|x| legendre(*x)).collect(),
             tails: Tails::default(),
             span: classes.span(),
-            shortest: lengths().fold(f64::INFINITY, f64::min),
-            longest: lengths().fold(0.0, f64::max),
+            shortest,
+            longest,
             tolerance,
             forms,
         }
     }
 
-    /// Compliances at s = 0 with `symbol` for C, up to a wavenumber of at least `least` (1/m).
+    /// Overwrites `values` with the compliances at s = 0.
     ///
-    /// Beyond, the static tail of the top layer of `compliance` is used.
-    pub(super) fn at_rest(
+    /// `surface` returns C up to a wavenumber of at least `min_k` (1/m). Beyond, the static tail of the top layer of
+    /// `compliance` is used.
+    pub(super) fn static_compliance(
         &self,
-        compliance: &Compliance,
-        least: f64,
-        work: &mut Scratch,
+        compliance: &LayeredCompliance,
+        min_k: f64,
+        work: &mut IntegralBuffers,
         values: &mut [[Complex; KINDS]],
-        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
+        surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
-        let panels = self.panels(least)?;
-        let resolved = self.sum(panels, work, symbol);
-        resolved.map_err(|k| unresolved(Complex::default(), k))?;
+        let panels = self.panels(min_k)?;
+        self.sum_panels(panels, work, surface).map_err(|k| unresolved(Complex::default(), k))?;
         self.add_tail(compliance, panels, work);
-        self.read(work, values);
+        self.copy_sums(work, values);
         Ok(())
     }
 
-    /// Smallest K for which the series of the tail converges.
-    fn reach(compliance: &Compliance) -> f64 {
-        REACH * compliance.root()
-    }
-
-    /// Number of panels up to K ≥ `least`.
-    fn panels(&self, least: f64) -> Result<usize> {
+    /// Number of panels up to K ≥ `min_k`.
+    fn panels(&self, min_k: f64) -> Result<usize> {
         let width = self.forms.width;
-        let short = (SHORT / self.shortest).min(MOST_FOR_SHORT * width);
-        let count = (least / width).max(short / width).ceil().max(1.0);
-        if count > MOST_PANELS {
-            let (span, wavenumber, most) = (self.span, least, MOST_PANELS * width);
-            return Err(GroundError::TooFine { span, wavenumber, most }.into());
+        let min_k_of_tail = (MIN_TAIL_PHASE / self.shortest).min(MAX_PANELS_FOR_SHORT * width);
+        let count = (min_k / width).max(min_k_of_tail / width).ceil().max(1.0);
+        if count > MAX_PANEL_COUNT {
+            let span = self.span;
+            let most = MAX_PANEL_COUNT * width;
+            return Err(GroundError::TooFine { span, wavenumber: min_k, most }.into());
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
         let count = count as usize;
@@ -242,55 +249,59 @@ impl Wavenumbers {
     }
 
     /// Sums the panels up to K into `work.sums`; returns the wavenumber where halving stopped as the error.
-    fn sum(
+    fn sum_panels(
         &self,
         panels: usize,
-        work: &mut Scratch,
-        symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
+        work: &mut IntegralBuffers,
+        surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> std::result::Result<(), f64> {
         let forms = &self.forms;
         let mut sums = std::mem::take(&mut work.sums);
         sums.clear();
         sums.resize(forms.blocks(), Sums::default());
-        let outcome = self.resolve(panels, work, symbol, &mut |panel, found| match found {
-            Found::Samples(samples) => {
-                let half = 0.5 * forms.extent(panel)[1];
-                let coefficients: [[f64; 6]; POINTS] =
-                    std::array::from_fn(|i| parts(&samples[i], half * forms.rule.weights[i]));
-                forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut sums));
-            }
-            Found::Moments(moments) => {
-                forms.with_legendre(panel.index, |rows| accumulate(rows, moments, &mut sums));
-            }
-        });
+        let outcome =
+            self.integrate_panels(panels, work, surface, &mut |panel, result| match result {
+                PanelResult::Samples(samples) => {
+                    let half_width = 0.5 * forms.extent(panel)[1];
+                    let coefficients: [[f64; 6]; PANEL_POINTS] = std::array::from_fn(|i| {
+                        weighted_parts(&samples[i], half_width * forms.rule.weights[i])
+                    });
+                    forms.with_values(panel, |rows| accumulate(rows, &coefficients, &mut sums));
+                }
+                PanelResult::Moments(moments) => {
+                    forms.with_legendre(panel.index, |rows| accumulate(rows, moments, &mut sums));
+                }
+            });
         work.sums = sums;
         outcome
     }
 
     /// Adds the series for wavenumbers beyond the last panel.
-    fn add_tail(&self, compliance: &Compliance, panels: usize, work: &mut Scratch) {
-        let (modulus, q2, a2) = compliance.top();
-        let [xx, zz, xz] = surface_series(a2);
+    fn add_tail(&self, compliance: &LayeredCompliance, panels: usize, work: &mut IntegralBuffers) {
+        let top = compliance.top();
+        let series = surface_series(top.a2);
         let limit = panels as f64 * self.forms.width;
-        let ratio = q2.scale(1.0 / (limit * limit));
-        let mut power = modulus.inverse();
-        let mut coefficients = [[0.0; 6]; TERMS];
+        let ratio = top.q2.scale(1.0 / (limit * limit));
+        let mut power = top.modulus.inverse();
+        let mut coefficients = [[0.0; 6]; TAIL_TERMS];
         for (j, coefficient) in coefficients.iter_mut().enumerate() {
-            let value = |d: f64| power.scale(d);
-            let surface =
-                SurfaceCompliance { xx: value(xx[j]), zz: value(zz[j]), xz: value(xz[j]) };
-            *coefficient = parts(&surface, 1.0);
+            let [xx, zz, xz] = series.each_ref().map(|series| power.scale(series[j]));
+            *coefficient = weighted_parts(&SurfaceCompliance { xx, zz, xz }, 1.0);
             power = power * ratio;
         }
         accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);
     }
 
-    fn read(&self, work: &Scratch, values: &mut [[Complex; KINDS]]) {
-        const UNIT: f64 = std::f64::consts::FRAC_1_PI;
+    /// Overwrites the compliances zz, xx and zx of each class with 1/π × the sums; zx with the opposite sign.
+    fn copy_sums(&self, work: &IntegralBuffers, values: &mut [[Complex; KINDS]]) {
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
-            let (sums, lane) = (&work.sums[class / LANES], class % LANES);
-            let part = |i: usize| Complex::new(sums[i][lane], sums[i + 1][lane]);
-            *value = [part(0).scale(UNIT), part(2).scale(UNIT), part(4).scale(-UNIT)];
+            let sums = &work.sums[class / PAIR_LANES];
+            let lane = class % PAIR_LANES;
+            for (kind, value) in value.iter_mut().enumerate() {
+                let sum = Complex::new(sums[2 * kind][lane], sums[2 * kind + 1][lane]);
+                let sign = if kind == 2 { -1.0 } else { 1.0 };
+                *value = sum.scale(sign * std::f64::consts::FRAC_1_PI);
+            }
         }
     }
 }
@@ -302,11 +313,11 @@ pub(crate) fn unresolved(s: Complex, k: f64) -> Error {
 
 /// Smallest K at which the bottom of the top layer has no effect on the surface, 1/m.
 pub(crate) fn deep(profile: &SoilProfile) -> f64 {
-    profile.layers().first().map_or(0.0, |layer| DEEP / layer.thickness)
+    profile.layers().first().map_or(0.0, |layer| OPAQUE_DECAY_LENGTHS / layer.thickness)
 }
 
 /// zz, xx, xz, real and imaginary, times a weight.
-pub(super) fn parts(c: &SurfaceCompliance, weight: f64) -> [f64; 6] {
+pub(super) fn weighted_parts(c: &SurfaceCompliance, weight: f64) -> [f64; 6] {
     [c.zz.re, c.zz.im, c.xx.re, c.xx.im, c.xz.re, c.xz.im].map(|x| weight * x)
 }
 

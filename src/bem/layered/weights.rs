@@ -4,13 +4,14 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use super::block_store::{BlockStore, copy_lags, last_block};
-use super::coefficients::{Block, Quadrature, Samples};
+use super::coefficients::{Quadrature, Samples};
+use super::lag_block::LagBlock;
 use super::passivity;
 use super::runge_kutta::Stages;
 use super::threads::threads;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
-use crate::geometry::{ContactElement, SERIES};
+use crate::geometry::{ContactElement, SERIES_PER_OFFSET};
 #[cfg(feature = "embedded")]
 use crate::history::TRENCH_KINDS;
 use crate::history::{
@@ -23,7 +24,7 @@ use crate::soil::SoilProfile;
 pub(in crate::bem) struct QuadratureWeights<I, const KINDS: usize> {
     pub(in crate::bem) quadrature: Quadrature<I, KINDS>,
     pub(in crate::bem) classes: PairClasses,
-    /// Elements for which the passivity gate is evaluated, if not all.
+    /// Elements whose passivity is checked, if not all.
     sample: Option<PairClasses>,
     /// Numbers that distinguish the mesh from others.
     mesh: Vec<f64>,
@@ -45,7 +46,8 @@ impl StripWeights {
         profile: SoilProfile,
         elements: &[ContactElement],
         stages: Stages,
-        [time_step, tolerance]: [f64; 2],
+        time_step: f64,
+        tolerance: f64,
         file: Option<PathBuf>,
     ) -> Result<Self> {
         positive("time step", time_step)?;
@@ -59,7 +61,7 @@ impl StripWeights {
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
-    /// Weights of `classes`, not yet computed; the gate uses only the elements of `sample`, if given.
+    /// Weights of `classes`, not yet computed; passivity is checked on the elements of `sample`, or on all for `None`.
     pub(in crate::bem) fn new(
         quadrature: Quadrature<I, KINDS>,
         classes: PairClasses,
@@ -67,37 +69,33 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         mesh: Vec<f64>,
         file: Option<PathBuf>,
     ) -> Self {
-        let blocks = BlockStore::new([classes.count(), KINDS], file);
+        let blocks = BlockStore::new(classes.count(), KINDS, file);
         let spectra = SharedSpectra::default();
         Self { quadrature, classes, sample, mesh, blocks, spectra }
     }
 
-    /// Elements for which the passivity gate is evaluated.
-    fn gate(&self) -> &PairClasses {
-        self.sample.as_ref().unwrap_or(&self.classes)
-    }
-
     /// Block `number`; computed now if it is not stored.
-    fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&Block> {
+    fn block(&self, number: usize, watch: &mut Watch, expected: Range<usize>) -> Result<&LagBlock> {
         self.blocks.block(number, watch, |watch| {
             self.quadrature.block(number, threads(), Samples::new(watch, expected))
         })
     }
 
-    /// Runs the passivity gate, and returns the fingerprint of the weights.
-    pub(in crate::bem) fn admit(&self, watch: &mut Watch) -> Result<u64> {
-        self.blocks.gate(watch, |watch| {
+    /// Checks passivity once, and returns the fingerprint of the weights.
+    pub(in crate::bem) fn check_passivity(&self, watch: &mut Watch) -> Result<u64> {
+        self.blocks.fingerprint(watch, |watch| {
             self.quadrature.integrals.make_ready(watch)?;
-            passivity::check(&self.quadrature, self.gate(), &self.mesh, watch)
+            let checked = self.sample.as_ref().unwrap_or(&self.classes);
+            passivity::check(&self.quadrature, checked, &self.mesh, watch)
         })
     }
 
     /// Returns an error unless the blocks up to the last of `missing` fit into memory.
-    fn fits(&self, missing: &Range<usize>) -> Result<()> {
+    fn check_memory(&self, missing: &Range<usize>) -> Result<()> {
         if missing.is_empty() {
             return Ok(());
         }
-        let lags = Block::last(missing.end - 1) as f64;
+        let lags = LagBlock::last_lag(missing.end - 1) as f64;
         Ok(memory::check("lags of a layered ground", lags, self.quadrature.memory(missing.end))?)
     }
 
@@ -105,27 +103,28 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
     fn compute(&self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let last = last_block(lags.max(1))?;
         let missing = self.blocks.missing(0..last + 1);
-        self.fits(&missing)?;
-        // Upper limits: panels of the contour spare most samples of a long block.
-        let most = |number| self.quadrature.most_samples(number);
-        let expected = (0..=last).map(|n| if missing.contains(&n) { most(n) } else { 0 });
-        let expected: Vec<usize> = expected.collect();
-        let total = I::GATE_POINTS + expected.iter().sum::<usize>();
+        self.check_memory(&missing)?;
+        // Upper limits: with panels of the contour, a long block needs far fewer samples.
+        let mut sample_counts = vec![0; last + 1];
+        for number in missing {
+            sample_counts[number] = self.quadrature.max_samples(number);
+        }
+        let total = I::PASSIVITY_POINTS + sample_counts.iter().sum::<usize>();
         let mut watch = Watch::new("convolution weights of layered ground", total, observer);
-        let fingerprint = self.admit(&mut watch)?;
-        let complete = self.blocks.missing(0..last + 1).is_empty();
-        let mut done = I::GATE_POINTS;
+        let fingerprint = self.check_passivity(&mut watch)?;
+        let is_complete = self.blocks.missing(0..last + 1).is_empty();
+        let mut done = I::PASSIVITY_POINTS;
         watch.reach(done)?;
-        for (number, count) in expected.into_iter().enumerate() {
+        for (number, count) in sample_counts.into_iter().enumerate() {
             self.block(number, &mut watch, done..done + count)?;
             done += count;
         }
         watch.reach(done)?;
-        if complete { Ok(()) } else { self.blocks.write(fingerprint) }
+        if is_complete { Ok(()) } else { self.blocks.write(fingerprint) }
     }
 
     /// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on.
-    fn copy<const N: usize>(
+    fn copy_weights<const N: usize>(
         &self,
         class: usize,
         first_lag: usize,
@@ -137,8 +136,8 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         in_bounds("class of element pairs", class, self.classes.count())?;
         copy_lags(class, first_lag, values, |number| {
             if !self.blocks.has(number) {
-                self.fits(&(number..number + 1))?;
-                self.admit(&mut Watch::nobody())?;
+                self.check_memory(&(number..number + 1))?;
+                self.check_passivity(&mut Watch::nobody())?;
             }
             self.block(number, &mut Watch::nobody(), 0..0)
         })
@@ -160,16 +159,16 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         first_lag: usize,
         values: [&mut [f64]; STRIP_KINDS],
     ) -> Result<()> {
-        self.copy(class, first_lag, values)
+        self.copy_weights(class, first_lag, values)
     }
 
     fn coefficients_in_plan(
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; SERIES],
+        values: [&mut [f64]; SERIES_PER_OFFSET],
     ) -> Result<()> {
-        self.copy(class, first_lag, values)
+        self.copy_weights(class, first_lag, values)
     }
 
     #[cfg(feature = "embedded")]
@@ -179,11 +178,11 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         first_lag: usize,
         values: [&mut [f64]; TRENCH_KINDS],
     ) -> Result<()> {
-        self.copy(class, first_lag, values)
+        self.copy_weights(class, first_lag, values)
     }
 
     fn late_error(&self) -> f64 {
-        I::LATE_ERROR * self.quadrature.tolerance.powf(2.0 / 3.0)
+        I::LATE_ERROR_FACTOR * self.quadrature.tolerance.powf(2.0 / 3.0)
     }
 
     fn spectra(&self) -> Option<&SharedSpectra> {

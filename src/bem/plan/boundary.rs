@@ -5,8 +5,8 @@
 
 use std::collections::HashMap;
 
-use super::faces::{Face, side};
-use super::points::{Point, Points, without_pairs};
+use super::faces::{MatFace, side};
+use super::points::{Point, PointIndex, without_pairs};
 
 /// Largest distance by which sharp corners move, relative to the distance of their edges.
 const MAX_CORNER_MOVE: f64 = 3.0;
@@ -15,7 +15,7 @@ const STRAIGHT_SINE: f64 = 1e-6;
 
 /// Closed lines with the mat to their left: counter-clockwise around it, clockwise around its holes.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Boundary {
+pub(super) struct MatBoundary {
     pub(super) loops: Vec<Vec<Point>>,
 }
 
@@ -28,30 +28,36 @@ struct MovedEdge {
     distance: f64,
 }
 
-impl Boundary {
+impl MatBoundary {
     /// Boundary of each mat: faces that touch form one.
-    pub(super) fn of_mats(faces: &[Face]) -> Vec<Self> {
-        let mats = Face::mats(faces);
+    pub(super) fn of_mats(faces: &[MatFace]) -> Vec<Self> {
+        let mats = MatFace::mats(faces);
         let count = mats.iter().max().map_or(0, |last| last + 1);
-        let mut members = vec![vec![]; count];
-        faces.iter().zip(mats).for_each(|(face, mat)| members[mat].push(face));
-        members.iter().map(|faces| Self::of(faces)).collect()
+        let mut faces_of_mats = vec![vec![]; count];
+        for (face, mat) in faces.iter().zip(mats) {
+            faces_of_mats[mat].push(face);
+        }
+        faces_of_mats.iter().map(|faces| Self::of(faces)).collect()
     }
 
     /// Boundary of some faces, the faces of one mat.
-    fn of(faces: &[&Face]) -> Self {
+    fn of(faces: &[&MatFace]) -> Self {
         let near = faces.iter().map(|face| face.near()).fold(0.0, f64::max);
-        let mut points = Points::new(near);
+        let mut points = PointIndex::new(near);
         let mut edges = vec![];
         for face in faces {
             let corners: Vec<_> =
                 face.corners().iter().map(|corner| points.number(*corner)).collect();
-            edges
-                .extend((0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]));
+            for k in 0..corners.len() {
+                edges.push([corners[k], corners[(k + 1) % corners.len()]]);
+            }
         }
-        let stops = points.on_edges(&without_pairs(edges));
-        let parts = stops.iter().flat_map(|on| on.windows(2).map(|pair| [pair[0].1, pair[1].1]));
-        let mut loops = closed_lines(&points, without_pairs(parts.collect()));
+        // Parts of edges between neighbouring points on them.
+        let mut parts = vec![];
+        for on_edge in points.on_edges(&without_pairs(edges)) {
+            parts.extend(on_edge.windows(2).map(|pair| [pair[0].1, pair[1].1]));
+        }
+        let mut loops = closed_lines(&points, without_pairs(parts));
         loops.sort_by(|one, other| {
             let corners = one.iter().flatten().zip(other.iter().flatten());
             corners.fold(one.len().cmp(&other.len()), |order, (x, y)| order.then(x.total_cmp(y)))
@@ -75,12 +81,15 @@ impl Boundary {
 
     /// Length of the edges whose angle to x and y has a larger sine, m.
     pub(super) fn oblique_length(&self, sine: f64) -> f64 {
-        let steps = self.edges().map(|[a, b]| [b[0] - a[0], b[1] - a[1]]);
-        let lengths = steps.map(|step| {
+        let mut sum = 0.0;
+        for [a, b] in self.edges() {
+            let step = [b[0] - a[0], b[1] - a[1]];
             let length = step[0].hypot(step[1]);
-            if step[0].abs().min(step[1].abs()) > sine * length { length } else { 0.0 }
-        });
-        lengths.sum()
+            if step[0].abs().min(step[1].abs()) > sine * length {
+                sum += length;
+            }
+        }
+        sum
     }
 
     /// Closed lines whose edges lie farther out by a distance (m) that depends on their unit normal.
@@ -88,27 +97,29 @@ impl Boundary {
     /// Points about which the lines turn counter-clockwise at least once lie inside. Sharp corners are cut off at three
     /// times the distance.
     pub(super) fn moved_outwards(&self, distance: impl Fn(Point) -> f64) -> Vec<Vec<Point>> {
-        let moved = |corners: &Vec<Point>| {
-            let next = corners.iter().cycle().skip(1);
-            let edge = |(a, b): (&Point, &Point)| {
+        let mut moved_loops = Vec::with_capacity(self.loops.len());
+        for corners in &self.loops {
+            let mut edges = Vec::with_capacity(corners.len());
+            for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
                 let length = (b[0] - a[0]).hypot(b[1] - a[1]);
                 let direction = [0, 1].map(|k| (b[k] - a[k]) / length);
                 let distance = distance([direction[1], -direction[0]]);
-                MovedEdge { end: *b, length, direction, distance }
-            };
-            let edges: Vec<MovedEdge> = corners.iter().zip(next).map(edge).collect();
-            let after = edges.iter().cycle().skip(1);
-            edges.iter().zip(after).flat_map(|(one, other)| one.corner_to(other)).collect()
-        };
-        self.loops.iter().map(moved).collect()
+                edges.push(MovedEdge { end: *b, length, direction, distance });
+            }
+            let mut moved = vec![];
+            for (edge, next) in edges.iter().zip(edges.iter().cycle().skip(1)) {
+                moved.extend(edge.corner_to(next));
+            }
+            moved_loops.push(moved);
+        }
+        moved_loops
     }
 }
 
 impl MovedEdge {
-    /// Point beyond the end of this edge (along it), or before the begin of the next one, at the distance outwards.
+    /// Point on the moved edge, at the distance `along` from the edge's `corner`.
     fn beside(&self, corner: Point, along: f64) -> Point {
-        let [x, y] = self.direction;
-        let normal = [y, -x];
+        let normal = [self.direction[1], -self.direction[0]];
         [0, 1].map(|k| corner[k] + self.distance * normal[k] + along * self.direction[k])
     }
 
@@ -118,57 +129,63 @@ impl MovedEdge {
     /// end before: a corner of the mat is then cut off, and in a corner of its surroundings edges pass one another.
     fn corner_to(&self, next: &Self) -> Vec<Point> {
         let corner = self.end;
-        let [one, other] = [self.direction, next.direction];
+        let one = self.direction;
+        let other = next.direction;
         let sine = one[0] * other[1] - one[1] * other[0];
         let cosine = one[0] * other[0] + one[1] * other[1];
         if sine.abs() <= STRAIGHT_SINE {
             return vec![self.beside(corner, 0.0), next.beside(corner, 0.0)];
         }
-        let beyond = (next.distance - self.distance * cosine) / sine;
-        let before = (self.distance - next.distance * cosine) / sine;
-        let widest = self.distance.max(next.distance);
-        let reach = (MAX_CORNER_MOVE * MAX_CORNER_MOVE - 1.0).sqrt() * widest;
-        let limit = |along: f64, length: f64| {
-            let room = if along < 0.0 { 0.5 * length } else { reach };
-            room / along.abs()
-        };
-        let ratio = limit(beyond, self.length).min(limit(before, next.length));
-        // A ratio without a number belongs to edges that do not move.
+        // Lengths by which this edge grows beyond its end, and the next one before its start, until they meet.
+        let growth = (next.distance - self.distance * cosine) / sine;
+        let next_growth = (self.distance - next.distance * cosine) / sine;
+        let max_growth =
+            (MAX_CORNER_MOVE * MAX_CORNER_MOVE - 1.0).sqrt() * self.distance.max(next.distance);
+        let ratio = self
+            .allowed_fraction(growth, max_growth)
+            .min(next.allowed_fraction(next_growth, max_growth));
+        // Edges that do not move have no ratio (0/0).
         if ratio.is_nan() || ratio >= 1.0 {
-            return vec![self.beside(corner, beyond)];
+            return vec![self.beside(corner, growth)];
         }
-        let ends = [self.beside(corner, ratio * beyond), next.beside(corner, -ratio * before)];
-        if sine > 0.0 { ends.to_vec() } else { vec![ends[0], corner, ends[1]] }
+        let end = self.beside(corner, ratio * growth);
+        let next_start = next.beside(corner, -ratio * next_growth);
+        if sine > 0.0 { vec![end, next_start] } else { vec![end, corner, next_start] }
+    }
+
+    /// Largest fraction of a growth that the edge allows; it may be reduced by half its length.
+    fn allowed_fraction(&self, growth: f64, max_growth: f64) -> f64 {
+        let allowed = if growth < 0.0 { 0.5 * self.length } else { max_growth };
+        allowed / growth.abs()
     }
 }
 
 /// Closed lines of these edges.
 ///
 /// Where several edges leave a point, a line turns left as far as it can: it stays with its part of the mat.
-fn closed_lines(points: &Points, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
+fn closed_lines(points: &PointIndex, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
     let mut leaving: HashMap<usize, Vec<usize>> = HashMap::new();
     for &[first, last] in &edges {
         leaving.entry(first).or_default().push(last);
     }
     let mut lines = vec![];
     for [first, last] in edges {
-        let Some(place) =
-            leaving.get(&first).and_then(|ends| ends.iter().position(|end| *end == last))
-        else {
-            continue;
-        };
-        leaving.entry(first).or_default().swap_remove(place);
+        let Some(ends) = leaving.get_mut(&first) else { continue };
+        let Some(place) = ends.iter().position(|end| *end == last) else { continue };
+        ends.swap_remove(place);
         let mut line = vec![first, last];
         while let [_, second, ..] = line[..]
-            && let [.., before, at] = line[..]
-            && let Some(ends) = leaving.get_mut(&at)
+            && let [.., previous, current] = line[..]
+            && let Some(ends) = leaving.get_mut(&current)
         {
-            let [from, here] = [before, at].map(|number| points.place(number));
-            let turn = |end: usize| clockwise([from, here], points.place(end));
-            let by_turn =
-                |one: &usize, other: &usize| turn(ends[*one]).total_cmp(&turn(ends[*other]));
-            let Some(next) = (0..ends.len()).min_by(by_turn) else { break };
-            if at == first && turn(second) <= turn(ends[next]) {
+            let corner = [points.place(previous), points.place(current)];
+            let turn = |end: usize| clockwise(corner, points.place(end));
+            let Some(next) = (0..ends.len())
+                .min_by(|one, other| turn(ends[*one]).total_cmp(&turn(ends[*other])))
+            else {
+                break;
+            };
+            if current == first && turn(second) <= turn(ends[next]) {
                 break;
             }
             line.push(ends.swap_remove(next));
@@ -180,20 +197,21 @@ fn closed_lines(points: &Points, edges: Vec<[usize; 2]>) -> Vec<Vec<Point>> {
 }
 
 /// Corners of a closed line, from the lowest of its leftmost ones; `None` if it encloses nothing.
-fn corners(points: &Points, line: &[usize]) -> Option<Vec<Point>> {
+fn corners(points: &PointIndex, line: &[usize]) -> Option<Vec<Point>> {
     let places: Vec<Point> = line.iter().map(|number| points.place(*number)).collect();
-    let order = |one: &usize, other: &usize| {
-        let [one, other] = [places[*one], places[*other]];
+    let start = (0..places.len()).min_by(|one, other| {
+        let one = places[*one];
+        let other = places[*other];
         if (one[0] - other[0]).abs() <= points.near() {
             one[1].total_cmp(&other[1])
         } else {
             one[0].total_cmp(&other[0])
         }
-    };
-    let start = (0..places.len()).min_by(order)?;
+    })?;
     let mut corners = vec![places[start]];
     for k in 1..places.len() {
-        let [place, next] = [k, k + 1].map(|k| places[(start + k) % places.len()]);
+        let place = places[(start + k) % places.len()];
+        let next = places[(start + k + 1) % places.len()];
         let last = corners[corners.len() - 1];
         if points.along([last, next], place).is_none() {
             corners.push(place);
@@ -203,8 +221,9 @@ fn corners(points: &Points, line: &[usize]) -> Option<Vec<Point>> {
 }
 
 /// Angle at the second point from the first one clockwise to `end`, above 0 and up to 2π.
-fn clockwise([before, here]: [Point; 2], end: Point) -> f64 {
-    let angle = |place: Point| (place[1] - here[1]).atan2(place[0] - here[0]);
-    let turn = (angle(before) - angle(end)).rem_euclid(std::f64::consts::TAU);
+fn clockwise([first, second]: [Point; 2], end: Point) -> f64 {
+    let first_angle = (first[1] - second[1]).atan2(first[0] - second[0]);
+    let end_angle = (end[1] - second[1]).atan2(end[0] - second[0]);
+    let turn = (first_angle - end_angle).rem_euclid(std::f64::consts::TAU);
     if turn > 0.0 { turn } else { std::f64::consts::TAU }
 }

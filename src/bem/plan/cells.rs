@@ -1,25 +1,26 @@
 //! Cells under one or several mats.
 
-use std::collections::HashSet;
 use std::ops::Range;
 
-use super::boundary::Boundary;
-use super::faces::{Face, apart, mat_by_mat};
-use super::outline::{Cut, OVERHANG, cut, error};
-use super::region::Grid;
+use super::boundary::MatBoundary;
+use super::faces::{MatFace, check_apart, mat_by_mat};
+use super::outline::{CutCell, RIGID_MAT_OVERHANG, cells_of_mats, rocking_error};
+use super::region::PlanGrid;
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
-use crate::geometry::{ContactElement, Lattice, circle, middle};
+use crate::geometry::{Lattice, circle, middle};
 use crate::history::PairClasses;
 
+mod areas;
+
 /// Largest relative difference of the areas of mats and cells.
-const MISSING: f64 = 0.01;
+const MAX_AREA_ERROR: f64 = 0.01;
 /// Memory for a cell, bytes.
-const CELL: f64 = 1000.0;
+const BYTES_PER_CELL: f64 = 1000.0;
 /// Relative difference of sides that counts as rounding.
-const ROUNDING: f64 = 1e-12;
+const EQUAL_SIDES_TOLERANCE: f64 = 1e-12;
 /// Part of a union's rectangle beside its cells that counts as rounding.
-const FILLED: f64 = 1e-9;
+const UNION_AREA_TOLERANCE: f64 = 1e-9;
 
 /// Cells of one lattice under one or several mats.
 ///
@@ -46,14 +47,16 @@ pub struct Plan {
     overhang: f64,
     /// Area of the outline, m².
     area: f64,
-    /// Faces of the outline, and number of cells along its shorter side; empty for discs and masks.
-    faces: (Vec<Face>, usize),
+    /// Faces of the outline; empty for masks.
+    faces: Vec<MatFace>,
+    /// Number of cells along the shorter side of the outline; 0 for masks.
+    cells_along: usize,
     /// Contact element of each cell; `None` if each cell is one.
     pub(super) owners: Option<Vec<usize>>,
     /// Each cell at the outline; empty if no cell is cut.
-    pub(super) cuts: Vec<Cut>,
+    pub(super) cuts: Vec<CutCell>,
     /// Estimated relative error of a rigid mat's rocking stiffness by oblique edges.
-    error: f64,
+    rocking_error: f64,
 }
 
 impl Plan {
@@ -80,9 +83,11 @@ impl Plan {
     /// [`PlanError::Uncovered`].
     pub fn on_faces(faces: &[Vec<[f64; 2]>], cells: usize) -> Result<Self> {
         check_faces(faces.len())?;
-        let faces: Result<Vec<_>> =
-            faces.iter().enumerate().map(|(number, corners)| Face::new(number, corners)).collect();
-        Self::on(faces?, cells, OVERHANG, f64::INFINITY)
+        let mut checked = Vec::with_capacity(faces.len());
+        for (number, corners) in faces.iter().enumerate() {
+            checked.push(MatFace::new(number, corners)?);
+        }
+        Self::on_outlines(checked, cells, RIGID_MAT_OVERHANG, f64::INFINITY)
     }
 
     /// A disc, as a polygon of the same area, with `cells` along its diameter.
@@ -116,30 +121,39 @@ impl Plan {
         }
         let rows = mask.len().div_ceil(columns.max(1)).max(1);
         if columns == 0 || rows * columns != mask.len() {
-            let (found, needed) = (mask.len(), rows * columns.max(1));
+            let found = mask.len();
+            let needed = rows * columns.max(1);
             return Err(Error::Size { quantity: "mask of a mat", found, needed });
         }
         check_memory([columns, rows])?;
-        let on = (0..mask.len()).filter(|place| mask[*place]);
-        let cells: Vec<_> = on.map(|place| [place % columns, place / columns]).collect();
-        let range = |axis: usize| {
-            let places = || cells.iter().map(move |cell| cell[axis]);
-            Some([places().min()?, places().max()?])
-        };
-        let [Some([left, right]), Some([front, back])] = [0, 1].map(range) else {
+        let mut cells = vec![];
+        // Smallest and largest column and row of the cells.
+        let mut first = [usize::MAX; 2];
+        let mut last = [0; 2];
+        for place in (0..mask.len()).filter(|place| mask[*place]) {
+            let cell = [place % columns, place / columns];
+            for axis in 0..2 {
+                first[axis] = first[axis].min(cell[axis]);
+                last[axis] = last[axis].max(cell[axis]);
+            }
+            cells.push(cell);
+        }
+        if cells.is_empty() {
             return Err(PlanError::NoCells { mat: 0, pitch }.into());
-        };
+        }
         let area = pitch[0] * pitch[1] * cells.len() as f64;
+        let sorted = mat_by_mat(&cells);
         Ok(Self {
-            corner: [corner[0] + pitch[0] * left as f64, corner[1] + pitch[1] * front as f64],
-            cells: mat_by_mat(&cells).into_iter().map(|[i, j]| [i - left, j - front]).collect(),
-            lattice: Lattice { pitch, counts: [right + 1 - left, back + 1 - front] },
+            corner: [0, 1].map(|axis| corner[axis] + pitch[axis] * first[axis] as f64),
+            cells: sorted.into_iter().map(|[i, j]| [i - first[0], j - first[1]]).collect(),
+            lattice: Lattice { pitch, counts: [0, 1].map(|axis| last[axis] + 1 - first[axis]) },
             overhang: 0.0,
             area,
-            faces: (vec![], 0),
+            faces: vec![],
+            cells_along: 0,
             owners: None,
             cuts: vec![],
-            error: 0.0,
+            rocking_error: 0.0,
         })
     }
 
@@ -164,9 +178,14 @@ impl Plan {
         let owners = Some(Unions::owners(self.lattice.counts, &self.cells, [along, across])?);
         let plan = Self { owners, ..self };
         for ([_, area], element) in plan.areas().into_iter().zip(plan.elements()) {
-            let [length, depth] = element.sides();
-            let ratio = area / (length * depth);
-            require("part of a union's rectangle in its cells", ratio, ratio > 1.0 - FILLED, "1")?;
+            let sides = element.sides();
+            let ratio = area / (sides[0] * sides[1]);
+            require(
+                "part of a union's rectangle in its cells",
+                ratio,
+                ratio > 1.0 - UNION_AREA_TOLERANCE,
+                "1",
+            )?;
         }
         Ok(plan)
     }
@@ -187,46 +206,65 @@ impl Plan {
                 needed: "`without_overhang` before `with_unions`",
             });
         }
-        let (faces, cells) = self.faces;
-        Self::on(faces, cells, 0.0, 0.0)
+        Self::on_outlines(self.faces, self.cells_along, 0.0, 0.0)
     }
 
-    /// Cells under faces of mats with this D/(G R³), infinite for rigid mats.
-    pub(super) fn on(faces: Vec<Face>, cells: usize, overhang: f64, rigidity: f64) -> Result<Self> {
-        Face::check_overlap(&faces)?;
-        let bounds = Face::bounds(&faces);
-        let sides = bounds.map(|[least, greatest]| greatest - least);
+    /// Cells under faces of mats.
+    ///
+    /// `cells_along`: number of cells along the shorter side of all faces. `rigidity`: D/(G R³), infinite for rigid
+    /// mats.
+    pub(super) fn on_outlines(
+        faces: Vec<MatFace>,
+        cells_along: usize,
+        overhang: f64,
+        rigidity: f64,
+    ) -> Result<Self> {
+        MatFace::check_overlap(&faces)?;
+        let bounds = MatFace::bounds(&faces);
+        let sides = bounds.map(|[low, high]| high - low);
         let shorter = sides[0].min(sides[1]);
-        let whole = cells as f64 - 2.0 * overhang;
+        let covered_cells = cells_along as f64 - 2.0 * overhang;
         let counts = sides.map(|side| {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-            let count = (whole * side / shorter + 2.0 * overhang).round() as usize;
+            let count = (covered_cells * side / shorter + 2.0 * overhang).round() as usize;
             count
         });
-        check_count(cells, counts)?;
+        check_count(cells_along, counts)?;
         let mut pitch = [0, 1].map(|axis| sides[axis] / (counts[axis] as f64 - 2.0 * overhang));
-        if (pitch[0] / pitch[1] - 1.0).abs() < ROUNDING {
+        if (pitch[0] / pitch[1] - 1.0).abs() < EQUAL_SIDES_TOLERANCE {
             pitch[1] = pitch[0];
         }
         let corner = [0, 1].map(|k| middle(bounds[k]) - 0.5 * pitch[k] * counts[k] as f64);
-        let mats = Boundary::of_mats(&faces);
-        let grid = Grid { corner, pitch, counts };
-        let (owners, mut found) = cut(&mats, grid, overhang, rigidity);
-        apart(&owners, counts[0], pitch)?;
-        if let Some(mat) = found.iter().position(|(cells, _)| cells.is_empty()) {
+        let mats = MatBoundary::of_mats(&faces);
+        let grid = PlanGrid { corner, pitch, counts };
+        let (owners, mut by_mat) = cells_of_mats(&mats, grid, overhang, rigidity);
+        check_apart(&owners, counts[0], pitch)?;
+        if let Some(mat) = by_mat.iter().position(|of_mat| of_mat.cells.is_empty()) {
             return Err(PlanError::NoCells { mat, pitch }.into());
         }
-        let error = if rigidity.is_infinite() { error(&mats, pitch) } else { 0.0 };
-        found.sort_by_key(|(cells, _)| cells.first().map(|[i, j]| [*j, *i]));
-        let (own, cuts): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-        let area = mats.iter().map(Boundary::area).sum();
-        let (cells, cuts, faces) = (own.concat(), cuts.concat(), (faces, cells));
-        let lattice = Lattice { pitch, counts };
-        let plan =
-            Self { lattice, cells, corner, overhang, area, faces, owners: None, cuts, error };
-        let found: f64 = plan.inside().iter().sum();
-        if (found - area).abs() > MISSING * area {
-            return Err(PlanError::Uncovered { faces: area, cells: found, pitch }.into());
+        by_mat.sort_by_key(|of_mat| of_mat.cells.first().map(|[i, j]| [*j, *i]));
+        let mut cells = vec![];
+        let mut cuts = vec![];
+        for of_mat in by_mat {
+            cells.extend(of_mat.cells);
+            cuts.extend(of_mat.cuts);
+        }
+        let area = mats.iter().map(MatBoundary::area).sum();
+        let plan = Self {
+            lattice: Lattice { pitch, counts },
+            cells,
+            corner,
+            overhang,
+            area,
+            faces,
+            cells_along,
+            owners: None,
+            cuts,
+            rocking_error: if rigidity.is_infinite() { rocking_error(&mats, pitch) } else { 0.0 },
+        };
+        let cell_area: f64 = plan.inside().iter().sum();
+        if (cell_area - area).abs() > MAX_AREA_ERROR * area {
+            return Err(PlanError::Uncovered { faces: area, cells: cell_area, pitch }.into());
         }
         Ok(plan)
     }
@@ -254,10 +292,10 @@ impl Plan {
 
     /// Estimated relative error of a rigid mat's rocking stiffness by an oblique outline.
     pub(in crate::bem) fn outline_error(&self) -> f64 {
-        self.error
+        self.rocking_error
     }
 
-    /// Pairs of the cells.
+    /// Classes of pairs of cells.
     pub(super) fn classes(&self) -> Result<PairClasses> {
         PairClasses::in_plan(self.lattice.clone(), self.cells.clone(), self.corner)
     }
@@ -274,65 +312,9 @@ impl Plan {
         let lattice = Lattice { pitch: pitch.map(|x| 0.5 * x), counts: counts.map(|n| 2 * n) };
         let owners = Some(owners);
         let cuts = self.cuts.iter().flat_map(|cut| vec![cut.clone(); 4]).collect();
-        Self { lattice, cells, overhang: 0.0, faces: (vec![], 0), owners, cuts, ..self.clone() }
-    }
-
-    /// Ends of a cell's contact element along x and y, m.
-    pub(super) fn ends(&self, cell: usize) -> [[f64; 2]; 2] {
-        if let Some(cut) = self.cuts.get(cell) {
-            return cut.ends;
-        }
-        [0, 1].map(|axis| {
-            [0, 1].map(|end| {
-                self.corner[axis] + self.lattice.pitch[axis] * (self.cells[cell][axis] + end) as f64
-            })
-        })
-    }
-
-    /// Centre of a cell's contact element from the middle of the plan, m.
-    pub(super) fn arms(&self, cell: usize) -> [f64; 2] {
-        let (Lattice { pitch, counts }, place) = (&self.lattice, self.cells[cell]);
-        [0, 1].map(|axis| {
-            let whole = 2.0 * place[axis] as f64 + 1.0 - counts[axis] as f64;
-            let cut = self.cuts.get(cell).map(|cut| middle(cut.ends[axis]) - self.middle()[axis]);
-            cut.unwrap_or(0.5 * whole * pitch[axis])
-        })
-    }
-
-    /// Compliance in series with a cell, relative to the cell's own.
-    pub(super) fn softness(&self, cell: usize) -> f64 {
-        self.cuts.get(cell).map_or(0.0, |cut| cut.softness)
-    }
-
-    /// The contact elements.
-    pub fn elements(&self) -> Vec<ContactElement> {
-        let mut all: Vec<[[f64; 2]; 2]> = vec![];
-        for number in 0..self.count() {
-            let own = self.ends(number);
-            // Cells of a mat come row by row, and the first cell of an element before its others.
-            match all.get_mut(self.owner(number)) {
-                Some(sides) => (0..2).for_each(|k| sides[k][1] = sides[k][1].max(own[k][1])),
-                None => all.push(own),
-            }
-        }
-        let elements = all.into_iter().zip(self.areas());
-        let element = |([along, across], [inside, all]): ([[f64; 2]; 2], [f64; 2])| {
-            ContactElement::in_plan(along, across).with_fraction_inside((inside / all).min(1.0))
-        };
-        elements.map(element).collect()
-    }
-
-    /// Area of each contact element inside the outline, and of all its cells or parts of cells, m².
-    fn areas(&self) -> Vec<[f64; 2]> {
-        let [a, b] = self.lattice.pitch;
-        let mut sums: Vec<[f64; 2]> = vec![];
-        for (number, inside) in self.inside().into_iter().enumerate() {
-            let owner = self.owner(number);
-            sums.resize(sums.len().max(owner + 1), [0.0; 2]);
-            sums[owner][0] += inside;
-            sums[owner][1] += a * b * self.cuts.get(number).map_or(1.0, |cut| cut.size);
-        }
-        sums
+        let faces = vec![];
+        let cells_along = 0;
+        Self { lattice, cells, overhang: 0.0, faces, cells_along, owners, cuts, ..self.clone() }
     }
 
     /// Numbers that identify the lattice and its cells.
@@ -342,30 +324,6 @@ impl Plan {
         let counts = counts.iter().chain(cells).map(|count| *count as f64);
         let owners = self.owners.iter().flatten().map(|owner| *owner as f64);
         pitch.iter().copied().chain(self.corner).chain(counts).chain(owners)
-    }
-
-    /// Area of each cell that is inside the outline, m².
-    fn inside(&self) -> Vec<f64> {
-        let places: HashSet<_> = self.cells.iter().copied().collect();
-        let [a, b] = self.lattice.pitch;
-        let d = self.overhang;
-        if !self.cuts.is_empty() {
-            return self.cuts.iter().map(|cut| a * b * cut.size * cut.inside).collect();
-        }
-        let inside = |[i, j]: [usize; 2]| {
-            let on = |right: usize, away: usize| {
-                let column = (i + right).checked_sub(1);
-                let row = (j + away).checked_sub(1);
-                column.zip(row).is_some_and(|(i, j)| places.contains(&[i, j]))
-            };
-            let cut = |on: bool| if on { 0.0 } else { d };
-            let width = 1.0 - cut(on(0, 1)) - cut(on(2, 1));
-            let depth = 1.0 - cut(on(1, 0)) - cut(on(1, 2));
-            let corners = [[0, 0], [0, 2], [2, 0], [2, 2]].into_iter();
-            let notches = corners.filter(|[x, y]| on(*x, 1) && on(1, *y) && !on(*x, *y)).count();
-            a * b * (width * depth - d * d * notches as f64)
-        };
-        self.cells.iter().map(|cell| inside(*cell)).collect()
     }
 }
 
@@ -388,5 +346,5 @@ fn check_count(cells: usize, counts: [usize; 2]) -> Result<()> {
 /// Error for so many cells that their data would not fit into memory.
 fn check_memory(counts: [usize; 2]) -> Result<()> {
     let count = counts[0] as f64 * counts[1] as f64;
-    Ok(memory::check("cells of a mat", count, CELL * count)?)
+    Ok(memory::check("cells of a mat", count, BYTES_PER_CELL * count)?)
 }

@@ -24,29 +24,29 @@
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use std::sync::OnceLock;
 
-use super::forms::FORMS;
+use super::forms::FORM_COUNT;
 use crate::geometry::Lattice;
 use crate::linalg::{Complex, add_combined_rows};
 
-/// Waves of each corner: q = 1/sin², 1/cos², 1/(cos sin), 1/(cos sin²), 1/(cos² sin).
-const WAVES: usize = 5;
+/// Number of waves of each corner: q = 1/sin², 1/cos², 1/(cos sin), 1/(cos sin²), 1/(cos² sin).
+const CORNER_WAVE_COUNT: usize = 5;
 /// Whether waves are odd in X and in Y.
-const ODD: [[bool; 2]; WAVES] =
+const ODD_IN_X_AND_Y: [[bool; 2]; CORNER_WAVE_COUNT] =
     [[false, false], [false, false], [true, true], [true, false], [false, true]];
 /// Directions of the poles, with cosine and sine.
-const AXES: [(f64, [f64; 2]); 4] =
+const POLE_DIRECTIONS: [(f64, [f64; 2]); 4] =
     [(0.0, [1.0, 0.0]), (FRAC_PI_2, [0.0, 1.0]), (PI, [-1.0, 0.0]), (-FRAC_PI_2, [0.0, -1.0])];
 /// Half the number of points of the path.
-const PATH: usize = 12;
+const PATH_HALF_POINTS: usize = 12;
 /// h √(kR): the first neglected point and the error of the rule are both about 1e-16.
-const STEP: f64 = 0.517;
+const PATH_STEP_FACTOR: f64 = 0.517;
 /// Number of Chebyshev points of a band.
 ///
 /// Amplitudes are singular at k = 0 alone, so their coefficients fall like 5.8ⁿ. Forms at k × side = 16 are below 1e-4
 /// of the forms at k = 0.
-const NODES: usize = 16;
-/// Smallest wavenumber × shorter side of a cell: the branch points of the path then add e^(−2π√(kR)/[`STEP`]).
-const LEAST: f64 = 16.0;
+const BAND_NODE_COUNT: usize = 16;
+/// Smallest wavenumber × shorter side of a cell: the branch points of the path then add e^(−2π√(kR)/[`PATH_STEP_FACTOR`]).
+const MIN_WAVENUMBER_SIDE: f64 = 16.0;
 
 /// Forms of a lattice from a wavenumber on.
 #[derive(Debug)]
@@ -56,141 +56,159 @@ pub(super) struct CornerWaves {
     /// Distance of each corner from the source, column by column, m.
     distances: Vec<f64>,
     /// Wavenumber at which the first band begins, 1/m.
-    first: f64,
+    first_wavenumber: f64,
     /// Chebyshev coefficients of the amplitudes on each band.
     ///
     /// Degree by degree, wave by wave, real and imaginary parts, all corners.
     bands: Vec<OnceLock<Vec<f64>>>,
 }
 
-/// Scratch of one thread.
+/// Buffers of one thread.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+pub(super) struct WaveBuffers {
     polynomials: Vec<f64>,
     amplitudes: Vec<f64>,
-    /// H k⁴ of a wave at all corners, and its differences in x.
+    /// H k⁴ of a wave at all corners.
     corners: Vec<f64>,
-    columns: Vec<f64>,
+    /// Second differences in x of `corners`.
+    differences: Vec<f64>,
     /// Forms: wavenumber by wavenumber, form by form, all classes.
     pub(super) values: Vec<f64>,
 }
 
 impl CornerWaves {
     /// Smallest wavenumber at which waves have full accuracy, 1/m.
-    pub(super) fn least(lattice: &Lattice) -> f64 {
-        LEAST / lattice.finest()
+    pub(super) fn min_wavenumber(lattice: &Lattice) -> f64 {
+        MIN_WAVENUMBER_SIDE / lattice.finest()
     }
 
     /// Waves from the wavenumber `first` up to `last`, 1/m.
-    pub(super) fn new(lattice: &Lattice, [first, last]: [f64; 2]) -> Self {
+    pub(super) fn new(lattice: &Lattice, first: f64, last: f64) -> Self {
         let mut bands = vec![];
-        let mut end = first;
-        while end < last {
+        let mut band_end = first;
+        while band_end < last {
             bands.push(OnceLock::new());
-            end *= 2.0;
+            band_end *= 2.0;
         }
-        let [columns, rows] = lattice.extent();
-        let [a, b] = lattice.pitch;
-        let all = (0..=columns).flat_map(|i| (0..=rows).map(move |j| [i, j]));
-        let distances = all.map(|[i, j]| (a * i as f64).hypot(b * j as f64)).collect();
-        Self { lattice: lattice.clone(), classes: lattice.classes(), distances, first, bands }
+        let extent = lattice.extent();
+        let mut distances = vec![];
+        for i in 0..=extent[0] {
+            for j in 0..=extent[1] {
+                distances.push((lattice.pitch[0] * i as f64).hypot(lattice.pitch[1] * j as f64));
+            }
+        }
+        let classes = lattice.classes();
+        Self { lattice: lattice.clone(), classes, distances, first_wavenumber: first, bands }
     }
 
-    /// Overwrites `scratch.values` with the forms at `wavenumbers` (1/m), which lie on one band.
-    pub(super) fn at(&self, wavenumbers: &[f64], scratch: &mut Scratch) {
-        let corners = self.distances.len();
-        let Scratch { polynomials, amplitudes, values, .. } = scratch;
+    /// Overwrites `buffers.values` with the forms at `wavenumbers` (1/m), which lie on one band.
+    pub(super) fn fill_forms(&self, wavenumbers: &[f64], buffers: &mut WaveBuffers) {
+        let WaveBuffers { polynomials, amplitudes, values, .. } = buffers;
         values.clear();
         let Some(middle) = wavenumbers.get(wavenumbers.len() / 2) else { return };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
-        let number = (middle / self.first).log2().clamp(0.0, 63.0) as usize;
-        let begin = self.first * (1_u64 << number) as f64;
+        let number = (middle / self.first_wavenumber).log2().clamp(0.0, 63.0) as usize;
+        let band_start = self.first_wavenumber * (1_u64 << number) as f64;
         let Some(band) = self.bands.get(number) else { return };
+        let count = wavenumbers.len();
         polynomials.clear();
-        polynomials.resize(NODES * wavenumbers.len(), 1.0);
+        polynomials.resize(BAND_NODE_COUNT * count, 1.0);
         for (i, k) in wavenumbers.iter().enumerate() {
-            let x = 2.0 * (k - begin) / begin - 1.0;
-            for degree in 1..NODES {
-                let before = |back: usize| polynomials[(degree - back) * wavenumbers.len() + i];
-                let value = if degree == 1 { x } else { 2.0 * x * before(1) - before(2) };
-                polynomials[degree * wavenumbers.len() + i] = value;
+            // Chebyshev polynomials T₁ = x and Tₙ = 2x Tₙ₋₁ − Tₙ₋₂.
+            let x = 2.0 * (k - band_start) / band_start - 1.0;
+            polynomials[count + i] = x;
+            for degree in 2..BAND_NODE_COUNT {
+                let previous = polynomials[(degree - 1) * count + i];
+                let before_previous = polynomials[(degree - 2) * count + i];
+                polynomials[degree * count + i] = 2.0 * x * previous - before_previous;
             }
         }
-        let columns = 2 * WAVES * corners;
+        let columns = 2 * CORNER_WAVE_COUNT * self.distances.len();
         amplitudes.clear();
-        amplitudes.resize(columns * wavenumbers.len(), 0.0);
-        let band = band.get_or_init(|| self.band(begin));
-        add_combined_rows(polynomials, band, columns, 1.0, amplitudes);
+        amplitudes.resize(columns * count, 0.0);
+        let coefficients = band.get_or_init(|| self.amplitude_coefficients(band_start));
+        add_combined_rows(polynomials, coefficients, columns, 1.0, amplitudes);
         let amplitudes = std::mem::take(amplitudes);
         for (k, amplitudes) in wavenumbers.iter().zip(amplitudes.chunks_exact(columns)) {
-            self.add(*k, amplitudes, scratch);
+            self.append_forms(*k, amplitudes, buffers);
         }
-        scratch.amplitudes = amplitudes;
+        buffers.amplitudes = amplitudes;
     }
 
-    /// Appends the forms at the wavenumber `k` to `scratch.values`.
-    fn add(&self, k: f64, amplitudes: &[f64], scratch: &mut Scratch) {
-        let Scratch { corners, columns, values, .. } = scratch;
-        let ([across, down], count) = (self.lattice.extent(), self.classes.len());
+    /// Appends the forms at the wavenumber `k` to `buffers.values`.
+    fn append_forms(&self, k: f64, amplitudes: &[f64], buffers: &mut WaveBuffers) {
+        let WaveBuffers { corners, differences, values, .. } = buffers;
+        let class_count = self.classes.len();
         let start = values.len();
-        values.resize(start + FORMS * count, 0.0);
+        values.resize(start + FORM_COUNT * class_count, 0.0);
         let values = &mut values[start..];
-        let waves: Vec<_> = self.distances.iter().map(|r| (k * r).sin_cos()).collect();
-        let parts = amplitudes.chunks_exact(2 * self.distances.len());
-        for ((wave, parts), [odd_x, odd_y]) in parts.enumerate().zip(ODD) {
-            let (re, im) = parts.split_at(self.distances.len());
+        let phases: Vec<_> = self.distances.iter().map(|r| (k * r).sin_cos()).collect();
+        let corner_count = self.distances.len();
+        let column_height = self.lattice.extent()[1] + 1;
+        let unit = k.powi(-4) / PI;
+        let amplitudes = amplitudes.chunks_exact(2 * corner_count);
+        for ((wave, amplitudes), [odd_x, odd_y]) in amplitudes.enumerate().zip(ODD_IN_X_AND_Y) {
+            let re = &amplitudes[..corner_count];
+            let im = &amplitudes[corner_count..];
             corners.clear();
-            let all = re.iter().zip(im).zip(&waves);
             // The two points of stationary phase together: twice the real part, or for odd F the imaginary part.
-            corners.extend(all.map(|((re, im), (sin, cos))| {
-                if odd_x == odd_y { re * cos - im * sin } else { re * sin + im * cos }
-            }));
-            let (height, unit) = (down + 1, k.powi(-4) / PI);
-            columns.clear();
-            for i in 0..across {
+            for ((re, im), (sin, cos)) in re.iter().zip(im).zip(&phases) {
+                let sum = if odd_x == odd_y { re * cos - im * sin } else { re * sin + im * cos };
+                corners.push(sum);
+            }
+            differences.clear();
+            for i in 0..self.lattice.extent()[0] {
                 let before = if i > 0 { i - 1 } else { 1 };
                 let sign = if i == 0 && odd_x { -1.0 } else { 1.0 };
-                let column = |i: usize| &corners[i * height..(i + 1) * height];
-                let all = column(before).iter().zip(column(i)).zip(column(i + 1));
-                columns.extend(all.map(|((one, two), three)| sign * one - 2.0 * two + three));
+                for j in 0..column_height {
+                    differences.push(
+                        sign * corners[before * column_height + j]
+                            - 2.0 * corners[i * column_height + j]
+                            + corners[(i + 1) * column_height + j],
+                    );
+                }
             }
             for (class, [i, j]) in self.classes.iter().enumerate() {
-                let column = &columns[i * height..(i + 1) * height];
-                let (before, sign) =
-                    if *j > 0 { (j - 1, 1.0) } else { (1, if odd_y { -1.0 } else { 1.0 }) };
+                let column = &differences[i * column_height..(i + 1) * column_height];
+                let before = if *j > 0 { j - 1 } else { 1 };
+                let sign = if *j == 0 && odd_y { -1.0 } else { 1.0 };
                 let value = sign * column[before] - 2.0 * column[*j] + column[j + 1];
-                values[(wave + 1) * count + class] = unit * value;
+                values[(wave + 1) * class_count + class] = unit * value;
             }
         }
         for (class, offset) in self.classes.iter().enumerate() {
-            let along = along_axes(k, self.lattice.pitch, *offset);
-            for (form, value) in (1..).zip(along) {
-                values[form * count + class] += value;
+            let residues = residue_differences(k, self.lattice.pitch, *offset);
+            for (form, value) in (1..).zip(residues) {
+                values[form * class_count + class] += value;
             }
-            values[class] = values[count + class] + values[2 * count + class];
+            values[class] = values[class_count + class] + values[2 * class_count + class];
         }
     }
 
-    /// Chebyshev coefficients of all amplitudes on the band that begins at `begin`.
-    fn band(&self, begin: f64) -> Vec<f64> {
-        let [_, down] = self.lattice.extent();
-        let [a, b] = self.lattice.pitch;
-        let (corners, mut coefficients) = (self.distances.len(), vec![]);
-        coefficients.resize(NODES * 2 * WAVES * corners, 0.0);
-        for node in 0..NODES {
-            let angle = PI * (node as f64 + 0.5) / NODES as f64;
-            let k = begin * (1.0 + 0.5 * (1.0 + angle.cos()));
+    /// Chebyshev coefficients of all amplitudes on the band that begins at `band_start`.
+    fn amplitude_coefficients(&self, band_start: f64) -> Vec<f64> {
+        let column_height = self.lattice.extent()[1] + 1;
+        let pitch = self.lattice.pitch;
+        let corners = self.distances.len();
+        let mut coefficients = vec![];
+        coefficients.resize(BAND_NODE_COUNT * 2 * CORNER_WAVE_COUNT * corners, 0.0);
+        for node in 0..BAND_NODE_COUNT {
+            let angle = PI * (node as f64 + 0.5) / BAND_NODE_COUNT as f64;
+            let k = band_start * (1.0 + 0.5 * (1.0 + angle.cos()));
             for corner in 1..corners {
-                let [i, j] = [corner / (down + 1), corner % (down + 1)];
-                let amplitudes = amplitudes(k, [a * i as f64, b * j as f64]);
-                for (wave, (value, [odd_x, odd_y])) in amplitudes.into_iter().zip(ODD).enumerate() {
+                let i = corner / column_height;
+                let j = corner % column_height;
+                let amplitudes = amplitudes(k, [pitch[0] * i as f64, pitch[1] * j as f64]);
+                for (wave, (value, [odd_x, odd_y])) in
+                    amplitudes.into_iter().zip(ODD_IN_X_AND_Y).enumerate()
+                {
                     if (odd_x && i == 0) || (odd_y && j == 0) {
                         continue;
                     }
-                    for degree in 0..NODES {
-                        let unit = if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;
+                    for degree in 0..BAND_NODE_COUNT {
+                        let unit = if degree == 0 { 1.0 } else { 2.0 } / BAND_NODE_COUNT as f64;
                         let factor = unit * (degree as f64 * angle).cos();
-                        let place = (degree * WAVES + wave) * 2 * corners + corner;
+                        let place = (degree * CORNER_WAVE_COUNT + wave) * 2 * corners + corner;
                         coefficients[place] += factor * value.re;
                         coefficients[place + corners] += factor * value.im;
                     }
@@ -205,74 +223,89 @@ impl CornerWaves {
 ///
 /// −|Y| cos kX k⁻³ and −|X| cos kY k⁻³ of `g_cc` and `g_ss`, −(sign Y sin kX + sign X sin kY) k⁻⁴ of `g_cs`,
 /// −|Y| sin kX k⁻³ + sign X cos kY k⁻⁴ of `g_c`, and `g_s` alike.
-fn along_axes(k: f64, [a, b]: [f64; 2], [i, j]: [usize; 2]) -> [f64; WAVES] {
-    let mut values = [0.0; WAVES];
-    let axes = [(a, i, b, j, [0, 3, 4]), (b, j, a, i, [1, 4, 3])];
-    for (pitch, along, other, across, [even, odd, next]) in axes {
-        if across > 1 {
+fn residue_differences(k: f64, pitch: [f64; 2], offset: [usize; 2]) -> [f64; CORNER_WAVE_COUNT] {
+    let mut values = [0.0; CORNER_WAVE_COUNT];
+    for axis in 0..2 {
+        let across = 1 - axis;
+        if offset[across] > 1 {
             continue;
         }
-        let unit = 4.0 * (0.5 * k * pitch).sin().powi(2) * k.powi(-4);
-        let (sin, cos) = (k * pitch * along as f64).sin_cos();
-        if across == 0 {
-            values[even] += 2.0 * k * other * unit * cos;
-            values[odd] += 2.0 * k * other * unit * sin;
+        // Places of the forms g_cc, g_c and g_s along x, of g_ss, g_s and g_c along y.
+        let [even, odd, next_row] = [[0, 3, 4], [1, 4, 3]][axis];
+        let unit = 4.0 * (0.5 * k * pitch[axis]).sin().powi(2) * k.powi(-4);
+        let phase = k * pitch[axis] * offset[axis] as f64;
+        let sin = phase.sin();
+        let cos = phase.cos();
+        if offset[across] == 0 {
+            values[even] += 2.0 * k * pitch[across] * unit * cos;
+            values[odd] += 2.0 * k * pitch[across] * unit * sin;
         } else {
             values[2] -= unit * sin;
-            values[next] += unit * cos;
+            values[next_row] += unit * cos;
         }
     }
     values
 }
 
 /// k⁴ 2π e^(−ikR) of the waves by the stationary point θ = φ, for a corner at (X, Y) ≠ (0, 0), X, Y ≥ 0.
-fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; WAVES] {
+fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; CORNER_WAVE_COUNT] {
     let distance = x.hypot(y);
-    let (cos, sin, direction) = (x / distance, y / distance, y.atan2(x));
-    let h = STEP / (k * distance).sqrt();
+    let cos = x / distance;
+    let sin = y / distance;
+    let direction = y.atan2(x);
+    let h = PATH_STEP_FACTOR / (k * distance).sqrt();
     let one = Complex::real(1.0);
     // p = turn × √2 sin ½(θ − φ).
     let turn = Complex::polar(1.0, 0.5 * FRAC_PI_2);
-    let mut sums = [Complex::default(); WAVES];
-    for n in 0..2 * PATH {
-        let place = n as f64 + 0.5 - PATH as f64;
+    let mut sums = [Complex::default(); CORNER_WAVE_COUNT];
+    for n in 0..2 * PATH_HALF_POINTS {
+        let place = n as f64 + 0.5 - PATH_HALF_POINTS as f64;
         let p = place * h;
-        let half = turn.conj().scale(p / SQRT_2);
-        let root = Complex::new(1.0, 0.5 * p * p).sqrt();
-        let (near, far) = (Complex::new(1.0, p * p), (half * root).scale(2.0));
-        let c = near.scale(cos) - far.scale(sin);
-        let s = near.scale(sin) + far.scale(cos);
+        // Half angle's sine and cosine, and the angle's, of θ − φ on the path.
+        let half_sine = turn.conj().scale(p / SQRT_2);
+        let half_cosine = Complex::new(1.0, 0.5 * p * p).sqrt();
+        let turn_cosine = Complex::new(1.0, p * p);
+        let turn_sine = (half_sine * half_cosine).scale(2.0);
+        let c = turn_cosine.scale(cos) - turn_sine.scale(sin);
+        let s = turn_cosine.scale(sin) + turn_sine.scale(cos);
         // dp e^(−kRp²) dθ/dp.
-        let weight = turn.conj().scale(h * SQRT_2 * (-(place * STEP).powi(2)).exp()) / root;
-        let [over_c, over_s] = [one / c, one / s];
-        let both = over_c * over_s;
-        let all = [over_s * over_s, over_c * over_c, both, both * over_s, both * over_c];
-        for (sum, value) in sums.iter_mut().zip(all) {
+        let decay = (-(place * PATH_STEP_FACTOR).powi(2)).exp();
+        let weight = turn.conj().scale(h * SQRT_2 * decay) / half_cosine;
+        let over_c = one / c;
+        let over_s = one / s;
+        let over_cs = over_c * over_s;
+        let values =
+            [over_s * over_s, over_c * over_c, over_cs, over_cs * over_s, over_cs * over_c];
+        for (sum, value) in sums.iter_mut().zip(values) {
             *sum += weight * value;
         }
     }
-    for (angle, [c, s]) in AXES {
-        let gap = angle - direction;
+    for (angle, [c, s]) in POLE_DIRECTIONS {
+        let pole_angle = angle - direction;
         let wave = Complex::polar(1.0, k * (x * c + y * s - distance));
         let slope = Complex::new(0.0, k * (y * c - x * s));
         let poles = poles([c, s], slope);
-        let speed = turn.scale((0.5 * gap).cos() / SQRT_2);
-        if gap == 0.0 {
+        // dp/dθ at the pole.
+        let path_slope = turn.scale((0.5 * pole_angle).cos() / SQRT_2);
+        if pole_angle == 0.0 {
             for (sum, [double, _]) in sums.iter_mut().zip(poles) {
-                *sum = *sum - (double * speed * wave).scale(PI * PI / h);
+                *sum = *sum - (double * path_slope * wave).scale(PI * PI / h);
             }
             continue;
         }
         // 2πi p/h with the sign of Im p.
-        let exponent = (turn * Complex::new(0.0, TAU)).scale(SQRT_2 * (0.5 * gap).sin().abs() / h);
-        let fall = exponent.exp();
-        let under = (one + fall).inverse();
-        let (kernel, change) = (fall * under, fall * under * under);
-        let side = if gap > 0.0 { 1.0 } else { -1.0 };
-        let rate = (Complex::new(0.0, TAU) * speed).scale(side / h);
+        let exponent =
+            (turn * Complex::new(0.0, TAU)).scale(SQRT_2 * (0.5 * pole_angle).sin().abs() / h);
+        let exponential = exponent.exp();
+        let inverse = (one + exponential).inverse();
+        // 1/(1 + e^(−…)) and its derivative by the exponent.
+        let correction = exponential * inverse;
+        let correction_slope = exponential * inverse * inverse;
+        let sign = if pole_angle > 0.0 { 1.0 } else { -1.0 };
+        let rate = (Complex::new(0.0, TAU) * path_slope).scale(sign / h);
         for (sum, [double, single]) in sums.iter_mut().zip(poles) {
-            let residue = (single * kernel + double * change * rate) * wave;
-            *sum += residue * Complex::new(0.0, side * TAU);
+            let residue = (single * correction + double * correction_slope * rate) * wave;
+            *sum += residue * Complex::new(0.0, sign * TAU);
         }
     }
     sums
@@ -281,15 +314,20 @@ fn amplitudes(k: f64, [x, y]: [f64; 2]) -> [Complex; WAVES] {
 /// Coefficients of (θ − θ₀)⁻² and (θ − θ₀)⁻¹ of all waves at the pole in the direction (c, s) of an axis.
 ///
 /// `slope`: logarithmic derivative of the wave e^(…) there.
-fn poles([c, s]: [f64; 2], slope: Complex) -> [[Complex; 2]; WAVES] {
-    let none = [Complex::default(); 2];
-    let double = |size: f64| [Complex::real(size), slope.scale(size)];
-    let single = |size: f64| [Complex::default(), Complex::real(size)];
-    if s == 0.0 {
-        [double(1.0), none, single(1.0), double(c), single(c)]
+fn poles([c, s]: [f64; 2], slope: Complex) -> [[Complex; 2]; CORNER_WAVE_COUNT] {
+    // Sizes of the double and of the simple pole of each wave.
+    let sizes = if s == 0.0 {
+        [[1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [c, 0.0], [0.0, c]]
     } else {
-        [none, double(1.0), single(-1.0), single(-s), double(s)]
-    }
+        [[0.0, 0.0], [1.0, 0.0], [0.0, -1.0], [0.0, -s], [s, 0.0]]
+    };
+    sizes.map(|[double, single]| {
+        if double == 0.0 {
+            [Complex::default(), Complex::real(single)]
+        } else {
+            [Complex::real(double), slope.scale(double)]
+        }
+    })
 }
 
 #[cfg(test)]
@@ -308,15 +346,16 @@ mod tests {
             ([0.5, 0.5], [3, 24]),
         ] {
             let lattice = Lattice { pitch, counts };
-            let least = CornerWaves::least(&lattice);
-            let waves = CornerWaves::new(&lattice, [least, 40.0 * least]);
-            let (mut means, mut scratch) = (AngularMeans::new(&lattice), Scratch::default());
+            let smallest = CornerWaves::min_wavenumber(&lattice);
+            let waves = CornerWaves::new(&lattice, smallest, 40.0 * smallest);
+            let mut means = AngularMeans::new(&lattice);
+            let mut buffers = WaveBuffers::default();
             for size in [1.0, 1.37, 1.999, 2.0, 3.7, 31.0] {
-                let wavenumbers = [size * least, size * least * (1.0 + 1e-4)];
-                waves.at(&wavenumbers, &mut scratch);
+                let wavenumbers = [size * smallest, size * smallest * (1.0 + 1e-4)];
+                waves.fill_forms(&wavenumbers, &mut buffers);
                 // Forms of a row or column fall like k⁻³.
-                let unit = (pitch[0] * pitch[1]).powi(2) * (size * LEAST).powi(-3);
-                let rows = scratch.values.chunks_exact(FORMS * waves.classes.len());
+                let unit = (pitch[0] * pitch[1]).powi(2) * (size * MIN_WAVENUMBER_SIDE).powi(-3);
+                let rows = buffers.values.chunks_exact(FORM_COUNT * waves.classes.len());
                 for (k, found) in wavenumbers.into_iter().zip(rows) {
                     for (found, wanted) in found.iter().zip(means.at(k)) {
                         worst = worst.max((found - wanted).abs() / unit);

@@ -9,11 +9,11 @@ use crate::linalg::Partition;
 /// Area that two faces may share, relative to the smaller one: rounding of coordinates in files.
 const OVERLAP_TOLERANCE: f64 = 1e-6;
 /// Distance that counts as touching, relative to the size of a face.
-const TOUCHING: f64 = 1e-9;
+const TOUCH_TOLERANCE_FACTOR: f64 = 1e-9;
 
 /// A convex polygon, counter-clockwise seen from above.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Face {
+pub(crate) struct MatFace {
     corners: Vec<[f64; 2]>,
     /// Distance that counts as touching, m.
     near: f64,
@@ -24,39 +24,42 @@ pub(crate) fn side([a, b]: [[f64; 2]; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-impl Face {
+impl MatFace {
     /// Face number `face` from its corners, in either order.
     ///
     /// # Errors
     /// [`Error::Item`] of [`Error::Scene`].
     pub(crate) fn new(face: usize, corners: &[[f64; 2]]) -> Result<Self> {
-        let fault = |needed| {
-            let error = Error::Scene { quantity: "polygon", needed };
-            Err(error.within(format!("face {face}")))
-        };
+        Self::checked(corners).map_err(|needed| {
+            Error::Scene { quantity: "polygon", needed }.within(format!("face {face}"))
+        })
+    }
+
+    /// The face, or the fault of its corners.
+    fn checked(corners: &[[f64; 2]]) -> std::result::Result<Self, &'static str> {
         if corners.len() < 3 {
-            return fault("it has less than three corners");
+            return Err("it has less than three corners");
         }
         if !corners.iter().flatten().all(|x| x.is_finite()) {
-            return fault("it has a corner that is not finite");
+            return Err("it has a corner that is not finite");
         }
         let mut corners = corners.to_vec();
-        let fan = |corners: &[[f64; 2]]| -> f64 {
-            corners.windows(2).map(|pair| side([pair[0], pair[1]], corners[0])).sum()
-        };
-        if fan(&corners) < 0.0 {
+        if area(&corners) < 0.0 {
             corners.reverse();
         }
-        let area = 0.5 * fan(&corners);
+        let area = area(&corners);
         let mut face = Self { corners, near: 0.0 };
         let size = face.edges().map(|[a, b]| (b[0] - a[0]).hypot(b[1] - a[1])).fold(0.0, f64::max);
-        face.near = TOUCHING * size;
+        face.near = TOUCH_TOLERANCE_FACTOR * size;
         if area.is_nan() || area <= face.near * size {
-            return fault("it has no area");
+            return Err("it has no area");
         }
-        // One turn in all, and never to the right.
-        let convex = face.corners.iter().all(|p| face.contains(*p));
-        if convex { Ok(face) } else { fault("it is not convex, or crosses itself") }
+        // All corners lie to the left of all edges only if the line turns left everywhere, and once in all.
+        if face.corners.iter().all(|p| face.contains(*p)) {
+            Ok(face)
+        } else {
+            Err("it is not convex, or crosses itself")
+        }
     }
 
     fn edges(&self) -> impl Iterator<Item = [[f64; 2]; 2]> {
@@ -89,8 +92,8 @@ impl Face {
 
     /// Whether a corner of one face lies on the other.
     fn touches(&self, other: &Self) -> bool {
-        let meets = |one: &Self, two: &Self| one.corners.iter().any(|p| two.contains(*p));
-        meets(self, other) || meets(other, self)
+        self.corners.iter().any(|p| other.contains(*p))
+            || other.corners.iter().any(|p| self.contains(*p))
     }
 
     /// Error for two faces that overlap.
@@ -109,27 +112,27 @@ impl Face {
 
     /// Pairs of faces whose bounding rectangles touch, each in ascending order.
     fn neighbours(faces: &[Self]) -> Vec<[usize; 2]> {
-        let bounds: Vec<[[f64; 2]; 2]> = faces
-            .iter()
-            .map(|face| {
-                [0, 1].map(|axis| {
-                    let [low, high] = span(face.corners.iter().map(|p| p[axis]));
-                    [low - face.near, high + face.near]
-                })
-            })
-            .collect();
+        let mut bounds: Vec<[[f64; 2]; 2]> = Vec::with_capacity(faces.len());
+        for face in faces {
+            let widened = Self::bounds(std::slice::from_ref(face))
+                .map(|[low, high]| [low - face.near, high + face.near]);
+            bounds.push(widened);
+        }
         let mut order: Vec<usize> = (0..faces.len()).collect();
         order.sort_by(|one, other| bounds[*one][0][0].total_cmp(&bounds[*other][0][0]));
         let mut pairs = vec![];
         for (place, &one) in order.iter().enumerate() {
-            let [[_, right], [front, back]] = bounds[one];
-            let beside =
-                order[place + 1..].iter().take_while(|other| bounds[**other][0][0] <= right);
-            let touching = beside.filter(|other| {
-                let [low, high] = bounds[**other][1];
-                low <= back && high >= front
-            });
-            pairs.extend(touching.map(|&other| [one.min(other), one.max(other)]));
+            let x_range = bounds[one][0];
+            let y_range = bounds[one][1];
+            for &other in &order[place + 1..] {
+                if bounds[other][0][0] > x_range[1] {
+                    break;
+                }
+                let other_y_range = bounds[other][1];
+                if other_y_range[0] <= y_range[1] && other_y_range[1] >= y_range[0] {
+                    pairs.push([one.min(other), one.max(other)]);
+                }
+            }
         }
         pairs
     }
@@ -141,7 +144,8 @@ impl Face {
             let mut inner = Vec::with_capacity(corners.len() + 1);
             for (k, &q) in corners.iter().enumerate() {
                 let p = corners[(k + corners.len() - 1) % corners.len()];
-                let [before, after] = [side(edge, p), side(edge, q)];
+                let before = side(edge, p);
+                let after = side(edge, q);
                 if (before < 0.0) != (after < 0.0) {
                     let ratio = before / (before - after);
                     inner.push([0, 1].map(|k| p[k] + ratio * (q[k] - p[k])));
@@ -157,11 +161,8 @@ impl Face {
 
     /// Smallest and largest coordinates of all `faces`.
     pub(super) fn bounds(faces: &[Self]) -> [[f64; 2]; 2] {
-        let corners = || faces.iter().flat_map(|face| &face.corners);
         [0, 1].map(|axis| {
-            let least = corners().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
-            let greatest = corners().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-            [least, greatest]
+            span(faces.iter().flat_map(|face| &face.corners).map(|corner| corner[axis]))
         })
     }
 
@@ -191,12 +192,15 @@ fn area(corners: &[[f64; 2]]) -> f64 {
 // Cells of mats.
 
 /// Error for cells of two mats side by side or corner to corner.
-pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
+pub(super) fn check_apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -> Result<()> {
     for (place, owner) in owners.iter().enumerate() {
         let Some(owner) = owner else { continue };
-        let (left, right) = (place % columns > 0, place % columns + 1 < columns);
-        let steps = [(right, 1), (left, columns - 1), (true, columns), (right, columns + 1)];
-        for (_, step) in steps.into_iter().filter(|(there, _)| *there) {
+        let has_left = place % columns > 0;
+        let has_right = place % columns + 1 < columns;
+        // Neighbours on the right, and on the left, in the middle and on the right of the next row.
+        let neighbours =
+            [(has_right, 1), (has_left, columns - 1), (true, columns), (has_right, columns + 1)];
+        for (_, step) in neighbours.into_iter().filter(|(exists, _)| *exists) {
             if let Some(Some(other)) = owners.get(place + step)
                 && other != owner
             {
@@ -209,7 +213,7 @@ pub(super) fn apart(owners: &[Option<usize>], columns: usize, pitch: [f64; 2]) -
 
 /// Sorts cells by mats.
 ///
-/// Mats come in the order of their first cells, and the cells of each in the given order. Cells that touch, also
+/// Mats come in the order of their first cells, and the cells of each in the order of the list. Cells that touch, also
 /// at corners, belong to one mat.
 pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
     let places: HashMap<_, _> = cells.iter().enumerate().map(|(k, cell)| (*cell, k)).collect();
@@ -223,7 +227,6 @@ pub(super) fn mat_by_mat(cells: &[[usize; 2]]) -> Vec<[usize; 2]> {
             }
         }
     }
-    // Mats by their first cells, and the cells of each in the order given.
     mats.sets().concat().into_iter().map(|cell| cells[cell]).collect()
 }
 
@@ -234,18 +237,19 @@ mod tests {
     /// Two mats beside each other, and a third whose rows end between theirs.
     #[test]
     fn cells_of_a_mat_follow_one_another() {
-        let text = ["##.#", "##.#", "....", ".##."];
-        let on = |[i, j]: [usize; 2]| text[j].as_bytes()[i] == b'#';
-        let all = (0..16).map(|place| [place % 4, place / 4]);
-        let cells: Vec<_> = all.filter(|cell| on(*cell)).collect();
-        let sorted = mat_by_mat(&cells);
+        let sorted = mat_by_mat(&cells("##.###.#.....##.", 4));
         let expected = [[0, 0], [1, 0], [0, 1], [1, 1], [3, 0], [3, 1], [1, 3], [2, 3]];
         assert_eq!(sorted, expected);
         // A ring and cells that share corners are one mat.
         for text in ["####.##.", "#..##..#"] {
-            let on = |place: usize| text.as_bytes()[place] == b'#';
-            let cells: Vec<_> = (0..8).filter(|k| on(*k)).map(|k| [k % 3, k / 3]).collect();
+            let cells = cells(text, 3);
             assert_eq!(mat_by_mat(&cells), cells, "{text}");
         }
+    }
+
+    /// Cells marked by `#` in rows of `columns` characters.
+    fn cells(text: &str, columns: usize) -> Vec<[usize; 2]> {
+        let marked = text.bytes().enumerate().filter(|(_, mark)| *mark == b'#');
+        marked.map(|(place, _)| [place % columns, place / columns]).collect()
     }
 }

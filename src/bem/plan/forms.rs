@@ -16,8 +16,8 @@
 use crate::geometry::Lattice;
 use crate::linalg::add_combined_rows;
 
-/// Number of forms.
-pub(super) const FORMS: usize = 6;
+/// Number of form factors of a pair of cells.
+pub(super) const FORM_COUNT: usize = 6;
 
 /// Means over directions for all classes of a lattice.
 #[derive(Debug)]
@@ -26,10 +26,10 @@ pub(super) struct AngularMeans {
     diagonal: f64,
     extent: [usize; 2],
     classes: Vec<[usize; 2]>,
-    /// Factors along x, weighted, of the terms with c′ and with s′: direction by direction.
-    left: [Vec<f64>; 2],
-    /// c′ and s′.
-    right: [Vec<f64>; 2],
+    /// Factors along x, weighted, of the terms that are even and odd in y: direction by direction.
+    x_factors: [Vec<f64>; 2],
+    /// Factors along y of these terms, c′ and s′.
+    y_factors: [Vec<f64>; 2],
     /// Products of the factors along x and along y.
     sums: [Vec<f64>; 2],
     /// Form by form, all classes.
@@ -37,14 +37,20 @@ pub(super) struct AngularMeans {
 }
 
 impl AngularMeans {
+    /// Buffers for the means of a lattice.
     pub(super) fn new(lattice: &Lattice) -> Self {
-        let (extent, classes) = (lattice.extent(), lattice.classes());
-        let [columns, rows] = extent;
-        let sums = [3, 2].map(|factors| vec![0.0; factors * columns * rows]);
-        let values = vec![0.0; FORMS * classes.len()];
-        let [left, right] = [(); 2].map(|()| [const { Vec::new() }; 2]);
-        let (pitch, diagonal) = (lattice.pitch, lattice.diagonal());
-        Self { pitch, diagonal, extent, classes, left, right, sums, values }
+        let extent = lattice.extent();
+        let classes = lattice.classes();
+        Self {
+            pitch: lattice.pitch,
+            diagonal: lattice.diagonal(),
+            extent,
+            x_factors: [vec![], vec![]],
+            y_factors: [vec![], vec![]],
+            sums: [3, 2].map(|factors| vec![0.0; factors * extent[0] * extent[1]]),
+            values: vec![0.0; FORM_COUNT * classes.len()],
+            classes,
+        }
     }
 
     /// Number of directions in a quarter that resolve the means at the wavenumber `k`.
@@ -57,66 +63,69 @@ impl AngularMeans {
 
     /// Means at the wavenumber `k`, form by form, all classes (m⁴).
     pub(super) fn at(&mut self, k: f64) -> &[f64] {
-        let [columns, rows] = self.extent;
+        let columns = self.extent[0];
+        let rows = self.extent[1];
         let count = self.directions(k);
-        for list in self.left.iter_mut().chain(&mut self.right) {
+        for list in self.x_factors.iter_mut().chain(&mut self.y_factors) {
             list.clear();
         }
-        let (mut cosines, mut sines) = (vec![0.0; columns], vec![0.0; columns]);
         for direction in 0..count {
             let angle = std::f64::consts::FRAC_PI_2 * (direction as f64 + 0.5) / count as f64;
-            let (sin, cos) = angle.sin_cos();
-            let halves = [0.5 * k * self.pitch[0] * cos, 0.5 * k * self.pitch[1] * sin];
-            let size: f64 =
-                halves.into_iter().zip(self.pitch).map(|(half, side)| side * sinc(half)).product();
+            let sin = angle.sin();
+            let cos = angle.cos();
+            let half_phases = [0.5 * k * self.pitch[0] * cos, 0.5 * k * self.pitch[1] * sin];
+            let size: f64 = half_phases
+                .into_iter()
+                .zip(self.pitch)
+                .map(|(half_phase, side)| side * sinc(half_phase))
+                .product();
             let weight = size * size / count as f64;
-            waves(
-                2.0 * halves[0],
-                |i, c, s| (cosines[i], sines[i]) = (weight * c, weight * s),
-                columns,
-            );
-            let [even, odd] = &mut self.left;
-            even.extend_from_slice(&cosines);
-            even.extend(cosines.iter().map(|c| cos * cos * c));
-            even.extend(sines.iter().map(|s| cos * s));
-            odd.extend(sines.iter().map(|s| -cos * sin * s));
-            odd.extend(cosines.iter().map(|c| sin * c));
-            let [even, odd] = &mut self.right;
-            waves(
-                2.0 * halves[1],
-                |_, c, s| {
-                    even.push(c);
-                    odd.push(s);
-                },
-                rows,
-            );
+            let x_waves = cosines_and_sines(2.0 * half_phases[0], columns);
+            let even = &mut self.x_factors[0];
+            even.extend(x_waves.iter().map(|[c, _]| weight * c));
+            even.extend(x_waves.iter().map(|[c, _]| cos * cos * (weight * c)));
+            even.extend(x_waves.iter().map(|[_, s]| cos * (weight * s)));
+            let odd = &mut self.x_factors[1];
+            odd.extend(x_waves.iter().map(|[_, s]| -cos * sin * (weight * s)));
+            odd.extend(x_waves.iter().map(|[c, _]| sin * (weight * c)));
+            for [c, s] in cosines_and_sines(2.0 * half_phases[1], rows) {
+                self.y_factors[0].push(c);
+                self.y_factors[1].push(s);
+            }
         }
-        for ((sum, left), right) in self.sums.iter_mut().zip(&self.left).zip(&self.right) {
+        for ((sum, x), y) in self.sums.iter_mut().zip(&self.x_factors).zip(&self.y_factors) {
             sum.fill(0.0);
-            add_combined_rows(left, right, rows, 1.0, sum);
+            add_combined_rows(x, y, rows, 1.0, sum);
         }
-        let [even, odd] = &self.sums;
-        let total = self.classes.len();
+        let size = columns * rows;
+        let class_count = self.classes.len();
         for (class, [i, j]) in self.classes.iter().enumerate() {
-            let at = |sums: &[f64], factor: usize| sums[(factor * columns + i) * rows + j];
-            let (all, along) = (at(even, 0), at(even, 1));
-            let forms = [all, along, all - along, at(odd, 0), at(even, 2), at(odd, 1)];
-            for (form, value) in forms.into_iter().enumerate() {
-                self.values[form * total + class] = value;
+            let place = i * rows + j;
+            let g_0 = self.sums[0][place];
+            let g_cc = self.sums[0][size + place];
+            let g_c = self.sums[0][2 * size + place];
+            let g_cs = self.sums[1][place];
+            let g_s = self.sums[1][size + place];
+            for (form, value) in [g_0, g_cc, g_0 - g_cc, g_cs, g_c, g_s].into_iter().enumerate() {
+                self.values[form * class_count + class] = value;
             }
         }
         &self.values
     }
 }
 
-/// Calls `put` with n, cos nx and sin nx for n below `count`.
-fn waves(x: f64, mut put: impl FnMut(usize, f64, f64), count: usize) {
-    let (sin, cos) = x.sin_cos();
-    let [mut c, mut s] = [1.0, 0.0];
-    for n in 0..count {
-        put(n, c, s);
+/// cos nx and sin nx for n = 0, 1, … below `count`.
+fn cosines_and_sines(x: f64, count: usize) -> Vec<[f64; 2]> {
+    let sin = x.sin();
+    let cos = x.cos();
+    let mut values = Vec::with_capacity(count);
+    let mut c = 1.0;
+    let mut s = 0.0;
+    for _ in 0..count {
+        values.push([c, s]);
         (c, s) = (c * cos - s * sin, s * cos + c * sin);
     }
+    values
 }
 
 /// sin x/x.
@@ -130,42 +139,52 @@ fn sinc(x: f64) -> f64 {
 ///
 /// 1/r, y²/r³, x²/r³, −xy/r³ and x/r², y/r² (m³ each); they equal the integrals of the forms g₀, `g_cc`, `g_ss`,
 /// `g_cs`, `g_c`, `g_s` over k.
-pub(super) fn integrals(pitch: [f64; 2], offset: [usize; 2]) -> [f64; FORMS] {
-    let mut sums = [0.0; FORMS];
+pub(super) fn integrals(pitch: [f64; 2], offset: [usize; 2]) -> [f64; FORM_COUNT] {
+    let mut sums = [0.0; FORM_COUNT];
+    // Weights of the second differences.
     let steps = [(-1.0, 1.0), (0.0, -2.0), (1.0, 1.0)];
-    for (right, one) in steps {
-        for (away, two) in steps {
+    for (right, x_weight) in steps {
+        for (away, y_weight) in steps {
             let x = pitch[0] * (offset[0] as f64 + right);
             let y = pitch[1] * (offset[1] as f64 + away);
-            for (sum, value) in sums.iter_mut().zip(primitives(x, y)) {
-                *sum += one * two * value;
+            for (sum, value) in sums.iter_mut().zip(kernel_primitives(x, y)) {
+                *sum += x_weight * y_weight * value;
             }
         }
     }
-    let [i, j] = offset.map(|n| if n == 0 { 0.0 } else { 1.0 });
-    // Odd integrals vanish exactly.
-    let odd = [1.0, 1.0, 1.0, i * j, i, j];
-    std::array::from_fn(|form| odd[form] * sums[form])
+    // Odd integrals vanish exactly at an offset of zero.
+    let odd_x = if offset[0] == 0 { 0.0 } else { 1.0 };
+    let odd_y = if offset[1] == 0 { 0.0 } else { 1.0 };
+    let factors = [1.0, 1.0, 1.0, odd_x * odd_y, odd_x, odd_y];
+    std::array::from_fn(|form| factors[form] * sums[form])
 }
 
-fn primitives(x: f64, y: f64) -> [f64; FORMS] {
+/// Functions whose derivatives ∂⁴/∂x²∂y² are the six static kernels of [`integrals`].
+fn kernel_primitives(x: f64, y: f64) -> [f64; FORM_COUNT] {
     let r = x.hypot(y);
     let cube = r * r * r;
-    // asinh and atan of quotients with a vanishing denominator have a factor of zero.
-    let ratio = |a: f64, b: f64| if b == 0.0 { 0.0 } else { a / b };
-    let (along, across) = (ratio(x, y.abs()).asinh(), ratio(y, x.abs()).asinh());
-    let (one, two) = (0.5 * x * x * y * across, 0.5 * y * y * x * along);
-    let inverse = one + two - cube / 6.0;
-    let yy = cube / 6.0 + one - 0.5 * x * x * r;
-    let xx = cube / 6.0 + two - 0.5 * y * y * r;
-    let xy = x * y * r / 3.0 + (y * y * y * along + x * x * x * across) / 6.0;
+    let x_asinh = quotient(x, y.abs()).asinh();
+    let y_asinh = quotient(y, x.abs()).asinh();
+    let x_term = 0.5 * x * x * y * y_asinh;
+    let y_term = 0.5 * y * y * x * x_asinh;
+    let inverse = x_term + y_term - cube / 6.0;
+    let yy = cube / 6.0 + x_term - 0.5 * x * x * r;
+    let xx = cube / 6.0 + y_term - 0.5 * y * y * r;
+    let xy = x * y * r / 3.0 + (y * y * y * x_asinh + x * x * x * y_asinh) / 6.0;
     let logarithm = if r == 0.0 { 0.0 } else { r.ln() };
-    let odd = |x: f64, y: f64| {
-        (0.5 * x * y * y - x * x * x / 6.0) * logarithm
-            + 0.5 * x * x * y * ratio(y, x).atan()
-            + y * y * y * ratio(x, y).atan() / 6.0
-    };
-    [inverse, yy, xx, xy, odd(x, y), odd(y, x)]
+    [inverse, yy, xx, xy, shear_primitive(x, y, logarithm), shear_primitive(y, x, logarithm)]
+}
+
+/// Primitive of x/r², with ln r.
+fn shear_primitive(x: f64, y: f64, logarithm: f64) -> f64 {
+    (0.5 * x * y * y - x * x * x / 6.0) * logarithm
+        + 0.5 * x * x * y * quotient(y, x).atan()
+        + y * y * y * quotient(x, y).atan() / 6.0
+}
+
+/// a/b, or 0 for b = 0, where the quotient's asinh or atan has a factor of zero.
+fn quotient(a: f64, b: f64) -> f64 {
+    if b == 0.0 { 0.0 } else { a / b }
 }
 
 #[cfg(test)]
@@ -182,22 +201,28 @@ mod tests {
         ] {
             let classes = lattice.classes();
             let mut means = AngularMeans::new(&lattice);
-            let [a, b] = lattice.pitch;
+            let a = lattice.pitch[0];
+            let b = lattice.pitch[1];
             let size = (a * b).powi(2);
             for k in [1e-7, 0.3, 4.0, 31.0, 250.0] {
-                let mut sums = vec![0.0; FORMS * classes.len()];
+                let mut sums = vec![0.0; FORM_COUNT * classes.len()];
                 let count = 6000;
                 for n in 0..count {
                     let angle = std::f64::consts::TAU * (f64::from(n) + 0.3) / f64::from(count);
-                    let (sin, cos) = angle.sin_cos();
+                    let sin = angle.sin();
+                    let cos = angle.cos();
                     let weight = size * (sinc(0.5 * k * a * cos) * sinc(0.5 * k * b * sin)).powi(2);
                     for (class, [i, j]) in classes.iter().enumerate() {
-                        let (s, c) = (k * a * cos * *i as f64).sin_cos();
-                        let (t, d) = (k * b * sin * *j as f64).sin_cos();
-                        let products =
-                            [1.0, cos * cos, sin * sin, 0.0, 0.0, 0.0].map(|x| x * c * d);
-                        let odd = [-cos * sin * s * t, cos * s * d, sin * c * t];
-                        for form in 0..FORMS {
+                        let x_phase = k * a * cos * *i as f64;
+                        let y_phase = k * b * sin * *j as f64;
+                        let even = x_phase.cos() * y_phase.cos();
+                        let products = [even, cos * cos * even, sin * sin * even];
+                        let odd = [
+                            -cos * sin * x_phase.sin() * y_phase.sin(),
+                            cos * x_phase.sin() * y_phase.cos(),
+                            sin * x_phase.cos() * y_phase.sin(),
+                        ];
+                        for form in 0..FORM_COUNT {
                             let value = if form < 3 { products[form] } else { odd[form - 3] };
                             sums[form * classes.len() + class] += weight * value / f64::from(count);
                         }
@@ -217,7 +242,7 @@ mod tests {
         let rule = gauss::largest();
         let pitch = [0.7, 0.4];
         for offset in [[2, 0], [0, 3], [2, 2], [5, 3], [9, 2]] {
-            let mut sums = [0.0; FORMS];
+            let mut sums = [0.0; FORM_COUNT];
             for (u, w) in rule.points_on_unit_interval() {
                 for (v, z) in rule.points_on_unit_interval() {
                     // The hat function on both sides.
@@ -242,9 +267,9 @@ mod tests {
                     }
                 }
             }
-            let own = integrals(pitch, [0, 0])[0];
+            let largest = integrals(pitch, [0, 0])[0];
             for (found, wanted) in integrals(pitch, offset).into_iter().zip(sums) {
-                let error = (found - wanted).abs() / own;
+                let error = (found - wanted).abs() / largest;
                 assert!(error < 1e-11, "{offset:?} {found} {wanted} {error:e}");
             }
         }
@@ -253,17 +278,18 @@ mod tests {
     /// The cells of a larger cell sum up to it; 1/r = x²/r³ + y²/r³; a unit square on itself has the textbooks'
     /// value.
     #[test]
-    fn own_cells_are_sums_of_parts() {
-        let (pitch, half) = ([0.7, 0.4], [0.35, 0.2]);
+    fn integrals_of_a_cell_are_sums_of_parts() {
+        let pitch = [0.7, 0.4];
+        let half = [0.35, 0.2];
         for offset in [[0_usize, 0], [1, 0], [0, 1], [1, 1]] {
-            let mut sums = [0.0; FORMS];
+            let mut sums = [0.0; FORM_COUNT];
             for (i, one) in [(-1, 1.0), (0, 2.0), (1, 1.0)] {
                 for (j, two) in [(-1, 1.0), (0, 2.0), (1, 1.0)] {
                     let place = [i + 2 * offset[0].cast_signed(), j + 2 * offset[1].cast_signed()];
                     let signs = place.map(|n| if n < 0 { -1.0 } else { 1.0 });
                     let parts = integrals(half, place.map(isize::unsigned_abs));
                     let signs = [1.0, 1.0, 1.0, signs[0] * signs[1], signs[0], signs[1]];
-                    for form in 0..FORMS {
+                    for form in 0..FORM_COUNT {
                         sums[form] += one * two * signs[form] * parts[form];
                     }
                 }

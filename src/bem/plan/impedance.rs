@@ -4,11 +4,13 @@
 //! is evaluated at iω + η, 2η, … 8η and extrapolated.
 
 use super::cells::Plan;
-use super::integrals::{Integrals, Workspace};
-use super::sectors::{MOTIONS, Sectors};
-use crate::bem::layered::{Compliances, StripContact, impedance_watch, points, stiffnesses};
+use super::integrals::{CellIntegrals, CellWorkspace};
+use super::sectors::{RIGID_MOTION_COUNT, Sectors};
+use crate::bem::layered::{
+    Compliances, StripContact, extrapolated_stiffnesses, impedance_watch, laplace_variables,
+};
 use crate::error::{Observer, PlanError, Result};
-use crate::geometry::SERIES;
+use crate::geometry::SERIES_PER_OFFSET;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -27,34 +29,34 @@ pub struct PlanImpedance {
     ///
     /// Along x, y, z and about these axes; symmetric. The real part is stiffness (minus the inertia of the soil
     /// that moves along), the imaginary part damping by radiation and in the soil.
-    pub matrix: [[Complex; MOTIONS]; MOTIONS],
+    pub matrix: [[Complex; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
 }
 
 impl PlanImpedance {
     /// Springs Re K.
-    pub fn stiffnesses(&self) -> [[f64; MOTIONS]; MOTIONS] {
+    pub fn stiffnesses(&self) -> [[f64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT] {
         self.matrix.map(|row| row.map(|k| k.re))
     }
 
     /// Dashpots Im K/ω parallel to these springs, N s/m and so on; NaN at frequency zero.
-    pub fn dashpots(&self) -> [[f64; MOTIONS]; MOTIONS] {
+    pub fn dashpots(&self) -> [[f64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT] {
         self.matrix.map(|row| row.map(|k| k.im / (std::f64::consts::TAU * self.frequency)))
     }
 }
 
-/// Tolerance of the cells' compliances; the error of the cells themselves is far larger.
-const TOLERANCE: f64 = 1e-9;
+/// Relative tolerance of the cells' compliances; the error of the cells themselves is far larger.
+const COMPLIANCE_TOLERANCE: f64 = 1e-9;
 /// Smallest number of cells in a wavelength.
-const RESOLVED: f64 = 6.0;
-/// Number of entries of a matrix.
-const ENTRIES: usize = MOTIONS * MOTIONS;
+const MIN_CELLS_PER_WAVELENGTH: f64 = 6.0;
+/// Number of entries of a stiffness matrix.
+const MATRIX_ENTRY_COUNT: usize = RIGID_MOTION_COUNT * RIGID_MOTION_COUNT;
 
 /// Dynamic stiffness of the rigid mats of `plan` on `profile` at each of `frequencies` (Hz).
 ///
 /// Frequency 0 is the static stiffness. Layers may have any damping, also hysteretic; without damping they take
-/// eight times as long. Relaxed contact has vertical motions and rocking without shear, and horizontal motions and
-/// torsion without pressure. Tractions are constant over the contact elements, either cells or unions of them.
-/// The observer's parts are points of the Laplace plane, eight per frequency.
+/// eight times as long. In relaxed contact, vertical motions and rocking have no shear, and horizontal motions and
+/// torsion no pressure. Tractions are constant over the contact elements, either cells or unions of them.
+/// The observer counts points of the Laplace plane, eight per frequency.
 ///
 /// ```
 /// use basemat::bem::layered::StripContact;
@@ -81,42 +83,48 @@ pub fn impedances_in_plan(
     contact: StripContact,
     observer: &mut Observer<'_>,
 ) -> Result<Vec<PlanImpedance>> {
-    let watch = &mut impedance_watch(frequencies, observer);
+    let progress = &mut impedance_watch(frequencies, observer);
     profile.check()?;
-    let mut lists = Vec::with_capacity(frequencies.len());
+    let mut variables = Vec::with_capacity(frequencies.len());
     for frequency in frequencies {
-        lists.push(points(profile, plan.lattice.diagonal(), *frequency)?);
-        check_cells(profile, plan, *frequency)?;
+        variables.push(laplace_variables(profile, plan.lattice.diagonal(), *frequency)?);
+        check_resolution(profile, plan, *frequency)?;
     }
-    let all = lists.iter().flatten().copied();
-    let integrals = Integrals::new(&plan.lattice, profile, all, TOLERANCE, watch)?;
-    let parts: &[&[usize]] = match contact {
+    let all_variables = variables.iter().flatten().copied();
+    let integrals =
+        CellIntegrals::new(&plan.lattice, profile, all_variables, COMPLIANCE_TOLERANCE, progress)?;
+    let coupled_components: &[&[usize]] = match contact {
         StripContact::Bonded => &[&[0, 1, 2]],
         StripContact::Relaxed => &[&[0], &[1, 2]],
     };
     let sectors = Sectors::new(plan);
-    let diagonal: [usize; MOTIONS] = std::array::from_fn(|i| (MOTIONS + 1) * i);
-    let mut work = Workspace::default();
-    let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
-    let found = stiffnesses(&lists, &diagonal, watch, |s| {
+    let diagonal: [usize; RIGID_MOTION_COUNT] =
+        std::array::from_fn(|i| (RIGID_MOTION_COUNT + 1) * i);
+    let mut work = CellWorkspace::default();
+    let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
+    let stiffnesses = extrapolated_stiffnesses(&variables, &diagonal, progress, |s| {
         integrals.compliance(profile, s, &mut work, &mut values)?;
-        let matrix = sectors.stiffness(&values, parts)?;
-        Ok::<[Complex; ENTRIES], _>(std::array::from_fn(|k| matrix[k / MOTIONS][k % MOTIONS]))
+        let matrix = sectors.stiffness(&values, coupled_components)?;
+        let mut entries = [Complex::default(); MATRIX_ENTRY_COUNT];
+        entries.copy_from_slice(matrix.as_flattened());
+        Ok(entries)
     })?;
-    let impedance = |(frequency, entries): (&f64, [Complex; ENTRIES])| {
-        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| entries[MOTIONS * i + j]));
-        PlanImpedance { frequency: *frequency, matrix }
-    };
-    Ok(frequencies.iter().zip(found).map(impedance).collect())
+    let mut impedances = Vec::with_capacity(frequencies.len());
+    for (&frequency, entries) in frequencies.iter().zip(stiffnesses) {
+        let matrix = [0, 1, 2, 3, 4, 5]
+            .map(|i| [0, 1, 2, 3, 4, 5].map(|j| entries[RIGID_MOTION_COUNT * i + j]));
+        impedances.push(PlanImpedance { frequency, matrix });
+    }
+    Ok(impedances)
 }
 
 /// Error for cells that do not resolve the waves of a frequency.
-fn check_cells(profile: &SoilProfile, plan: &Plan, frequency: f64) -> Result<()> {
+fn check_resolution(profile: &SoilProfile, plan: &Plan, frequency: f64) -> Result<()> {
     let speed = profile.surface().map_or(f64::INFINITY, |soil| soil.shear_wave_speed());
-    let (wavelength, [a, b]) = (speed / frequency, plan.pitch());
-    let cell = a.max(b);
-    if cell * RESOLVED > wavelength {
-        let needed = RESOLVED;
+    let wavelength = speed / frequency;
+    let cell = plan.pitch()[0].max(plan.pitch()[1]);
+    let needed = MIN_CELLS_PER_WAVELENGTH;
+    if cell * needed > wavelength {
         return Err(PlanError::CoarseCells { cell, frequency, wavelength, needed }.into());
     }
     Ok(())

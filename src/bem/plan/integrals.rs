@@ -15,26 +15,27 @@
 //! reach the cells through Legendre moments over the whole panel, so that only C is evaluated more often. For Re s
 //! > 0 no pole lies on the axis, and k = 0 needs no regularisation.
 
-use super::form_table::{FormRows, FormTable, TERMS};
-use super::forms::FORMS;
+use super::form_table::{FormRows, FormTable, TAIL_TERMS};
+use super::forms::FORM_COUNT;
 use crate::bem::layered::{
-    Compliance, Compliances, DEGREES, FLOOR, POINTS, SHARE, SurfaceCompliance, by_halves, deep,
-    last_coefficients, legendre, median, surface_outlook, surface_series, unresolved,
+    Compliances, LEGENDRE_DEGREES, LayeredCompliance, PANEL_POINTS, PANEL_TOLERANCE_EXPONENT,
+    ROUNDING_FLOOR_FACTOR, SurfaceCompliance, by_halves, deep, last_coefficients, legendre, median,
+    surface_outlook, surface_series, unresolved,
 };
 use crate::error::{GroundError, Result, Watch};
-use crate::geometry::{Lattice, SERIES};
+use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Kernels: zz, rr, tt and zr.
-const KERNELS: usize = 4;
+/// Number of kernels: zz, rr, tt and zr.
+const KERNEL_COUNT: usize = 4;
 /// C minus its static value, times k; or moments of it.
-type Kernel = [Complex; KERNELS];
+type CellKernel = [Complex; KERNEL_COUNT];
 
-/// For each form: the first sum that it contributes to, and the factor of each kernel there.
+/// For each form: the first series to which it contributes, and the factor of each kernel there and in the next.
 ///
-/// Sums: real and imaginary parts of zz, xx, yy, xy, zx, zy.
-const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
+/// Series count twice, for real and imaginary parts: zz, xx, yy, xy, zx, zy.
+const KERNEL_FACTORS: [(usize, &[[f64; KERNEL_COUNT]]); FORM_COUNT] = [
     (0, &[[1.0, 0.0, 0.0, 0.0]]),
     (2, &[[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]),
     (2, &[[0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0]]),
@@ -45,25 +46,25 @@ const SHARES: [(usize, &[[f64; KERNELS]]); FORMS] = [
 
 /// Integrals over the wavenumber for the cells of a lattice.
 #[derive(Debug)]
-pub(in crate::bem) struct Integrals {
+pub(in crate::bem) struct CellIntegrals {
     pub(super) table: FormTable,
     pub(super) finest: f64,
     pub(super) tolerance: f64,
 }
 
-/// Scratch of one thread.
+/// Buffers of one thread.
 #[derive(Debug, Default)]
-pub(crate) struct Workspace {
-    ground: Compliance,
-    panels: Scratch,
+pub(crate) struct CellWorkspace {
+    ground: LayeredCompliance,
+    panels: PanelBuffers,
 }
 
-/// Scratch for the panels of one integral after the other.
+/// Buffers for the panels of one integral after the other.
 #[derive(Debug, Default)]
-struct Scratch {
+struct PanelBuffers {
     /// Kernels at all points, with their weights.
-    kernels: Vec<Kernel>,
-    samples: Vec<[Kernel; POINTS]>,
+    kernels: Vec<CellKernel>,
+    samples: Vec<[CellKernel; PANEL_POINTS]>,
     stack: Vec<(f64, f64, u32)>,
     weights: Vec<f64>,
     sums: Vec<f64>,
@@ -71,27 +72,30 @@ struct Scratch {
     evaluations: usize,
 }
 
-/// The ground at one Laplace variable.
-struct Symbol<'a> {
-    ground: &'a mut Compliance,
-    /// k C at rest.
-    rest: Kernel,
+/// Kernels of the ground at one Laplace variable, without their static values.
+struct DynamicKernel<'a> {
+    ground: &'a mut LayeredCompliance,
+    /// k C at s = 0.
+    static_kernel: CellKernel,
 }
 
-impl Symbol<'_> {
-    fn at(&mut self, k: f64) -> Kernel {
+impl DynamicKernel<'_> {
+    /// The kernels at the wavenumber `k`.
+    fn at(&mut self, k: f64) -> CellKernel {
         let SurfaceCompliance { xx, zz, xz } = self.ground.at(k);
         let all = [zz, xx, self.ground.across(), xz];
-        std::array::from_fn(|i| all[i].scale(k) - self.rest[i])
+        std::array::from_fn(|i| all[i].scale(k) - self.static_kernel[i])
     }
 }
 
-/// dⱼ of zz, rr, tt, zr: C = Σ dⱼ (q₂/k²)ʲ/(μk) in the half-space of the top layer.
-fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
-    let [rr, zz, zr] = surface_series(a2);
+/// Coefficients of the kernels' series at large wavenumbers: zz, rr, tt, zr.
+///
+/// dⱼ of C = Σ dⱼ (q₂/k²)ʲ/(μk) in the half-space of the top layer.
+fn kernel_series(a2: f64) -> [[f64; KERNEL_COUNT]; TAIL_TERMS] {
+    let in_plane = surface_series(a2);
     let mut tt = 1.0;
     std::array::from_fn(|j| {
-        let term = [zz[j], rr[j], tt, zr[j]];
+        let term = [in_plane[1][j], in_plane[0][j], tt, in_plane[2][j]];
         // (1 + x)^(−½).
         tt *= -(j as f64 + 0.5) / (j as f64 + 1.0);
         term
@@ -99,32 +103,34 @@ fn series(a2: f64) -> [[f64; KERNELS]; TERMS] {
 }
 
 /// Compliances zz, xx, yy, xy, zx and zy of each class, m³/Pa × m.
-impl Compliances<SERIES> for Integrals {
-    type Workspace = Workspace;
+impl Compliances<SERIES_PER_OFFSET> for CellIntegrals {
+    type Workspace = CellWorkspace;
 
-    /// Measured: 0.4 to 4.8 (8 × 8 cells, half-space and damped layer, two steps, tolerances 1e-13 to 1e-10, up to
-    /// 32 768 lags).
-    const LATE_ERROR: f64 = 5.0;
+    /// Errors are 0.4 to 4.8 with 8 × 8 cells on a half-space and a damped layer, two time steps, tolerances of 1e-13
+    /// to 1e-10, and up to 32 768 lags.
+    const LATE_ERROR_FACTOR: f64 = 5.0;
 
-    fn make_ready(&self, watch: &mut Watch) -> Result<()> {
-        self.table.tabulate(watch)
+    fn make_ready(&self, progress: &mut Watch) -> Result<()> {
+        self.table.tabulate(progress)
     }
 
     fn compliance(
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Workspace,
-        values: &mut [[Complex; SERIES]],
+        work: &mut CellWorkspace,
+        values: &mut [[Complex; SERIES_PER_OFFSET]],
     ) -> Result<()> {
-        let Workspace { ground, panels: work } = work;
+        let CellWorkspace { ground, panels } = work;
         ground.set(profile, s)?;
-        self.sum(ground, s, work)?;
-        let (classes, unit) = (self.table.classes, 0.5 * std::f64::consts::FRAC_1_PI);
+        self.integrate(ground, s, panels)?;
+        let classes = self.table.classes;
+        let unit = 0.5 * std::f64::consts::FRAC_1_PI;
         for (class, values) in values.iter_mut().enumerate() {
             for (series, value) in values.iter_mut().enumerate() {
-                let part = |part: usize| unit * work.sums[(2 * series + part) * classes + class];
-                *value = Complex::new(part(0), part(1));
+                let re = panels.sums[2 * series * classes + class];
+                let im = panels.sums[(2 * series + 1) * classes + class];
+                *value = Complex::new(unit * re, unit * im);
             }
         }
         Ok(())
@@ -134,7 +140,7 @@ impl Compliances<SERIES> for Integrals {
         &self,
         profile: &SoilProfile,
         s: Complex,
-        work: &mut Workspace,
+        work: &mut CellWorkspace,
         values: &mut Vec<Complex>,
     ) -> Result<()> {
         work.ground.set(profile, s)?;
@@ -144,21 +150,22 @@ impl Compliances<SERIES> for Integrals {
     }
 }
 
-impl Integrals {
-    /// Integrals for `profile` at all Laplace variables of `list`; `tolerance` relative to a cell's own
-    /// compliance.
+impl CellIntegrals {
+    /// Integrals for `profile` at some Laplace `variables`.
+    ///
+    /// `tolerance` is relative to the displacement of a cell due to a traction on itself.
     ///
     /// # Errors
-    /// [`Error::Stopped`](crate::Error::Stopped); as for [`Integrals::sketch`].
+    /// [`Error::Stopped`](crate::Error::Stopped); as for [`CellIntegrals::untabulated`].
     pub(super) fn new(
         lattice: &Lattice,
         profile: &SoilProfile,
-        list: impl IntoIterator<Item = Complex>,
+        variables: impl IntoIterator<Item = Complex>,
         tolerance: f64,
-        watch: &mut Watch,
+        progress: &mut Watch,
     ) -> Result<Self> {
-        let integrals = Self::sketch(lattice, profile, list, tolerance)?;
-        integrals.table.tabulate(watch)?;
+        let integrals = Self::untabulated(lattice, profile, variables, tolerance)?;
+        integrals.table.tabulate(progress)?;
         Ok(integrals)
     }
 
@@ -166,46 +173,54 @@ impl Integrals {
     ///
     /// # Errors
     /// As for [`SoilProfile::moduli`]; [`GroundError::TooFine`]; [`Error::Memory`](crate::Error::Memory).
-    pub(super) fn sketch(
+    pub(super) fn untabulated(
         lattice: &Lattice,
         profile: &SoilProfile,
-        list: impl IntoIterator<Item = Complex>,
+        variables: impl IntoIterator<Item = Complex>,
         tolerance: f64,
     ) -> Result<Self> {
-        let mut ground = Compliance::default();
-        let mut root = 0.0_f64;
-        for s in list {
+        let mut ground = LayeredCompliance::default();
+        let mut largest_root = 0.0_f64;
+        for s in variables {
             ground.set(profile, s)?;
-            root = root.max(ground.root());
+            largest_root = largest_root.max(ground.root());
         }
-        let table = FormTable::new(lattice, [root, deep(profile)])?;
+        let table = FormTable::new(lattice, largest_root, deep(profile))?;
         Ok(Self { table, finest: lattice.finest(), tolerance })
     }
 
-    fn sum(&self, ground: &mut Compliance, s: Complex, work: &mut Scratch) -> Result<()> {
-        let (modulus, q2, a2) = ground.top();
-        let series = series(a2);
-        let softness = modulus.inverse();
+    /// Overwrites `work.sums` with 2π × the integrals: series by series, real and imaginary parts, all classes.
+    fn integrate(
+        &self,
+        ground: &mut LayeredCompliance,
+        s: Complex,
+        work: &mut PanelBuffers,
+    ) -> Result<()> {
+        let top = ground.top();
+        let series = kernel_series(top.a2);
+        let softness = top.modulus.inverse();
         let panels = self.table.panels(ground.root());
         let Some([values, tail]) = self.table.tabulated(panels) else {
             let width = self.table.width;
-            let (span, wavenumber) = (self.table.span(), panels as f64 * width);
-            let most = self.table.end as f64 * width;
+            let span = self.table.span();
+            let wavenumber = panels as f64 * width;
+            let most = self.table.panel_count as f64 * width;
             return Err(GroundError::TooFine { span, wavenumber, most }.into());
         };
         work.sums.clear();
-        work.sums.resize(2 * SERIES * self.table.classes, 0.0);
-        let ratio = q2.scale(self.table.unit().powi(-2));
+        work.sums.resize(2 * SERIES_PER_OFFSET * self.table.classes, 0.0);
+        let ratio = top.q2.scale(self.table.unit().powi(-2));
         let mut power = softness;
         work.kernels.clear();
         for term in series {
             work.kernels.push(term.map(|d| power.scale(d)));
             power = power * ratio;
         }
-        self.add(tail, work);
-        let rest = series[0].map(|d| softness.scale(d));
-        self.resolve(panels, work, &mut Symbol { ground, rest }, &mut |panel, work| {
-            self.add(panel.map_or(values, |panel| self.table.legendre(panel)), work);
+        self.add_products(tail, work);
+        let static_kernel = series[0].map(|d| softness.scale(d));
+        let mut dynamic = DynamicKernel { ground, static_kernel };
+        self.integrate_panels(panels, work, &mut dynamic, &mut |panel, work| {
+            self.add_products(panel.map_or(values, |panel| self.table.legendre(panel)), work);
         })
         .map_err(|wavenumber| unresolved(s, wavenumber))
     }
@@ -213,94 +228,109 @@ impl Integrals {
     /// Calls `take` with kernels at the points of all panels up to K, and with moments of each halved panel.
     ///
     /// Returns as an error the wavenumber at which halving stopped without success.
-    fn resolve(
+    fn integrate_panels(
         &self,
         panels: usize,
-        work: &mut Scratch,
-        symbol: &mut Symbol,
-        take: &mut dyn FnMut(Option<usize>, &mut Scratch),
+        work: &mut PanelBuffers,
+        dynamic: &mut DynamicKernel,
+        take: &mut dyn FnMut(Option<usize>, &mut PanelBuffers),
     ) -> std::result::Result<(), f64> {
-        let (width, half) = (self.table.width, 0.5 * self.table.width);
+        let width = self.table.width;
+        let half_width = 0.5 * self.table.width;
         work.samples.clear();
-        let mut whole = 0.0;
+        let mut integral_size = 0.0;
         for panel in 0..panels {
             let left = panel as f64 * width;
-            let samples = self.sampled(left, width, symbol);
+            let samples = self.kernel_samples(left, width, dynamic);
             let size = median(samples.map(|c| c[0].abs() + c[1].abs()));
-            whole += half * self.share(left + half) * (size + symbol.rest[0].abs());
+            integral_size += half_width
+                * self.form_size(left + half_width)
+                * (size + dynamic.static_kernel[0].abs());
             work.samples.push(samples);
         }
-        work.evaluations += POINTS * panels;
-        let allowed = self.tolerance.powf(SHARE) * whole;
-        let mut hard = vec![];
+        work.evaluations += PANEL_POINTS * panels;
+        let max_error = self.tolerance.powf(PANEL_TOLERANCE_EXPONENT) * integral_size;
+        let mut unresolved_panels = vec![];
         work.kernels.clear();
         for panel in 0..panels {
             let samples = &work.samples[panel];
             let left = panel as f64 * width;
-            let good = self.resolved(samples, symbol, left, width, allowed);
-            if !good {
-                hard.push(panel);
-            }
-            for (sample, weight) in samples.iter().zip(&self.table.rule.weights) {
-                let weight = if good { half * weight } else { 0.0 };
-                let weighted = sample.map(|c| c.scale(weight));
-                work.kernels.push(if good { weighted } else { Kernel::default() });
+            if self.is_resolved(samples, dynamic, left, width, max_error) {
+                for (sample, weight) in samples.iter().zip(&self.table.rule.weights) {
+                    work.kernels.push(sample.map(|c| c.scale(half_width * weight)));
+                }
+            } else {
+                unresolved_panels.push(panel);
+                work.kernels.extend([CellKernel::default(); PANEL_POINTS]);
             }
         }
         take(None, work);
-        for panel in hard {
-            self.halved(panel, allowed, work, symbol)?;
+        for panel in unresolved_panels {
+            self.halve_panel(panel, max_error, work, dynamic)?;
             take(Some(panel), work);
         }
         Ok(())
     }
 
-    /// Ratio of the forms' weight at a wavenumber to their weight at zero.
-    fn share(&self, k: f64) -> f64 {
+    /// Estimated ratio of the forms at a wavenumber to the forms at zero.
+    fn form_size(&self, k: f64) -> f64 {
         (2.0 / (k * self.finest)).powi(2).min(1.0)
     }
 
-    fn sampled(&self, left: f64, width: f64, symbol: &mut Symbol) -> [Kernel; POINTS] {
-        std::array::from_fn(|i| symbol.at(left + 0.5 * width * (1.0 + self.table.rule.nodes[i])))
+    /// Kernels at the Gauss points of a panel.
+    fn kernel_samples(
+        &self,
+        left: f64,
+        width: f64,
+        dynamic: &mut DynamicKernel,
+    ) -> [CellKernel; PANEL_POINTS] {
+        std::array::from_fn(|i| dynamic.at(left + 0.5 * width * (1.0 + self.table.rule.nodes[i])))
     }
 
     /// Whether the last two Legendre coefficients are small enough.
-    fn resolved(
+    fn is_resolved(
         &self,
-        samples: &[Kernel; POINTS],
-        symbol: &Symbol,
+        samples: &[CellKernel; PANEL_POINTS],
+        dynamic: &DynamicKernel,
         left: f64,
         width: f64,
-        allowed: f64,
+        max_error: f64,
     ) -> bool {
-        let (rule, polynomials) = (&self.table.rule, &self.table.polynomials);
+        let rule = &self.table.rule;
+        let polynomials = &self.table.polynomials;
         let Some(error) = last_coefficients(samples.iter().copied(), rule, polynomials) else {
             return false;
         };
-        let whole = samples.iter().flat_map(|sample| sample.iter().zip(symbol.rest));
-        let largest = whole.fold(0.0_f64, |most, (value, rest)| most.max((*value + rest).square()));
-        error * width * self.share(left) <= allowed || error <= FLOOR * largest.sqrt()
+        let mut largest_square = 0.0_f64;
+        for sample in samples {
+            for (value, static_value) in sample.iter().zip(dynamic.static_kernel) {
+                largest_square = largest_square.max((*value + static_value).square());
+            }
+        }
+        error * width * self.form_size(left) <= max_error
+            || error <= ROUNDING_FLOOR_FACTOR * largest_square.sqrt()
     }
 
     /// Moments ∫ C Pₙ dk over one panel, by halves; written to `work.kernels`.
-    fn halved(
+    fn halve_panel(
         &self,
         panel: usize,
-        allowed: f64,
-        work: &mut Scratch,
-        symbol: &mut Symbol,
+        max_error: f64,
+        work: &mut PanelBuffers,
+        dynamic: &mut DynamicKernel,
     ) -> std::result::Result<(), f64> {
-        let whole = self.table.width;
-        let Scratch { kernels, stack, evaluations, .. } = work;
+        let panel_width = self.table.width;
+        let panel_range = [panel_width * panel as f64, panel_width];
+        let PanelBuffers { kernels, stack, evaluations, .. } = work;
         kernels.clear();
-        kernels.resize(DEGREES, Kernel::default());
+        kernels.resize(LEGENDRE_DEGREES, CellKernel::default());
         let sample = |left: f64, width: f64| {
-            *evaluations += POINTS;
-            let samples = self.sampled(left, width, symbol);
-            let resolved = self.resolved(&samples, symbol, left, width, allowed);
-            (samples, resolved)
+            *evaluations += PANEL_POINTS;
+            let samples = self.kernel_samples(left, width, dynamic);
+            let is_resolved = self.is_resolved(&samples, dynamic, left, width, max_error);
+            (samples, is_resolved)
         };
-        by_halves([whole * panel as f64, whole], stack, sample, |[place, size], width, samples| {
+        by_halves(panel_range, stack, sample, |[place, size], width, samples| {
             for (sample, (x, weight)) in
                 samples.iter().zip(self.table.rule.points_on_unit_interval())
             {
@@ -315,19 +345,21 @@ impl Integrals {
     }
 
     /// Adds Σ kernel × forms over the first of `rows` to the sums.
-    fn add(&self, rows: &FormRows, work: &mut Scratch) {
-        let Scratch { kernels, weights, sums, .. } = work;
-        for (form, (first, shares)) in SHARES.into_iter().enumerate() {
+    fn add_products(&self, rows: &FormRows, work: &mut PanelBuffers) {
+        let PanelBuffers { kernels, weights, sums, .. } = work;
+        for (form, (first, series_factors)) in KERNEL_FACTORS.into_iter().enumerate() {
             weights.clear();
             for kernel in &*kernels {
-                for share in shares {
-                    let terms = kernel.iter().zip(share).map(|(value, share)| value.scale(*share));
-                    let sum = terms.fold(Complex::default(), |sum, term| sum + term);
+                for factors in series_factors {
+                    let mut sum = Complex::default();
+                    for (value, factor) in kernel.iter().zip(factors) {
+                        sum += value.scale(*factor);
+                    }
                     weights.extend([sum.re, sum.im]);
                 }
             }
             let classes = self.table.classes;
-            let range = first * classes..(first + 2 * shares.len()) * classes;
+            let range = first * classes..(first + 2 * series_factors.len()) * classes;
             rows.combine(form, weights, &mut sums[range]);
         }
     }

@@ -36,5 +36,5 @@ mod unions;
 
 pub use cells::Plan;
 pub use impedance::{PlanImpedance, impedances_in_plan};
-pub(super) use kernel::{LatticeKernel, gate_sample, static_compliance};
-pub(super) use unions::{AT_END, Unions};
+pub(super) use kernel::{LatticeKernel, passivity_sample, static_compliance};
+pub(super) use unions::{STEP_END_SPRING_RATIO, Unions};

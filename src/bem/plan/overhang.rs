@@ -13,10 +13,11 @@
 //! | d | overhang in cells, 0.105 x²/(1 + x²) in steps of 0.015 |
 //! | R | radius of a disc of the mat's area, m |
 //!
-//! The structure's stiffness matrix contains D. Waves of load p with the wavenumber k bend a mat on springs s = G k/(1 − ν),
-//! the stiffness of the soil for these waves, by p/(D k⁴ + s). Degrees of freedom far from the base are held.
+//! D follows from the structure's stiffness matrix. Waves of load p with the wavenumber k bend a mat on springs
+//! s = G k/(1 − ν), the stiffness of the soil for these waves, by p/(D k⁴ + s). Degrees of freedom far from the base are
+//! restrained.
 
-use super::outline::OVERHANG;
+use super::outline::RIGID_MAT_OVERHANG;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
 use crate::soil::Soil;
 use crate::structure::{BaseNode, DofCombination, Triplets};
@@ -25,151 +26,189 @@ use crate::structure::{BaseNode, DofCombination, Triplets};
 ///
 /// Grounds under mats of similar stiffness then share their convolution weights, and a very stiff mat has the cells of a
 /// rigid one.
-const STEPS: f64 = 7.0;
-/// Elements from the base to the first degrees of freedom that are held. A mat of more layers is stiff.
-const RINGS: usize = 6;
-/// Ratio of D to the stiffness that waves on a mat of a few wavelengths show, free edges included: 1 to 3.
-const EDGES: f64 = 1.5;
+const OVERHANG_STEP_COUNT: f64 = 7.0;
+/// Number of layers of elements above the base whose degrees of freedom are free. A mat of more layers is stiff.
+const FREE_ELEMENT_LAYERS: usize = 6;
+/// Ratio of D to the stiffness against waves on a mat of a few wavelengths with free edges; it is 1 to 3.
+const FREE_EDGE_FACTOR: f64 = 1.5;
 /// Stiffness added to each degree of freedom, relative to the largest entry, for a structure with a mechanism.
-const HELD: f64 = 1e-13;
-pub(super) const NAME: &str = "stiffness matrix";
+const RESTRAINT_FACTOR: f64 = 1e-13;
+/// Name of the structure's stiffness matrix in errors.
+pub(super) const STIFFNESS_MATRIX_NAME: &str = "stiffness matrix";
 
-/// Overhang under the flexible mat of these faces on cells with sides of `side` (m), as a fraction of a cell, and D/(G R³).
-pub(super) fn overhang(
+/// Stiffness of a flexible mat near its edge.
+#[derive(Clone, Copy)]
+pub(super) struct EdgeStiffness {
+    /// Overhang of the outer cells, as a fraction of a cell.
+    pub(super) overhang: f64,
+    /// D/(G R³).
+    pub(super) rigidity: f64,
+}
+
+/// Overhang and rigidity of the flexible mat of these faces on cells with sides of `side` (m).
+pub(super) fn edge_stiffness(
     stiffness: &SparseMatrix,
     faces: &[(&[BaseNode], f64)],
     soil: &Soil,
     side: f64,
-) -> [f64; 2] {
-    let points = Points::of(faces);
-    let wavenumber = std::f64::consts::FRAC_PI_2 / side.max(points.spacing);
+) -> EdgeStiffness {
+    let corners = MatCorners::of(faces);
+    let wavenumber = std::f64::consts::FRAC_PI_2 / side.max(corners.spacing);
     let springs = soil.shear_modulus() * wavenumber / (1.0 - soil.poisson());
-    let ratio = EDGES * points.stiffness(stiffness, springs, wavenumber);
-    let cubed = ratio / ((1.0 - soil.poisson()) * (wavenumber * side).powi(3));
-    let squared = cubed.powf(2.0 / 3.0);
-    let part = if squared.is_finite() { squared / (1.0 + squared) } else { 1.0 };
+    let ratio = FREE_EDGE_FACTOR * corners.stiffness_ratio(stiffness, springs, wavenumber);
+    let x_cubed = ratio / ((1.0 - soil.poisson()) * (wavenumber * side).powi(3));
+    let x_squared = x_cubed.powf(2.0 / 3.0);
+    let fraction = if x_squared.is_finite() { x_squared / (1.0 + x_squared) } else { 1.0 };
+    let rounded = (OVERHANG_STEP_COUNT * fraction).round() / OVERHANG_STEP_COUNT;
     let area: f64 = faces.iter().map(|(_, area)| area).sum();
-    let rigidity = cubed * (side / (area / std::f64::consts::PI).sqrt()).powi(3);
-    [OVERHANG * ((STEPS * part).round() / STEPS), rigidity.min(f64::MAX)]
+    let rigidity = x_cubed * (side / (area / std::f64::consts::PI).sqrt()).powi(3);
+    EdgeStiffness { overhang: RIGID_MAT_OVERHANG * rounded, rigidity: rigidity.min(f64::MAX) }
 }
 
 /// Mean side (m) of the faces of a mat, from corners and area of each; two triangles count as one face.
 pub(super) fn mean_side(faces: &[(&[BaseNode], f64)]) -> f64 {
-    let pieces: f64 = faces.iter().map(|(own, _)| 0.5 * (own.len() as f64 - 2.0)).sum();
+    let face_count: f64 = faces.iter().map(|(corners, _)| 0.5 * (corners.len() as f64 - 2.0)).sum();
     let area: f64 = faces.iter().map(|(_, area)| area).sum();
-    (area / pieces).sqrt()
+    (area / face_count).sqrt()
 }
 
 /// Corners of the faces of a mat.
-struct Points<'a> {
+struct MatCorners<'a> {
     /// Each corner with its part of the area, m².
     corners: Vec<(&'a BaseNode, f64)>,
     /// Mean side of a face, m.
     spacing: f64,
 }
 
-impl<'a> Points<'a> {
+impl<'a> MatCorners<'a> {
     /// `faces`: corners and area of each.
     fn of(faces: &[(&'a [BaseNode], f64)]) -> Self {
-        let corners = faces.iter().flat_map(|&(corners, area)| {
-            let own = area / corners.len() as f64;
-            corners.iter().map(move |corner| (corner, own))
-        });
-        Self { corners: corners.collect(), spacing: mean_side(faces) }
+        let mut all_corners = vec![];
+        for &(corners, area) in faces {
+            for corner in corners {
+                all_corners.push((corner, area / corners.len() as f64));
+            }
+        }
+        Self { corners: all_corners, spacing: mean_side(faces) }
     }
 
     /// Stiffness of the mat relative to `springs` (Pa/m) for waves of load along x and along y.
     ///
     /// Zero for a singular or indefinite matrix: the build returns an error for the structure.
-    fn stiffness(&self, matrix: &SparseMatrix, springs: f64, wavenumber: f64) -> f64 {
-        let number = self.near(matrix);
-        let order = number.iter().flatten().count();
-        let mut near = Triplets::new(order);
+    fn stiffness_ratio(&self, matrix: &SparseMatrix, springs: f64, wavenumber: f64) -> f64 {
+        let free_dofs = self.number_free_dofs(matrix);
+        let order = free_dofs.iter().flatten().count();
+        let mut triplets = Triplets::new(order);
         let mut largest = 0.0_f64;
         for (row, column, value) in matrix.entries() {
-            if let Some((row, column)) = number[row].zip(number[column]) {
+            if let Some((row, column)) = free_dofs[row].zip(free_dofs[column]) {
                 largest = largest.max(value.abs());
-                near.add(row, column, value);
+                triplets.add(row, column, value);
             }
         }
-        let own = |row: &DofCombination| -> Vec<(usize, f64)> {
-            row.iter().filter_map(|&(dof, weight)| Some((number[dof]?, weight))).collect()
-        };
         for (corner, area) in &self.corners {
-            corner.rows().into_iter().for_each(|row| near.add_outer(own(row), springs * area));
+            for row in corner.rows() {
+                triplets.add_outer(free_terms(row, &free_dofs), springs * area);
+            }
         }
-        (0..order).for_each(|dof| near.add(dof, dof, HELD * largest));
-        let Ok(mut factor) = SparseFactor::new(NAME, &near) else { return 0.0 };
-        let (mut compliance, mut whole) = (0.0, 0.0);
+        for dof in 0..order {
+            triplets.add(dof, dof, RESTRAINT_FACTOR * largest);
+        }
+        let Ok(mut factor) = SparseFactor::new(STIFFNESS_MATRIX_NAME, &triplets) else {
+            return 0.0;
+        };
+        let mut compliance = 0.0;
+        let mut spring_compliance = 0.0;
         for axis in 0..2 {
             for phase in [0.0, std::f64::consts::FRAC_PI_2] {
-                let waves = self.waves(axis, wavenumber, phase);
+                let wave = self.load_wave(axis, wavenumber, phase);
                 let mut force = vec![0.0; order];
-                for ((corner, area), value) in self.corners.iter().zip(&waves) {
-                    for (dof, weight) in own(&corner.vertical) {
-                        force[dof] += weight * area * value;
+                for ((corner, area), pressure) in self.corners.iter().zip(&wave) {
+                    for (dof, weight) in free_terms(&corner.vertical, &free_dofs) {
+                        force[dof] += weight * area * pressure;
                     }
-                    whole += area * value * value / springs;
+                    spring_compliance += area * pressure * pressure / springs;
                 }
                 let mut displacement = force.clone();
                 factor.solve(&mut displacement);
                 compliance += dot(&force, &displacement);
             }
         }
-        if compliance > 0.0 { (whole / compliance - 1.0).max(0.0) } else { 0.0 }
+        if compliance > 0.0 { (spring_compliance / compliance - 1.0).max(0.0) } else { 0.0 }
     }
 
-    /// Number of each degree of freedom near the base; `None` for the others.
-    fn near(&self, matrix: &SparseMatrix) -> Vec<Option<usize>> {
-        let mut is_near = vec![false; matrix.order()];
+    /// Number of each free degree of freedom, near the base; `None` for restrained ones.
+    fn number_free_dofs(&self, matrix: &SparseMatrix) -> Vec<Option<usize>> {
+        let mut is_free = vec![false; matrix.order()];
         for dof in self.corners.iter().flat_map(|(corner, _)| corner.dofs()) {
-            is_near[dof] = true;
+            is_free[dof] = true;
         }
-        for _ in 0..RINGS {
-            let inner = is_near.clone();
+        for _ in 0..FREE_ELEMENT_LAYERS {
+            let inner = is_free.clone();
             for (row, column, value) in matrix.entries() {
                 if value != 0.0 && inner[row] {
-                    is_near[column] = true;
+                    is_free[column] = true;
                 }
             }
         }
+        let mut numbers = vec![None; is_free.len()];
         let mut count = 0;
-        let next = |is_near: bool| {
-            count += usize::from(is_near);
-            is_near.then(|| count - 1)
-        };
-        is_near.into_iter().map(next).collect()
+        for (dof, number) in numbers.iter_mut().enumerate() {
+            if is_free[dof] {
+                *number = Some(count);
+                count += 1;
+            }
+        }
+        numbers
     }
 
     /// Pressure at each corner: a wave along an axis without its best linear fit.
-    fn waves(&self, axis: usize, wavenumber: f64, phase: f64) -> Vec<f64> {
-        let mut basis: Vec<Vec<f64>> = vec![];
-        let product = |one: &[f64], other: &[f64]| -> f64 {
-            let terms = self.corners.iter().zip(one).zip(other);
-            terms.map(|(((_, area), one), other)| area * one * other).sum()
-        };
-        let of = |value: &dyn Fn(&BaseNode) -> f64| -> Vec<f64> {
-            self.corners.iter().map(|(corner, _)| value(corner)).collect()
-        };
+    fn load_wave(&self, axis: usize, wavenumber: f64, phase: f64) -> Vec<f64> {
         let middle = [0, 1].map(|k| {
-            let sum = self.corners.iter().fold([0.0; 2], |sum, (corner, area)| {
-                [sum[0] + area * corner.place()[k], sum[1] + area]
-            });
-            sum[0] / sum[1]
-        });
-        let place = |k: usize| move |corner: &BaseNode| corner.place()[k] - middle[k];
-        for mut column in [
-            of(&|_| 1.0),
-            of(&place(0)),
-            of(&place(1)),
-            of(&|corner| (wavenumber * place(axis)(corner) + phase).cos()),
-        ] {
-            for known in &basis {
-                let part = product(known, &column) / product(known, known);
-                column.iter_mut().zip(known).for_each(|(x, known)| *x -= part * known);
+            let mut moment = 0.0;
+            let mut total = 0.0;
+            for (corner, area) in &self.corners {
+                moment += area * corner.place()[k];
+                total += area;
             }
-            basis.push(column);
+            moment / total
+        });
+        let mut basis = [vec![], vec![], vec![]];
+        let mut wave = vec![];
+        for (corner, _) in &self.corners {
+            let arms = [0, 1].map(|k| corner.place()[k] - middle[k]);
+            basis[0].push(1.0);
+            basis[1].push(arms[0]);
+            basis[2].push(arms[1]);
+            wave.push((wavenumber * arms[axis] + phase).cos());
         }
-        basis.pop().unwrap_or_default()
+        for n in 1..basis.len() {
+            let (previous, rest) = basis.split_at_mut(n);
+            self.make_orthogonal(&mut rest[0], previous);
+        }
+        self.make_orthogonal(&mut wave, &basis);
+        wave
     }
+
+    /// Subtracts the projections on `basis`, with the area as weight (Gram–Schmidt).
+    fn make_orthogonal(&self, vector: &mut [f64], basis: &[Vec<f64>]) {
+        for direction in basis {
+            let factor =
+                self.area_product(direction, vector) / self.area_product(direction, direction);
+            for (value, component) in vector.iter_mut().zip(direction) {
+                *value -= factor * component;
+            }
+        }
+    }
+
+    /// Integral of a product over the mat.
+    fn area_product(&self, one: &[f64], other: &[f64]) -> f64 {
+        let terms = self.corners.iter().zip(one).zip(other);
+        terms.map(|(((_, area), one), other)| area * one * other).sum()
+    }
+}
+
+/// Terms of a combination in free degrees of freedom, by their numbers.
+fn free_terms(combination: &DofCombination, free_dofs: &[Option<usize>]) -> Vec<(usize, f64)> {
+    combination.iter().filter_map(|&(dof, weight)| Some((free_dofs[dof]?, weight))).collect()
 }

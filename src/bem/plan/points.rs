@@ -7,8 +7,8 @@ use super::faces::side;
 /// Point in plan, m.
 pub(crate) type Point = [f64; 2];
 
-/// Different points, by their numbers.
-pub(crate) struct Points {
+/// Distinct points, numbered; points closer than a tolerance are one.
+pub(crate) struct PointIndex {
     /// Distance of points that count as one, m.
     near: f64,
     places: Vec<Point>,
@@ -16,7 +16,7 @@ pub(crate) struct Points {
     grid: HashMap<[i64; 2], Vec<usize>>,
 }
 
-impl Points {
+impl PointIndex {
     /// No points; `near`: distance of points that count as one, m.
     pub(crate) fn new(near: f64) -> Self {
         Self { near, places: vec![], grid: HashMap::new() }
@@ -50,48 +50,64 @@ impl Points {
         self.places.len() - 1
     }
 
-    /// For each edge its first point, the points within it in order, each with its place from 0 to 1, and its last point.
+    /// Points on each edge in order, each with its place on the edge from 0 to 1.
     ///
-    /// Only ends of edges count as points.
+    /// The first and the last are the ends of the edge. Only ends of edges count as points.
     pub(crate) fn on_edges(&self, edges: &[[usize; 2]]) -> Vec<Vec<(f64, usize)>> {
         let mut ends: Vec<usize> = edges.iter().flatten().copied().collect();
         ends.sort_by(|one, other| self.places[*one][0].total_cmp(&self.places[*other][0]));
-        let on_edge = |&[first, last]: &[usize; 2]| {
-            let [a, b] = [self.places[first], self.places[last]];
-            let [left, right] = [a[0].min(b[0]) - self.near, a[0].max(b[0]) + self.near];
-            let start = ends.partition_point(|end| self.places[*end][0] < left);
-            let within = ends[start..].iter().take_while(|end| self.places[**end][0] <= right);
-            let inner = within.filter(|end| **end != first && **end != last);
-            let mut on = vec![(0.0, first), (1.0, last)];
-            on.extend(inner.filter_map(|end| Some((self.along([a, b], self.places[*end])?, *end))));
-            on.sort_by(|one, other| one.0.total_cmp(&other.0));
-            on.dedup();
-            on
-        };
-        edges.iter().map(on_edge).collect()
+        edges.iter().map(|edge| self.on_edge(*edge, &ends)).collect()
+    }
+
+    /// Points on one edge, as of [`PointIndex::on_edges`]; `ends` are sorted by x.
+    fn on_edge(&self, [first, last]: [usize; 2], ends: &[usize]) -> Vec<(f64, usize)> {
+        let a = self.places[first];
+        let b = self.places[last];
+        let left = a[0].min(b[0]) - self.near;
+        let right = a[0].max(b[0]) + self.near;
+        let start = ends.partition_point(|end| self.places[*end][0] < left);
+        let mut points = vec![(0.0, first), (1.0, last)];
+        for &end in ends[start..].iter().take_while(|end| self.places[**end][0] <= right) {
+            if end != first
+                && end != last
+                && let Some(fraction) = self.along([a, b], self.places[end])
+            {
+                points.push((fraction, end));
+            }
+        }
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
+        points.dedup();
+        points
     }
 
     /// Place of `p` on the line from a to b, from 0 to 1; `None` if it is not on it.
     pub(super) fn along(&self, [a, b]: [Point; 2], p: Point) -> Option<f64> {
         let step = [b[0] - a[0], b[1] - a[1]];
         let length = step[0].hypot(step[1]);
-        let along = (step[0] * (p[0] - a[0]) + step[1] * (p[1] - a[1])) / (length * length);
-        let is_on = side([a, b], p).abs() <= self.near * length && along > 0.0 && along < 1.0;
-        is_on.then_some(along)
+        let fraction = (step[0] * (p[0] - a[0]) + step[1] * (p[1] - a[1])) / (length * length);
+        let is_near = side([a, b], p).abs() <= self.near * length;
+        (is_near && fraction > 0.0 && fraction < 1.0).then_some(fraction)
     }
 }
 
 /// Edges without those that run to and fro between the same points.
 pub(crate) fn without_pairs(mut edges: Vec<[usize; 2]>) -> Vec<[usize; 2]> {
-    let key = |[a, b]: &[usize; 2]| [*a.min(b), *a.max(b)];
-    edges.sort_by_key(|edge| (key(edge), edge[0]));
-    let mut kept = vec![];
-    for same in edges.chunk_by(|one, other| key(one) == key(other)) {
-        let forth = same.iter().filter(|edge| edge[0] < edge[1]).count();
-        let back = same.len() - forth;
-        let [low, high] = key(&same[0]);
-        let edge = if forth > back { [low, high] } else { [high, low] };
-        kept.extend(std::iter::repeat_n(edge, forth.abs_diff(back)));
+    edges.sort_by_key(|edge| (ascending(*edge), edge[0]));
+    let mut unpaired = vec![];
+    for same in edges.chunk_by(|one, other| ascending(*one) == ascending(*other)) {
+        let forward_count = same.iter().filter(|edge| edge[0] < edge[1]).count();
+        let backward_count = same.len() - forward_count;
+        let mut edge = ascending(same[0]);
+        if forward_count <= backward_count {
+            edge.reverse();
+        }
+        let count = forward_count.abs_diff(backward_count);
+        unpaired.extend(std::iter::repeat_n(edge, count));
     }
-    kept
+    unpaired
+}
+
+/// The ends of an edge, the smaller number first.
+fn ascending([a, b]: [usize; 2]) -> [usize; 2] {
+    [a.min(b), a.max(b)]
 }

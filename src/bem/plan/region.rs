@@ -3,12 +3,12 @@
 use crate::geometry::span;
 use crate::linalg::gauss::Rule;
 
-/// Fraction of a cell that counts as rounding.
-const ROUNDING: f64 = 1e-9;
+/// Area that counts as rounding, in cells.
+const AREA_TOLERANCE: f64 = 1e-9;
 
 /// Lattice with its place: corner (m), sides of a cell (m), columns and rows.
 #[derive(Clone, Copy)]
-pub(super) struct Grid {
+pub(super) struct PlanGrid {
     pub(super) corner: [f64; 2],
     pub(super) pitch: [f64; 2],
     pub(super) counts: [usize; 2],
@@ -17,21 +17,21 @@ pub(super) struct Grid {
 /// Points about which closed lines turn counter-clockwise at least once, row by row of a lattice.
 pub(super) struct Region {
     /// Edges of the lines in each row, from its first corner in units of the cells' sides.
-    rows: Vec<Vec<Edge>>,
+    rows: Vec<Vec<CellEdge>>,
 }
 
 /// Ends of an edge.
-type Edge = [[f64; 2]; 2];
+type CellEdge = [[f64; 2]; 2];
 
 /// Part of a unit cell.
 #[derive(Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct CellPart {
     pub(super) area: f64,
     pub(super) center: [f64; 2],
     pub(super) is_rectangle: bool,
 }
 
-impl Grid {
+impl PlanGrid {
     /// A point in units of the cells' sides.
     fn place(&self, point: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|k| (point[k] - self.corner[k]) / self.pitch[k])
@@ -40,7 +40,7 @@ impl Grid {
 
 impl Region {
     /// Inside of closed `lines`, m.
-    pub(super) fn new(lines: &[Vec<[f64; 2]>], grid: Grid) -> Self {
+    pub(super) fn new(lines: &[Vec<[f64; 2]>], grid: PlanGrid) -> Self {
         let mut rows = vec![vec![]; grid.counts[1]];
         for corners in lines {
             for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
@@ -58,19 +58,22 @@ impl Region {
     }
 
     /// The part inside the lines of the cell in this column and row.
-    pub(super) fn part(&self, [column, row]: [usize; 2]) -> Part {
+    pub(super) fn part(&self, [column, row]: [usize; 2]) -> CellPart {
         let column = column as f64;
-        let edges: Vec<Edge> =
+        let edges: Vec<CellEdge> =
             self.rows[row].iter().map(|edge| edge.map(|[x, y]| [x - column, y])).collect();
         let levels = levels(&edges);
-        let (mut area, mut moments) = (0.0, [0.0; 2]);
-        let (mut across, mut along) = ([f64::INFINITY, 0.0_f64], [f64::INFINITY, 0.0_f64]);
+        let mut area = 0.0;
+        let mut moments = [0.0; 2];
+        let mut across = [f64::INFINITY, 0.0_f64];
+        let mut along = [f64::INFINITY, 0.0_f64];
         let rule = Rule::new(3);
         let mut crossings = Vec::with_capacity(edges.len());
         // Between levels the ends of each span are linear in y.
         for pair in levels.windows(2).filter(|pair| pair[1] > pair[0]) {
             for (x, weight) in rule.points_on_unit_interval() {
-                let (y, weight) = (pair[0] + x * (pair[1] - pair[0]), weight * (pair[1] - pair[0]));
+                let y = pair[0] + x * (pair[1] - pair[0]);
+                let weight = weight * (pair[1] - pair[0]);
                 cross(&edges, y, &mut crossings);
                 let mut turns = 0;
                 let mut begin = 0.0;
@@ -80,7 +83,8 @@ impl Region {
                     if !was_inside {
                         begin = x;
                     }
-                    let [low, high] = [begin, x].map(|end| end.clamp(0.0, 1.0));
+                    let low = begin.clamp(0.0, 1.0);
+                    let high = x.clamp(0.0, 1.0);
                     if was_inside && turns <= 0 && high > low {
                         area += weight * (high - low);
                         moments[0] += weight * 0.5 * (high * high - low * low);
@@ -91,30 +95,30 @@ impl Region {
                 }
             }
         }
-        let is_rectangle = area > (across[1] - across[0]) * (along[1] - along[0]) - ROUNDING;
-        Part { area, center: moments.map(|moment| moment / area), is_rectangle }
+        let is_rectangle = area > (across[1] - across[0]) * (along[1] - along[0]) - AREA_TOLERANCE;
+        CellPart { area, center: moments.map(|moment| moment / area), is_rectangle }
     }
 }
 
-impl Part {
-    pub(super) const NONE: Self = Self { area: 0.0, center: [0.5; 2], is_rectangle: false };
+impl CellPart {
+    pub(super) const EMPTY_PART: Self = Self { area: 0.0, center: [0.5; 2], is_rectangle: false };
 
     pub(super) fn is_cut(&self) -> bool {
-        self.area < 1.0 - ROUNDING
+        self.area < 1.0 - AREA_TOLERANCE
     }
 
     pub(super) fn is_empty(&self) -> bool {
-        self.area <= ROUNDING
+        self.area <= AREA_TOLERANCE
     }
 }
 
 /// Heights in the unit cell at which edges end, cross its sides or each other, ascending, with its lower and upper end.
-fn levels(edges: &[Edge]) -> Vec<f64> {
-    let beside = |edge: &Edge| {
+fn levels(edges: &[CellEdge]) -> Vec<f64> {
+    let beside = |edge: &CellEdge| {
         let [low, high] = span(edge.iter().map(|p| p[0]));
         high >= 0.0 && low <= 1.0
     };
-    let near: Vec<&Edge> = edges.iter().filter(|edge| beside(edge)).collect();
+    let near: Vec<&CellEdge> = edges.iter().filter(|edge| beside(edge)).collect();
     let mut levels = vec![0.0, 1.0];
     for (k, [a, b]) in near.iter().enumerate() {
         let step = [b[0] - a[0], b[1] - a[1]];
@@ -137,7 +141,7 @@ fn levels(edges: &[Edge]) -> Vec<f64> {
 }
 
 /// Places where edges cross a line of constant y, from left to right, and by how much the turns about a point rise there.
-fn cross(edges: &[Edge], y: f64, crossings: &mut Vec<(f64, i32)>) {
+fn cross(edges: &[CellEdge], y: f64, crossings: &mut Vec<(f64, i32)>) {
     crossings.clear();
     for [a, b] in edges {
         if (a[1] < y) != (b[1] < y) {

@@ -12,15 +12,15 @@ use realfft::num_complex::Complex64;
 
 use super::cells::Plan;
 use crate::error::{Error, Result, memory};
-use crate::geometry::{SERIES, offset};
+use crate::geometry::{SERIES_PER_OFFSET, offset};
 use crate::linalg::{Complex, DenseFactor};
 
-/// Rigid motions: along x, y, z (up) and about these axes.
-pub(super) const MOTIONS: usize = 6;
-/// Components of a cell: down, along x, along y.
-const COMPONENTS: usize = 3;
+/// Number of rigid motions: along x, y, z (up) and about these axes.
+pub(super) const RIGID_MOTION_COUNT: usize = 6;
+/// Number of components of a cell's traction: down, along x, along y.
+const CELL_COMPONENT_COUNT: usize = 3;
 /// Relative difference of mirrored cells that counts as rounding.
-const MIRRORED: f64 = 1e-9;
+const MIRROR_TOLERANCE: f64 = 1e-9;
 
 /// A reflection of a plan in x, in y, or in both.
 #[derive(Debug)]
@@ -30,7 +30,49 @@ struct Reflection {
     images: Vec<usize>,
 }
 
-/// Symmetry of a plan.
+impl Reflection {
+    /// The reflection along some axes, if it maps the plan to itself.
+    ///
+    /// Cells of an element must stay together, and cut cells must be mirrored.
+    fn of(plan: &Plan, axes: [bool; 2]) -> Option<Self> {
+        let counts = plan.lattice.counts;
+        let mut numbers = vec![None; counts[0] * counts[1]];
+        let mut element_count = 0;
+        for (cell, [i, j]) in plan.cells.iter().enumerate() {
+            numbers[j * counts[0] + i] = Some(cell);
+            element_count = element_count.max(plan.owner(cell) + 1);
+        }
+        let mut images = vec![None; element_count];
+        for cell in 0..plan.cells.len() {
+            let image = mirrored(axes, plan.cells[cell], counts);
+            let other = numbers[image[1] * counts[0] + image[0]]?;
+            let arms = plan.arms(cell);
+            let other_arms = plan.arms(other);
+            for axis in 0..2 {
+                let sign = if axes[axis] { -1.0 } else { 1.0 };
+                if !are_equal(arms[axis], sign * other_arms[axis], plan.lattice.pitch[axis]) {
+                    return None;
+                }
+            }
+            let softness = plan.softness(cell);
+            if !are_equal(softness, plan.softness(other), 1.0 + softness) {
+                return None;
+            }
+            let image = plan.owner(other);
+            if *images[plan.owner(cell)].get_or_insert(image) != image {
+                return None;
+            }
+        }
+        Some(Self { axes, images: images.into_iter().flatten().collect() })
+    }
+}
+
+/// Whether two values differ by rounding only, relative to `size`.
+fn are_equal(one: f64, other: f64, size: f64) -> bool {
+    (one - other).abs() <= MIRROR_TOLERANCE * size
+}
+
+/// Symmetry of a plan: its reflections and one element of each orbit.
 #[derive(Debug)]
 pub(super) struct Sectors<'a> {
     plan: &'a Plan,
@@ -43,73 +85,55 @@ pub(super) struct Sectors<'a> {
 }
 
 impl<'a> Sectors<'a> {
+    /// Symmetry of a plan in x, in y and in both.
     pub(super) fn new(plan: &'a Plan) -> Self {
-        Self::by(plan, &[[false, false], [true, false], [false, true], [true, true]])
+        Self::with_reflections(plan, &[[false, false], [true, false], [false, true], [true, true]])
     }
 
     /// Symmetry in these reflections at most.
-    fn by(plan: &'a Plan, reflections: &[[bool; 2]]) -> Self {
+    fn with_reflections(plan: &'a Plan, reflections: &[[bool; 2]]) -> Self {
         let owners: Vec<_> = (0..plan.cells.len()).map(|cell| plan.owner(cell)).collect();
         let count = owners.iter().max().map_or(0, |last| last + 1);
-        let counts = plan.lattice.counts;
-        let mut on = vec![None; counts[0] * counts[1]];
-        for (cell, [i, j]) in plan.cells.iter().enumerate() {
-            on[j * counts[0] + i] = Some(cell);
-        }
-        let near = |one: f64, other: f64, size: f64| (one - other).abs() <= MIRRORED * size;
-        // Cells of an element must stay together, and cut cells must be mirrored.
-        let reflection = |axes: &[bool; 2]| {
-            let mut images = vec![None; count];
-            for (cell, owner) in owners.iter().enumerate() {
-                let [i, j] = mirrored(*axes, plan.cells[cell], counts);
-                let other = on[j * counts[0] + i]?;
-                let [own, there] = [cell, other].map(|cell| plan.arms(cell));
-                let is_mirrored = (0..2).all(|k| {
-                    let sign = if axes[k] { -1.0 } else { 1.0 };
-                    near(own[k], sign * there[k], plan.lattice.pitch[k])
-                });
-                let softness = plan.softness(cell);
-                if !is_mirrored || !near(softness, plan.softness(other), 1.0 + softness) {
-                    return None;
-                }
-                let image = owners[other];
-                if *images[*owner].get_or_insert(image) != image {
-                    return None;
-                }
-            }
-            Some(Reflection { axes: *axes, images: images.into_iter().flatten().collect() })
-        };
-        let mut group: Vec<_> = reflections.iter().filter_map(reflection).collect();
+        let mut group: Vec<_> =
+            reflections.iter().filter_map(|axes| Reflection::of(plan, *axes)).collect();
         // A rotation by 180° alone is not a reflection.
         if group.len() == 2 && group[1].axes == [true, true] {
             group.pop();
         }
-        let is_first = |element: &usize| group.iter().all(|h| h.images[*element] >= *element);
-        let elements: Vec<_> = (0..count).filter(is_first).collect();
-        let place = |owner| elements.binary_search(owner).ok();
-        let each = owners.iter().enumerate();
-        let cells = each.filter_map(|(cell, owner)| Some((cell, place(owner)?))).collect();
+        // The first element of each orbit represents it.
+        let elements: Vec<_> = (0..count)
+            .filter(|&element| group.iter().all(|h| h.images[element] >= element))
+            .collect();
+        let mut cells = vec![];
+        for (cell, owner) in owners.iter().enumerate() {
+            if let Ok(place) = elements.binary_search(owner) {
+                cells.push((cell, place));
+            }
+        }
         Self { plan, group, elements, cells }
     }
 
     /// Forces and moments on the soil by unit rigid motions, AᵀF⁻¹A, for compliances of all classes.
     ///
-    /// Only components in the same list of `parts` are coupled.
+    /// Only components in the same list of `coupled_components` are coupled.
     ///
     /// # Errors
     /// [`Error::Memory`], [`Error::Singular`].
     pub(super) fn stiffness(
         &self,
-        values: &[[Complex; SERIES]],
-        parts: &[&[usize]],
-    ) -> Result<[[Complex; MOTIONS]; MOTIONS]> {
-        let mut sum = [[Complex64::default(); MOTIONS]; MOTIONS];
-        let has = |axis: usize| self.group.iter().any(|h| h.axes[axis]);
-        let signs = |axis: usize| if has(axis) { &[1.0, -1.0][..] } else { &[1.0][..] };
-        for x in signs(0) {
-            for y in signs(1) {
-                for components in parts {
-                    self.add_sector([*x, *y], components, values, &mut sum)?;
+        values: &[[Complex; SERIES_PER_OFFSET]],
+        coupled_components: &[&[usize]],
+    ) -> Result<[[Complex; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT]> {
+        let mut sum = [[Complex64::default(); RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT];
+        // Parities along x and along y: even, and odd if the plan is symmetric.
+        let parities = [0, 1].map(|axis| {
+            let is_symmetric = self.group.iter().any(|h| h.axes[axis]);
+            if is_symmetric { &[1.0, -1.0][..] } else { &[1.0][..] }
+        });
+        for x_parity in parities[0] {
+            for y_parity in parities[1] {
+                for components in coupled_components {
+                    self.add_sector([*x_parity, *y_parity], components, values, &mut sum)?;
                 }
             }
         }
@@ -127,25 +151,27 @@ impl<'a> Sectors<'a> {
         &self,
         parity: [f64; 2],
         components: &[usize],
-        values: &[[Complex; SERIES]],
-        sum: &mut [[Complex64; MOTIONS]; MOTIONS],
+        values: &[[Complex; SERIES_PER_OFFSET]],
+        sum: &mut [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
     ) -> Result<()> {
-        let character = |axes: [bool; 2], component: usize| character(parity, axes, component);
-        let (places, order) = self.places(components, character);
+        let (places, order) = self.places(components, parity);
         let cells = self.plan.cells.len() as f64;
         memory::check("cells of a mat", cells, 32.0 * (order as f64).powi(2))?;
         let mut matrix = vec![Complex64::default(); order * order];
-        let mut loads = vec![Complex64::default(); order * MOTIONS];
-        let (size, counts) = (self.group.len() as f64, self.plan.lattice.counts);
+        let mut loads = vec![Complex64::default(); order * RIGID_MOTION_COUNT];
+        let size = self.group.len() as f64;
+        let counts = self.plan.lattice.counts;
         for (receiver, element) in &self.cells {
-            let (rows, at) = (places[*element], self.plan.cells[*receiver]);
+            let rows = places[*element];
+            let receiver_cell = self.plan.cells[*receiver];
             for Reflection { axes, .. } in &self.group {
                 let resultants = self.resultants(*axes, *receiver);
                 for (component, row) in rows.iter().enumerate() {
                     let Some(row) = row else { continue };
-                    let loads = &mut loads[row * MOTIONS..(row + 1) * MOTIONS];
+                    let loads =
+                        &mut loads[row * RIGID_MOTION_COUNT..(row + 1) * RIGID_MOTION_COUNT];
                     for (load, value) in loads.iter_mut().zip(resultants[component]) {
-                        load.re += character(*axes, component) * value;
+                        load.re += character(parity, *axes, component) * value;
                     }
                 }
             }
@@ -153,16 +179,19 @@ impl<'a> Sectors<'a> {
                 let columns = places[*element];
                 for Reflection { axes, .. } in &self.group {
                     let image = mirrored(*axes, self.plan.cells[*source], counts);
-                    let mut block = self.plan.lattice.block(values, offset(at, image));
-                    if image == at {
-                        let own = 1.0 + self.plan.softness(*receiver);
-                        (0..COMPONENTS).for_each(|k| block[k][k] = block[k][k].scale(own));
+                    let mut block = self.plan.lattice.block(values, offset(receiver_cell, image));
+                    if image == receiver_cell {
+                        let factor = 1.0 + self.plan.softness(*receiver);
+                        for k in 0..CELL_COMPONENT_COUNT {
+                            block[k][k] = block[k][k].scale(factor);
+                        }
                     }
                     for (row, block) in rows.iter().zip(block) {
                         let Some(row) = row else { continue };
                         for (component, column) in columns.iter().enumerate() {
                             let Some(column) = column else { continue };
-                            let value = block[component].scale(size * character(*axes, component));
+                            let factor = size * character(parity, *axes, component);
+                            let value = block[component].scale(factor);
                             matrix[row * order + column] += value.inner();
                         }
                     }
@@ -178,29 +207,34 @@ impl<'a> Sectors<'a> {
     fn places(
         &self,
         components: &[usize],
-        character: impl Fn([bool; 2], usize) -> f64,
-    ) -> (Vec<[Option<usize>; COMPONENTS]>, usize) {
+        parity: [f64; 2],
+    ) -> (Vec<[Option<usize>; CELL_COMPONENT_COUNT]>, usize) {
         let mut order = 0;
-        let places = self.elements.iter().map(|element| {
-            let mut places = [None; COMPONENTS];
+        let mut places = vec![[None; CELL_COMPONENT_COUNT]; self.elements.len()];
+        for (element, places) in self.elements.iter().zip(&mut places) {
             for component in components {
-                let fixed = |h: &&Reflection| h.images[*element] == *element;
-                let even = |h: &Reflection| character(h.axes, *component) > 0.0;
-                if self.group.iter().filter(fixed).all(even) {
+                let is_allowed = self.group.iter().all(|h| {
+                    h.images[*element] != *element || character(parity, h.axes, *component) > 0.0
+                });
+                if is_allowed {
                     places[*component] = Some(order);
                     order += 1;
                 }
             }
-            places
-        });
-        (places.collect(), order)
+        }
+        (places, order)
     }
 
     /// For each component of a reflected cell: the resultants of a unit traction in each rigid motion, N or N m.
-    fn resultants(&self, h: [bool; 2], cell: usize) -> [[f64; MOTIONS]; COMPONENTS] {
-        let ([a, b], arms) = (self.plan.lattice.pitch, self.plan.arms(cell));
-        let area = a * b;
-        let [x, y] = [0, 1].map(|axis| if h[axis] { -arms[axis] } else { arms[axis] });
+    fn resultants(
+        &self,
+        axes: [bool; 2],
+        cell: usize,
+    ) -> [[f64; RIGID_MOTION_COUNT]; CELL_COMPONENT_COUNT] {
+        let arms = self.plan.arms(cell);
+        let area = self.plan.lattice.pitch[0] * self.plan.lattice.pitch[1];
+        let x = if axes[0] { -arms[0] } else { arms[0] };
+        let y = if axes[1] { -arms[1] } else { arms[1] };
         // u = θ × r, and down is −z.
         let down = [0.0, 0.0, -1.0, -y, x, 0.0];
         let along = [1.0, 0.0, 0.0, 0.0, 0.0, -y];
@@ -211,27 +245,32 @@ impl<'a> Sectors<'a> {
 
 /// χ of a reflection of a component, for parities of the sector in x and in y.
 fn character(parity: [f64; 2], axes: [bool; 2], component: usize) -> f64 {
-    let sign = |axis: usize| {
-        let turned = if component == axis + 1 { -1.0 } else { 1.0 };
-        if axes[axis] { parity[axis] * turned } else { 1.0 }
-    };
-    sign(0) * sign(1)
+    let mut product = 1.0;
+    for axis in 0..2 {
+        if axes[axis] {
+            let is_shear_along_axis = component == axis + 1;
+            product *= if is_shear_along_axis { -parity[axis] } else { parity[axis] };
+        }
+    }
+    product
 }
 
 /// Adds LᵀF⁻¹L for the compliances F of a sector and the resultants L of its tractions.
 fn add_resultants(
     matrix: &[Complex64],
     loads: &[Complex64],
-    sum: &mut [[Complex64; MOTIONS]; MOTIONS],
+    sum: &mut [[Complex64; RIGID_MOTION_COUNT]; RIGID_MOTION_COUNT],
 ) -> Result<()> {
-    let order = loads.len() / MOTIONS;
+    let order = loads.len() / RIGID_MOTION_COUNT;
     let mut tractions = loads.to_vec();
-    let mut factor = DenseFactor::with_columns(order, MOTIONS);
+    let mut factor = DenseFactor::with_columns(order, RIGID_MOTION_COUNT);
     if !factor.factor(matrix, order) {
         return Err(Error::Singular { matrix: "compliance of a mat in plan", order });
     }
-    factor.solve_columns(&mut tractions, MOTIONS);
-    for (load, traction) in loads.chunks_exact(MOTIONS).zip(tractions.chunks_exact(MOTIONS)) {
+    factor.solve_columns(&mut tractions, RIGID_MOTION_COUNT);
+    for (load, traction) in
+        loads.chunks_exact(RIGID_MOTION_COUNT).zip(tractions.chunks_exact(RIGID_MOTION_COUNT))
+    {
         for (sum, load) in sum.iter_mut().zip(load) {
             for (sum, traction) in sum.iter_mut().zip(traction) {
                 *sum += load * traction;
@@ -242,15 +281,15 @@ fn add_resultants(
 }
 
 /// A cell's mirror image.
-fn mirrored(h: [bool; 2], cell: [usize; 2], counts: [usize; 2]) -> [usize; 2] {
-    std::array::from_fn(|axis| if h[axis] { counts[axis] - 1 - cell[axis] } else { cell[axis] })
+fn mirrored(axes: [bool; 2], cell: [usize; 2], counts: [usize; 2]) -> [usize; 2] {
+    [0, 1].map(|axis| if axes[axis] { counts[axis] - 1 - cell[axis] } else { cell[axis] })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::bem::layered::Compliances;
-    use crate::bem::plan::integrals::{Integrals, Workspace};
+    use crate::bem::plan::integrals::{CellIntegrals, CellWorkspace};
     use crate::error::Watch;
     use crate::soil::{Soil, SoilProfile};
 
@@ -266,12 +305,12 @@ mod tests {
             ("##\n#.", 1),
             ("###\n#.#\n###", 4),
         ];
-        let masked = |(text, order): (&str, usize)| {
+        let mut plans = vec![];
+        for (text, order) in masks {
             let columns = text.lines().next().unwrap().len();
             let mask: Vec<bool> = text.lines().flat_map(str::chars).map(|c| c == '#').collect();
-            (Plan::masked([0.0; 2], [1.0, 0.8], columns, &mask).unwrap(), order)
-        };
-        let mut plans: Vec<_> = masks.into_iter().map(masked).collect();
+            plans.push((Plan::masked([0.0; 2], [1.0, 0.8], columns, &mask).unwrap(), order));
+        }
         for (along, order) in [(vec![1, 3, 1], 4), (vec![1, 2, 2, 1], 4), (vec![1, 2, 1, 1], 2)] {
             let cells = along.iter().sum();
             let plan = Plan::masked([0.0; 2], [1.0, 0.8], cells, &vec![true; 4 * cells]).unwrap();
@@ -284,17 +323,18 @@ mod tests {
         let profile = SoilProfile::on_half_plane(Soil::new(1.0, 0.3, 1.0).unwrap());
         for (plan, order) in plans {
             let s = Complex::new(0.1, 0.8);
-            let mut watch = Watch::nobody();
-            let integrals = Integrals::new(&plan.lattice, &profile, [s], 1e-9, &mut watch).unwrap();
-            let mut work = Workspace::default();
-            let mut values = vec![[Complex::default(); SERIES]; integrals.table.classes];
+            let mut progress = Watch::nobody();
+            let integrals =
+                CellIntegrals::new(&plan.lattice, &profile, [s], 1e-9, &mut progress).unwrap();
+            let mut work = CellWorkspace::default();
+            let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; integrals.table.classes];
             integrals.compliance(&profile, s, &mut work, &mut values).unwrap();
             let sectors = Sectors::new(&plan);
             assert_eq!(sectors.group.len(), order, "{plan:?}");
-            let whole = Sectors::by(&plan, &[[false; 2]]);
-            for parts in [&[&[0, 1, 2][..]][..], &[&[0], &[1, 2]]] {
-                let found = sectors.stiffness(&values, parts).unwrap();
-                let wanted = whole.stiffness(&values, parts).unwrap();
+            let whole = Sectors::with_reflections(&plan, &[[false; 2]]);
+            for coupled_components in [&[&[0, 1, 2][..]][..], &[&[0], &[1, 2]]] {
+                let found = sectors.stiffness(&values, coupled_components).unwrap();
+                let wanted = whole.stiffness(&values, coupled_components).unwrap();
                 for (found, wanted) in found.iter().flatten().zip(wanted.iter().flatten()) {
                     assert!((*found - *wanted).abs() < 1e-11, "{plan:?} {found:?} {wanted:?}");
                 }

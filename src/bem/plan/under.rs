@@ -1,24 +1,24 @@
 //! Cells under the base of a structure.
 
 use super::cells::{Plan, check_faces};
-use super::faces::Face;
-use super::outline::OVERHANG;
-use super::overhang::{NAME, mean_side, overhang};
+use super::faces::MatFace;
+use super::outline::RIGID_MAT_OVERHANG;
+use super::overhang::{EdgeStiffness, STIFFNESS_MATRIX_NAME, edge_stiffness, mean_side};
 use crate::error::Result;
 use crate::linalg::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{Base, BaseNode, Structure, Triplets};
 
-/// Largest number of cells to which the number under flexible faces is raised.
-const MOST_RAISED: f64 = 1000.0;
+/// Largest number of cells to which the plan under flexible faces is refined.
+const MAX_RAISED_CELLS: f64 = 1000.0;
 
 impl Plan {
     /// Cells under the faces of a structure, with `cells` along the shorter side of all: [`Plan::on_faces`].
     ///
-    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because a right overhang depends on
-    /// the soil ([`Plan::on_soil`]). The plan has at least one cell for each
-    /// flexible face (two triangles count as one): between cells only the structure holds its nodes. This raises the
-    /// number to 1000 cells at most: a base that needs more causes an error or a warning of the build
+    /// Cells under flexible faces end at the outline ([`Plan::without_overhang`]), because the best overhang depends on
+    /// the soil ([`Plan::on_soil`]). The plan has at least one cell for each flexible face (two triangles count as one),
+    /// because nodes between cells are supported by the structure alone. This raises the number to 1000 cells at most: a
+    /// base that needs more causes an error or a warning of the build
     /// ([`Warning::CoarseBase`](crate::coupled::Warning::CoarseBase)).
     ///
     /// # Errors
@@ -47,47 +47,62 @@ impl Plan {
         soil: Option<&Soil>,
     ) -> Result<Option<Self>> {
         let base = structure.base();
-        let Base::Faces(bodies) = &base else { return Ok(None) };
-        let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
-        let corners: Vec<Vec<_>> = bodies.iter().map(corners).collect();
-        let faces = corners.iter().enumerate().map(|(number, own)| Face::new(number, own));
-        let faces = faces.collect::<Result<Vec<_>>>()?;
+        let Base::Faces(base_faces) = &base else { return Ok(None) };
+        let mut faces = Vec::with_capacity(base_faces.len());
+        for (number, nodes) in base_faces.iter().enumerate() {
+            let corners: Vec<_> = nodes.iter().map(BaseNode::place).collect();
+            faces.push(MatFace::new(number, &corners)?);
+        }
         check_faces(faces.len())?;
-        let mats = Face::mats(&faces);
-        let mats = (0..=mats.iter().copied().max().unwrap_or(0)).map(|mat| {
-            let own = (0..faces.len()).filter(|face| mats[*face] == mat);
-            own.map(|face| (&bodies[face][..], faces[face].area())).collect::<Vec<_>>()
-        });
-        let is_flexible = |own: &Vec<(&[BaseNode], f64)>| {
-            let nodes: Vec<_> = own.iter().flat_map(|(corners, _)| corners.to_vec()).collect();
-            !BaseNode::are_flat(&nodes)
-        };
-        let flexible: Vec<_> = mats.filter(|own| cells > 1 && is_flexible(own)).collect();
-        let sides = Face::bounds(&faces).map(|[least, greatest]| greatest - least);
-        let [shorter, longer] = [sides[0].min(sides[1]), sides[0].max(sides[1])];
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-        let limit = (MOST_RAISED / (longer / shorter)).sqrt() as usize;
-        let mut most = cells;
-        for own in &flexible {
-            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
-            let along = (shorter / mean_side(own) * (1.0 - 1e-9)).ceil() as usize;
-            most = most.max(along.min(limit));
-        }
+        let flexible = if cells > 1 { flexible_mats(base_faces, &faces) } else { vec![] };
         if flexible.is_empty() {
-            return Self::on(faces, most, OVERHANG, f64::INFINITY).map(Some);
+            return Self::on_outlines(faces, cells, RIGID_MAT_OVERHANG, f64::INFINITY).map(Some);
         }
-        let mut least = if soil.is_some() { [OVERHANG, f64::MAX] } else { [0.0; 2] };
-        if let Some(soil) = soil {
-            let mut stiffness = Triplets::new(structure.dofs());
-            base.check(structure.dofs())?;
-            structure.stiffness(&mut stiffness)?;
-            let stiffness = SparseMatrix::new(NAME, &stiffness)?;
-            for own in &flexible {
-                let own = overhang(&stiffness, own, soil, shorter / most as f64);
-                least = [0, 1].map(|k| least[k].min(own[k]));
-            }
+        let sides = MatFace::bounds(&faces).map(|[low, high]| high - low);
+        let shorter = sides[0].min(sides[1]);
+        let longer = sides[0].max(sides[1]);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+        let max_cells_along = (MAX_RAISED_CELLS / (longer / shorter)).sqrt() as usize;
+        let mut cells_along = cells;
+        for mat in &flexible {
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "> 0")]
+            let one_per_face = (shorter / mean_side(mat) * (1.0 - 1e-9)).ceil() as usize;
+            cells_along = cells_along.max(one_per_face.min(max_cells_along));
         }
-        let [overhang, rigidity] = least;
-        Self::on(faces, most, overhang, rigidity).map(Some)
+        let Some(soil) = soil else {
+            return Self::on_outlines(faces, cells_along, 0.0, 0.0).map(Some);
+        };
+        let mut triplets = Triplets::new(structure.dofs());
+        base.check(structure.dofs())?;
+        structure.stiffness(&mut triplets)?;
+        let stiffness = SparseMatrix::new(STIFFNESS_MATRIX_NAME, &triplets)?;
+        let mut smallest = EdgeStiffness { overhang: RIGID_MAT_OVERHANG, rigidity: f64::MAX };
+        for mat in &flexible {
+            let of_mat = edge_stiffness(&stiffness, mat, soil, shorter / cells_along as f64);
+            smallest.overhang = smallest.overhang.min(of_mat.overhang);
+            smallest.rigidity = smallest.rigidity.min(of_mat.rigidity);
+        }
+        Self::on_outlines(faces, cells_along, smallest.overhang, smallest.rigidity).map(Some)
     }
+}
+
+/// Faces of each flexible mat: corners and area of each.
+fn flexible_mats<'a>(
+    base_faces: &'a [Vec<BaseNode>],
+    faces: &[MatFace],
+) -> Vec<Vec<(&'a [BaseNode], f64)>> {
+    let mats = MatFace::mats(faces);
+    let mut flexible = vec![];
+    for mat in 0..=mats.iter().copied().max().unwrap_or(0) {
+        let mut mat_faces = vec![];
+        let mut nodes = vec![];
+        for face in (0..faces.len()).filter(|face| mats[*face] == mat) {
+            mat_faces.push((&base_faces[face][..], faces[face].area()));
+            nodes.extend_from_slice(&base_faces[face]);
+        }
+        if !BaseNode::are_flat(&nodes) {
+            flexible.push(mat_faces);
+        }
+    }
+    flexible
 }

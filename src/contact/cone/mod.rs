@@ -39,7 +39,7 @@ mod wide;
 use super::problem::{ContactInput, ContactSolver};
 use super::{OnBed, SearchMethod};
 use crate::error::{LawError, StepError};
-use crate::geometry::{ContactLayout, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
 use blocks::Blocks;
@@ -127,7 +127,7 @@ impl Cone {
             self.name(modes);
         }
         solver.stand_in = self.stand_in();
-        let layout = ContactLayout::new(SPACE, self.areas.len());
+        let layout = ContactLayout::new(COMPONENTS_IN_SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
             let [_, e] = layout.origin(i);
             // Exactly zero in total if there is no force.

@@ -12,7 +12,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::geometry::{ContactLayout, PLANE, Patch};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, Patch};
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
@@ -225,8 +225,12 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
     let input = problem.input();
     let known = problem.laws[0].modes();
     let count = problem.start.len();
-    let mut search =
-        ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
+    let mut search = ModeSearch::new(
+        ContactLayout::new(COMPONENTS_IN_PLANE, count),
+        &[],
+        true,
+        ContactSearch::Robust,
+    );
     let mut found = Vec::new();
     let mut modes = vec![known[0]; count];
     for number in 0..known.len().pow(u32::try_from(count).unwrap()) {
@@ -293,9 +297,13 @@ impl Tally {
     fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();
-        let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
-        let mut search =
-            ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
+        let mut solver = ContactSolver::new(ContactLayout::new(COMPONENTS_IN_PLANE, count));
+        let mut search = ModeSearch::new(
+            ContactLayout::new(COMPONENTS_IN_PLANE, count),
+            &[],
+            true,
+            ContactSearch::Robust,
+        );
         self.problems += 1;
         let all = brute_force(problem, &mut solver);
         let solutions = distinct(&all);

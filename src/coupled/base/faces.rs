@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::shares::{Point, bilinear, distance, outside, shares};
 use super::transformation::{Terms, Weights, accumulate};
 use super::{BasePoint, Outline, PlacedBase, check_covered};
-use crate::bem::plan::faces::{Face, side};
+use crate::bem::plan::faces::{MatFace, side};
 use crate::error::{Error, Result, require};
 use crate::geometry::{ContactElement, Patch};
 use crate::structure::BaseNode;
@@ -92,7 +92,7 @@ impl<'a> Faces<'a> {
         let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
         for (number, &count) in faces.iter().enumerate() {
             let own: Vec<usize> = (first..first + count).collect();
-            Face::new(number, &all.corners(&own))?;
+            MatFace::new(number, &all.corners(&own))?;
             if count <= 4 {
                 all.pieces.push(own);
             } else {
@@ -224,10 +224,10 @@ fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
     let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
     let checked = faces.iter().map(corners).enumerate();
     let checked: Result<Vec<_>> =
-        checked.map(|(number, corners): (_, Vec<Point>)| Face::new(number, &corners)).collect();
+        checked.map(|(number, corners): (_, Vec<Point>)| MatFace::new(number, &corners)).collect();
     let checked = checked?;
-    Face::check_overlap(&checked)?;
-    let owners = Face::mats(&checked);
+    MatFace::check_overlap(&checked)?;
+    let owners = MatFace::mats(&checked);
     let count = owners.iter().max().map_or(0, |last| last + 1);
     let mut mats = vec![Vec::new(); count];
     faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));

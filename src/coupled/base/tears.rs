@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::shares::Point;
-use crate::bem::plan::faces::Face;
-use crate::bem::plan::points::{Points, without_pairs};
+use crate::bem::plan::faces::MatFace;
+use crate::bem::plan::points::{PointIndex, without_pairs};
 use crate::error::Result;
 use crate::structure::{Base, BaseNode, DofCombination};
 
@@ -20,10 +20,10 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
     let mut checked = Vec::with_capacity(faces.len());
     for (number, face) in faces.iter().enumerate() {
         let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
-        checked.push(Face::new(number, &corners)?);
+        checked.push(MatFace::new(number, &corners)?);
     }
-    let near = checked.iter().map(Face::near).fold(0.0, f64::max);
-    let mut points = Points::new(near);
+    let near = checked.iter().map(MatFace::near).fold(0.0, f64::max);
+    let mut points = PointIndex::new(near);
     let mut first: Vec<&BaseNode> = vec![];
     let mut torn = BTreeSet::new();
     let mut edges = vec![];

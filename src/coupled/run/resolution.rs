@@ -43,7 +43,7 @@ use crate::bem::Ground;
 use crate::coupled::run::variation::{OWN, Sampler, Variation};
 use crate::coupled::run::warning::Warning;
 use crate::coupled::state::State;
-use crate::geometry::{SPACE, axis_name, far_ends, in_a_row};
+use crate::geometry::{COMPONENTS_IN_SPACE, axis_name, far_ends, in_a_row};
 use crate::motion::FreeField;
 
 /// Largest r if the base shear follows the ground.
@@ -116,12 +116,12 @@ pub(crate) struct Resolution {
     last_step: usize,
     last_shear: [f64; 2],
     /// Mean free field at the last two steps, and its last second difference.
-    free_field: [[f64; SPACE]; 2],
-    acceleration: [f64; SPACE],
+    free_field: [[f64; COMPONENTS_IN_SPACE]; 2],
+    acceleration: [f64; COMPONENTS_IN_SPACE],
     /// Largest component of the free field's second difference, m, after the first steps.
     peak: f64,
     /// Largest |free field| so far.
-    largest: [f64; SPACE],
+    largest: [f64; COMPONENTS_IN_SPACE],
     /// Number of consecutive steps seen.
     in_a_row: usize,
     base_shear: Variation,
@@ -164,7 +164,7 @@ impl Axis {
 }
 
 /// Mean free field along x, upwards and along y.
-fn free_field(state: &State) -> [f64; SPACE] {
+fn free_field(state: &State) -> [f64; COMPONENTS_IN_SPACE] {
     let [along, up] = state.free_field;
     [along, up, state.free_field_across]
 }
@@ -222,7 +222,7 @@ impl Resolution {
             last_step: state.step,
             last_shear: [0.0; 2],
             free_field: [free_field(state); 2],
-            acceleration: [0.0; SPACE],
+            acceleration: [0.0; COMPONENTS_IN_SPACE],
             peak: 0.0,
             largest: free_field(state).map(f64::abs),
             in_a_row: 0,
@@ -252,7 +252,7 @@ impl Resolution {
             pairs.for_each(|(before, after)| self.base_shear.see(before, after));
         }
         let (now, [before, last]) = (free_field(state), self.free_field);
-        for k in 0..SPACE {
+        for k in 0..COMPONENTS_IN_SPACE {
             let mut acceleration = now[k] - 2.0 * last[k] + before[k];
             self.largest[k] = self.largest[k].max(now[k].abs());
             if acceleration.abs() <= AT_REST * self.largest[k] {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::bem::Ground;
-use crate::geometry::{ContactElement, ContactLayout, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, ContactElement, ContactLayout};
 use crate::motion::FreeField;
 
 /// Largest r if the structure vibrates with a period of its own.
@@ -100,7 +100,7 @@ impl Sampler<'_> {
                 std::array::from_fn(|k| field.get(layout.place(k, count / 2)).copied())
                     .map(|value| value.unwrap_or(0.0))
             };
-            let samples: [[f64; SPACE]; 4] = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
+            let samples: [[f64; COMPONENTS_IN_SPACE]; 4] = [at(-1.5), at(-0.5), at(0.5), at(1.5)];
             for k in 0..layout.components() {
                 let [before, after] =
                     [0, 1].map(|j| samples[j + 2][k] - 2.0 * samples[j + 1][k] + samples[j][k]);

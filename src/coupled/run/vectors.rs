@@ -3,13 +3,13 @@
 use super::Quantity;
 use crate::coupled::State;
 use crate::coupled::state::foundation::in_axes;
-use crate::geometry::SPACE;
+use crate::geometry::COMPONENTS_IN_SPACE;
 
 impl State {
     /// Force on the soil as a vector, N/m; in plan along x, y and up, N.
     ///
     /// In the plane axes point to the right, up and towards the reader.
-    pub fn force_vector(&self) -> [f64; SPACE] {
+    pub fn force_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
         let [right, away, down] = quantities.map(|own| self.value(own));
         in_axes(self.is_plan(), [right, away, -down])
@@ -62,7 +62,7 @@ impl State {
     /// assert_eq!(x, state.moment_across());
     /// # Ok::<(), basemat::Error>(())
     /// ```
-    pub fn moment_vector(&self) -> [f64; SPACE] {
+    pub fn moment_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::MomentAcross, Quantity::BaseMoment, Quantity::Torque];
         in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
     }
@@ -71,7 +71,7 @@ impl State {
     ///
     /// Of several foundations the largest of each component, with axes as in
     /// [`force_vector`](State::force_vector).
-    pub fn rotation_vector(&self) -> [f64; SPACE] {
+    pub fn rotation_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
         in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
     }

@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use crate::geometry::resultant;
-use crate::geometry::{Edge, Footing, Patch, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, Edge, Footing, Patch};
 use crate::interface::{ContactState, Mode};
 
 /// Forces of one foundation on the soil, and motion of its base.
@@ -96,21 +96,21 @@ impl Foundation {
     /// Force on the soil as a vector, N/m; in plan along x, y and up, N.
     ///
     /// In the plane axes point to the right, up and towards the reader.
-    pub fn force_vector(&self) -> [f64; SPACE] {
+    pub fn force_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         in_axes(self.in_plan, [self.base_shear, self.shear_across, -self.normal_force])
     }
 
     /// Moment on the soil about the middle of the foundation as a vector, N·m/m.
     ///
     /// By the right-hand rule, with axes as in [`force_vector`](Foundation::force_vector).
-    pub fn moment_vector(&self) -> [f64; SPACE] {
+    pub fn moment_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         in_axes(self.in_plan, [self.moment_across, self.base_moment, self.torque])
     }
 
     /// Rotation of the base as a vector by the right-hand rule, rad.
     ///
     /// Axes as in [`force_vector`](Foundation::force_vector).
-    pub fn rotation_vector(&self) -> [f64; SPACE] {
+    pub fn rotation_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         in_axes(self.in_plan, [self.rotation_across, self.base_rotation, self.twist])
     }
 
@@ -182,7 +182,10 @@ impl Foundation {
 /// A vector in the axes of the scene from its components along x, y and up.
 ///
 /// In the plane axes point to the right, up and towards the reader. The component along y comes last there.
-pub(crate) fn in_axes(in_plan: bool, [x, y, up]: [f64; SPACE]) -> [f64; SPACE] {
+pub(crate) fn in_axes(
+    in_plan: bool,
+    [x, y, up]: [f64; COMPONENTS_IN_SPACE],
+) -> [f64; COMPONENTS_IN_SPACE] {
     if in_plan { [x, y, up] } else { [x, up, y] }
 }
 

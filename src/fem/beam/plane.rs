@@ -8,7 +8,7 @@ use crate::error::{Result, finite, not_negative, positive};
 use crate::fem::element::{Element, MassKind};
 use crate::fem::line::Line;
 use crate::fem::vector::{add, cross, direction};
-use crate::geometry::{Direction, FRAME};
+use crate::geometry::{Direction, PLANE_DIRECTIONS};
 
 /// Straight prismatic beam of the plane between two nodes that rotate with it.
 ///
@@ -127,7 +127,7 @@ impl Element for Beam {
     }
 
     fn directions(&self) -> &[Direction] {
-        FRAME
+        PLANE_DIRECTIONS
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {

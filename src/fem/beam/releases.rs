@@ -2,7 +2,7 @@
 
 use super::axes::EndsMatrix;
 use crate::error::{Result, in_bounds, require_part};
-use crate::geometry::{Direction, IN_SPACE};
+use crate::geometry::{Direction, SPACE_DIRECTIONS};
 
 /// Local degrees of freedom of a beam whose end forces are zero, such as hinges.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -13,7 +13,7 @@ impl Releases {
     pub(super) fn and(mut self, end: usize, directions: &[Direction]) -> Result<Self> {
         in_bounds("released end of the beam", end, 2)?;
         for &direction in directions {
-            let place = IN_SPACE.iter().position(|&known| known == direction);
+            let place = SPACE_DIRECTIONS.iter().position(|&known| known == direction);
             let needed = "x, y, z, and rotations about x, y, z, in the axes of the beam";
             require_part("released direction of the beam", place.is_some(), needed)?;
             self.0[6 * end + place.unwrap_or_default()] = true;

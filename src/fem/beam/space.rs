@@ -11,7 +11,7 @@ use crate::error::{Error, Result, all_finite, finite, positive, same_length};
 use crate::fem::element::{Element, MassKind, add_transformed};
 use crate::fem::material::Material;
 use crate::fem::vector::{add, direction, dot};
-use crate::geometry::{Direction, IN_SPACE};
+use crate::geometry::{Direction, SPACE_DIRECTIONS};
 
 /// Straight prismatic beam in space between two nodes that rotate with it.
 ///
@@ -229,7 +229,7 @@ impl Element for SpaceBeam {
     }
 
     fn directions(&self) -> &[Direction] {
-        IN_SPACE
+        SPACE_DIRECTIONS
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {

@@ -31,7 +31,7 @@ use super::element::{Element, MassKind};
 use super::element_face::ElementFace;
 use super::material::Material;
 use crate::error::{Error, Result, all_finite, finite, positive, require_part, same_length};
-use crate::geometry::{Direction, IN_SPACE};
+use crate::geometry::{Direction, SPACE_DIRECTIONS};
 
 /// Shell of four or three nodes in space: walls, slabs, mats, vessels, domes.
 ///
@@ -283,7 +283,7 @@ impl Element for Shell {
     }
 
     fn directions(&self) -> &[Direction] {
-        IN_SPACE
+        SPACE_DIRECTIONS
     }
 
     fn faces(&self) -> Vec<ElementFace> {

@@ -4,7 +4,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use crate::error::{Result, same_length};
-use crate::geometry::{ContactElement, ContactLayout, PLANE};
+use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout};
 use crate::history::exponential_sum::{ExponentialSum, TailProduct};
 use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
 
@@ -29,7 +29,7 @@ pub(super) struct Tail {
     decay: Vec<f64>,
     /// States of normal and tangential components, for each function: Σ decay^age · moment, for the poles that have
     /// this function.
-    states: [Vec<Vec<f64>>; PLANE],
+    states: [Vec<Vec<f64>>; COMPONENTS_IN_PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
 }
@@ -50,7 +50,8 @@ impl Tail {
         Ok(Self {
             lengths: elements.iter().map(ContactElement::length).collect(),
             decay: data.rates.iter().map(|rate| (-rate).exp()).collect(),
-            states: [(); PLANE].map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
+            states: [(); COMPONENTS_IN_PLANE]
+                .map(|()| poles.iter().map(|&poles| vec![0.0; poles]).collect()),
             moments: vec![0.0; functions],
             amplitudes: vec![0.0; functions],
             data,
@@ -93,11 +94,11 @@ impl Tail {
 
     /// Advances by a step: the state decays, and `leaving` (2Q), which leaves the window, is added.
     pub(super) fn advance(&mut self, leaving: Option<&[f64]>) {
-        let layout = ContactLayout::new(PLANE, self.lengths.len());
+        let layout = ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len());
         for (part, states) in self.states.iter_mut().enumerate() {
             self.moments.fill(0.0);
             if let Some(traction) = leaving {
-                let traction = layout.split::<_, PLANE>(traction)[part];
+                let traction = layout.split::<_, COMPONENTS_IN_PLANE>(traction)[part];
                 for (moment, means) in self.moments.iter_mut().zip(&self.data.functions) {
                     for ((traction, length), mean) in traction.iter().zip(&self.lengths).zip(means)
                     {
@@ -111,8 +112,8 @@ impl Tail {
 
     /// Adds the displacement at the end of the next step.
     pub(super) fn add(&mut self, displacement: &mut [f64]) {
-        let parts: [_; PLANE] =
-            ContactLayout::new(PLANE, self.lengths.len()).split_mut(displacement);
+        let parts: [_; COMPONENTS_IN_PLANE] =
+            ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len()).split_mut(displacement);
         for (part, (states, displacement)) in self.states.iter().zip(parts).enumerate() {
             let amplitudes = self.amplitudes.as_mut_slice();
             vectorized(Answer { states, products: &self.data.products, part, amplitudes });
@@ -127,10 +128,10 @@ impl Tail {
     /// Σ weights · `factor` over the poles, for each pair of functions (functions × functions).
     ///
     /// First of the normal components, then of the tangential components.
-    fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; PLANE] {
+    fn sum(&self, factor: impl Fn(usize) -> f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         let functions = self.functions();
         let factors: Vec<f64> = (0..self.poles()).map(factor).collect();
-        let mut sums = [(); PLANE].map(|()| vec![0.0; functions * functions]);
+        let mut sums = [(); COMPONENTS_IN_PLANE].map(|()| vec![0.0; functions * functions]);
         for product in &self.data.products {
             let [i, j] = product.functions;
             for (part, sum) in sums.iter_mut().enumerate() {
@@ -146,12 +147,12 @@ impl Tail {
     }
 
     /// The sums at the `age`-th lag of the tail, from 0.
-    pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; PLANE] {
+    pub(super) fn at_age(&self, age: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         self.sum(|pole| (-self.data.rates[pole] * age).exp())
     }
 
     /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
-    pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; PLANE] {
+    pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         let half = 0.5 * omega;
         let (sine, square) = (omega.sin(), 2.0 * half.sin() * half.sin());
         let (turn_re, turn_im) = ((window * omega).cos(), (window * omega).sin());

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use super::ring::LEAF;
 use super::tables::{Class, Tables};
 use crate::error::Result;
-use crate::geometry::PLANE;
+use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, add_row, add_rows};
@@ -51,7 +51,7 @@ impl Coefficients {
     pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
         let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
         for (kind, (table, values)) in tables.iter_mut().zip(values).enumerate() {
-            let end = if kind < PLANE { LEAF } else { reach + 1 };
+            let end = if kind < COMPONENTS_IN_PLANE { LEAF } else { reach + 1 };
             table.push(values[..end.min(values.len())].to_vec());
         }
     }

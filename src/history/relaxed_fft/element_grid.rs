@@ -21,7 +21,7 @@ use rustfft::{Fft, FftPlanner};
 use super::plan_spectra::{CHUNK, coefficients_in_plan};
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::geometry::{Lattice, PLANE, SERIES, SPACE};
+use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
 use crate::linalg::smooth;
@@ -163,8 +163,8 @@ impl ElementGrid {
     /// Number of components of each element.
     pub(super) fn components(&self) -> usize {
         match self.offsets {
-            Offsets::Strip(_) => PLANE,
-            Offsets::Plan(_) => SPACE,
+            Offsets::Strip(_) => COMPONENTS_IN_PLANE,
+            Offsets::Plan(_) => COMPONENTS_IN_SPACE,
         }
     }
 
@@ -172,7 +172,7 @@ impl ElementGrid {
     pub(super) fn kinds(&self) -> usize {
         match self.offsets {
             Offsets::Strip(_) => KINDS,
-            Offsets::Plan(_) => SERIES,
+            Offsets::Plan(_) => SERIES_PER_OFFSET,
         }
     }
 
@@ -347,5 +347,5 @@ fn place_across(row: usize, across: usize, component: usize) -> (usize, f64) {
     if row < own {
         return (row, 1.0);
     }
-    (across - (row - own + 1), if component == SPACE - 1 { -1.0 } else { 1.0 })
+    (across - (row - own + 1), if component == COMPONENTS_IN_SPACE - 1 { -1.0 } else { 1.0 })
 }

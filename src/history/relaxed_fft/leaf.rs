@@ -3,7 +3,7 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::wave_numbers::WaveNumbers;
-use crate::geometry::{SERIES, SPACE};
+use crate::geometry::{COMPONENTS_IN_SPACE, SERIES_PER_OFFSET};
 use crate::history::pair_classes::KINDS;
 use crate::linalg::{Scalar, Simd, WithSimd};
 
@@ -79,7 +79,7 @@ pub(super) struct PlanLeaf<'a> {
 /// Number of inputs multiplied while a sum is held.
 const TOGETHER: usize = 4;
 /// Real and imaginary parts of three components.
-const PARTS: usize = 2 * SPACE;
+const PARTS: usize = 2 * COMPONENTS_IN_SPACE;
 
 impl WithSimd for PlanLeaf<'_> {
     type Output = ();
@@ -115,7 +115,7 @@ impl PlanLeaf<'_> {
                     S::as_simd_f64s(&inputs[begin..begin + length])
                 })
             });
-            let coefficients: [[_; SERIES]; M] = std::array::from_fn(|n| {
+            let coefficients: [[_; SERIES_PER_OFFSET]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|kind| {
                     let begin = (place - m - n) * waves.own + first;
                     S::as_simd_f64s(&near[kind][begin..begin + length])
@@ -130,11 +130,11 @@ impl PlanLeaf<'_> {
                     total[part] = wide[part][k];
                 }
                 for n in 0..M {
-                    let (mut x, mut g) = ([total[0]; PARTS], [total[0]; SERIES]);
+                    let (mut x, mut g) = ([total[0]; PARTS], [total[0]; SERIES_PER_OFFSET]);
                     for part in 0..PARTS {
                         x[part] = inputs[n][part].0[k];
                     }
-                    for kind in 0..SERIES {
+                    for kind in 0..SERIES_PER_OFFSET {
                         g[kind] = coefficients[n][kind].0[k];
                     }
                     total = times(simd, total, g, x);
@@ -163,7 +163,7 @@ impl PlanLeaf<'_> {
 fn times<S: Simd>(
     simd: S,
     total: [S::f64s; PARTS],
-    [zz, xx, yy, xy, zx, zy]: [S::f64s; SERIES],
+    [zz, xx, yy, xy, zx, zy]: [S::f64s; SERIES_PER_OFFSET],
     [p, q, a, b, c, d]: [S::f64s; PARTS],
 ) -> [S::f64s; PARTS] {
     let down = [
@@ -192,7 +192,7 @@ fn times<S: Simd>(
 #[inline(always)]
 fn shear<S: Simd>(
     simd: S,
-    [first, second, coupling]: [S::f64s; SPACE],
+    [first, second, coupling]: [S::f64s; COMPONENTS_IN_SPACE],
     [p, q, a, b, c, d]: [S::f64s; PARTS],
 ) -> [S::f64s; 2] {
     let re = simd.add_f64s(simd.mul_f64s(first, a), simd.mul_f64s(second, c));

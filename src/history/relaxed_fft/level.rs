@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::ring::Ring;
 use super::tables::Class;
-use crate::geometry::PLANE;
+use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::pair_classes::{MOST_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, WithSimd, vectorized};
 use realfft::num_complex::Complex;
@@ -118,11 +118,11 @@ impl Level {
         let count = block.classes.elements().len();
         if part == Components::Even {
             // One component after the other needs half the scratch.
-            for kind in 0..PLANE {
+            for kind in 0..COMPONENTS_IN_PLANE {
                 self.apply_to(block, part, kind, [kind * count, count], work);
             }
         } else {
-            self.apply_to(block, part, 0, [0, PLANE * count], work);
+            self.apply_to(block, part, 0, [0, COMPONENTS_IN_PLANE * count], work);
         }
     }
 

@@ -11,7 +11,7 @@ use super::ring::{LEAF, Ring, widened};
 use super::tables::{Class, Tables};
 use super::wave_level::Levels;
 use crate::error::{Result, Watch, unobserved};
-use crate::geometry::PLANE;
+use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::convolution_weights::{ConvolutionWeights, all_kinds};
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
@@ -89,7 +89,7 @@ impl Pairs {
         let mut levels = Vec::new();
         for number in first..end {
             let couples = self.couples(LEAF << number);
-            let kinds = if couples { all } else { PLANE };
+            let kinds = if couples { all } else { COMPONENTS_IN_PLANE };
             let level = Level::new(LEAF << number, classes, kinds, &mut self.planner);
             self.work.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, kinds));

@@ -1,7 +1,7 @@
 //! Transforms along the surface of coefficients in plan, by their symmetry.
 
 use crate::error::Result;
-use crate::geometry::{Lattice, SERIES};
+use crate::geometry::{Lattice, SERIES_PER_OFFSET};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::linalg::{add_combined_rows, smooth};
 
@@ -27,8 +27,8 @@ pub(super) fn coefficients_in_plan(
     let own = lengths.map(|length| length / 2 + 1);
     let waves = [0, 1].map(|axis| cosines_and_sines(lattice.counts[axis], lengths[axis]));
     let most = CHUNK.min(count);
-    let mut tables = [(); SERIES].map(|()| vec![0.0; columns * rows * most]);
-    let mut lags = [(); SERIES].map(|()| vec![0.0; most]);
+    let mut tables = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; columns * rows * most]);
+    let mut lags = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; most]);
     let mut values = vec![0.0; own[0] * own[1]];
     let [mut along, mut both] = [own[0] * rows, own[0] * own[1]].map(|n| vec![0.0; n * most]);
     for begin in (0..count).step_by(CHUNK) {

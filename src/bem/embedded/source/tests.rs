@@ -1,13 +1,13 @@
 use super::*;
 use crate::bem::embedded::Trench;
-use crate::bem::layered::on_circle;
+use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
 use crate::history::KINDS;
 use crate::soil::{KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
-const STEP: f64 = 0.8;
-const LAGS: usize = 128;
+const TIME_STEP: f64 = 0.8;
+const LAG_COUNT: usize = 128;
 
 /// A layer on rigid bedrock in which waves die out within the first block of lags.
 fn profile() -> SoilProfile {
@@ -25,7 +25,7 @@ fn source(depth: f64, base: usize, wall: usize) -> TrenchSource {
 
 /// All lags of a class, one list for each kind.
 fn lags(weights: &dyn ConvolutionWeights, class: usize) -> [Vec<f64>; TRENCH_KINDS] {
-    let mut lags = [(); TRENCH_KINDS].map(|()| vec![0.0; LAGS]);
+    let mut lags = [(); TRENCH_KINDS].map(|()| vec![0.0; LAG_COUNT]);
     let slices = lags.each_mut().map(Vec::as_mut_slice);
     weights.coefficients_around_trench(class, 1, slices).unwrap();
     lags
@@ -35,24 +35,25 @@ fn lags(weights: &dyn ConvolutionWeights, class: usize) -> [Vec<f64>; TRENCH_KIN
 #[test]
 fn weights_are_the_coefficients_of_the_mobility() {
     let source = source(1.0, 4, 2);
-    let weights = source.weights(STEP).unwrap();
-    weights.prepare(LAGS, &mut unobserved).unwrap();
-    let halves = source.soil.static_compliances().unwrap();
-    let mut still = vec![[Complex::default(); TRENCH_KINDS]; weights.classes.count()];
-    TrenchPairs::new(source.soil.clone(), DEGREE)
-        .read([&halves.symmetric, &halves.antisymmetric], &mut still);
+    let weights = source.weights(TIME_STEP).unwrap();
+    weights.prepare(LAG_COUNT, &mut unobserved).unwrap();
+    let compliances = source.soil.static_compliances().unwrap();
+    let mut at_rest = vec![[Complex::default(); TRENCH_KINDS]; weights.classes.count()];
+    TrenchPairs::new(source.soil.clone(), ELEMENT_DEGREE).fill_classes(&compliances, &mut at_rest);
     let place = [0.8_f64.ln(), 0.7];
-    let [z, rest] = on_circle(place[0], place[1]);
-    let mut mobility = still.clone();
-    let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), still.clone());
+    let CirclePoint { z, rest } = on_circle(place[0], place[1]);
+    let mut mobility = at_rest.clone();
+    let mut work = crate::bem::layered::LayeredCompliance::default();
+    let mut scratch = at_rest.clone();
     weights.quadrature.mobility(place, &mut work, &mut scratch, &mut mobility).unwrap();
-    let largest = still.iter().flatten().map(|value| value.re.abs()).fold(0.0, f64::max);
+    let largest = at_rest.iter().flatten().map(|value| value.re.abs()).fold(0.0, f64::max);
     let mut worst = [0.0_f64; 2];
     for class in 0..weights.classes.count() {
         for (kind, lags) in lags(&weights, class).iter().enumerate() {
             let sum: f64 = lags.iter().sum();
-            worst[0] = worst[0].max((sum - still[class][kind].re).abs());
-            let (mut power, mut sum) = (rest, Complex::default());
+            worst[0] = worst[0].max((sum - at_rest[class][kind].re).abs());
+            let mut power = rest;
+            let mut sum = Complex::default();
             for lag in lags {
                 sum += power.scale(*lag);
                 power = power * z;
@@ -74,8 +75,9 @@ fn symbols_are_positive_at_short_and_long_steps() {
         let weights = TrenchSource { soil, stages: None, file: None }.weights(step).unwrap();
         let classes = &weights.classes;
         let mut sums = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];
-        let (mut work, mut scratch) = (crate::bem::layered::Compliance::default(), sums.clone());
-        let mut least = f64::INFINITY;
+        let mut work = crate::bem::layered::LayeredCompliance::default();
+        let mut scratch = sums.clone();
+        let mut smallest_ratio = f64::INFINITY;
         for k in 0..12 {
             let place = [0.0, std::f64::consts::PI * (f64::from(k) + 0.5) / 12.0];
             weights.quadrature.mobility(place, &mut work, &mut scratch, &mut sums).unwrap();
@@ -84,10 +86,10 @@ fn symbols_are_positive_at_short_and_long_steps() {
             let matrix: Vec<_> = matrix.iter().map(|value| value.inner()).collect();
             let [low, high] =
                 crate::linalg::hermitian_range(&matrix, classes.layout().len()).unwrap();
-            least = least.min(low / high);
+            smallest_ratio = smallest_ratio.min(low / high);
         }
-        println!("{step}: {least:e}");
-        assert!(least > -1e-8, "{step}: {least:e}");
+        println!("{step}: {smallest_ratio:e}");
+        assert!(smallest_ratio > -1e-8, "{step}: {smallest_ratio:e}");
     }
 }
 
@@ -95,41 +97,43 @@ fn symbols_are_positive_at_short_and_long_steps() {
 #[test]
 fn weights_without_depth_are_the_weights_of_a_strip() {
     let source = source(0.0, 4, 0);
-    let weights = source.weights(STEP).unwrap();
+    let weights = source.weights(TIME_STEP).unwrap();
     let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
-    let strip = strip.with_stages(source.stages(STEP)).weights(STEP).unwrap();
-    let size = weights.classes.layout().len();
-    // Receiver, source, and sum over lags with cos(0.3 n).
-    let sums =
-        |matrix: &mut [f64], classes: &PairClasses, values: &dyn Fn(usize, &mut [&mut [f64]])| {
-            classes.each(|[receiver, source], pair, terms| {
-                let mut lags = vec![vec![0.0; LAGS]; classes.kinds()];
-                let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
-                values(pair.class, &mut slices);
-                for term in terms {
-                    let [to, from] = term.components;
-                    let layout = classes.layout();
-                    let place = layout.place(to, receiver) * size + layout.place(from, source);
-                    let lags = lags[term.kind].iter().enumerate();
-                    let sum: f64 = lags.map(|(n, lag)| lag * (0.3 * n as f64).cos()).sum();
-                    matrix[place] = sum * term.factor * pair.scale;
-                }
-            });
-        };
-    let [mut found, mut wanted] = [(); 2].map(|()| vec![0.0; size * size]);
-    sums(&mut found, &weights.classes, &|class, values| {
+    let strip = strip.with_stages(source.stages(TIME_STEP)).weights(TIME_STEP).unwrap();
+    let found = matrix_of_sums(&weights.classes, |class, values| {
         let [nn, tt, nt, tn] = values else { panic!("kinds") };
         weights.coefficients_around_trench(class, 1, [nn, tt, nt, tn]).unwrap();
     });
-    sums(&mut wanted, strip.classes(), &|class, values| {
+    let wanted = matrix_of_sums(strip.classes(), |class, values| {
         let values: &mut [&mut [f64]; KINDS] = values.try_into().unwrap();
         let [zz, xx, zx] = values;
         strip.coefficients(class, 1, [zz, xx, zx]).unwrap();
     });
-    let largest = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let largest = wanted.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let worst = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     println!("{:e}", worst / largest);
     assert!(worst < 2e-3 * largest, "{:e}", worst / largest);
+}
+
+/// Matrix of all pairs: sums over lags with the factor cos(0.3 n).
+///
+/// `fill` gets a class, and overwrites one list of lags for each kind.
+fn matrix_of_sums(classes: &PairClasses, fill: impl Fn(usize, &mut [&mut [f64]])) -> Vec<f64> {
+    let layout = classes.layout();
+    let mut matrix = vec![0.0; layout.square()];
+    classes.each(|[receiver, source], pair, terms| {
+        let mut lags = vec![vec![0.0; LAG_COUNT]; classes.kinds()];
+        let mut slices: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
+        fill(pair.class, &mut slices);
+        for term in terms {
+            let row = layout.place(term.components[0], receiver);
+            let column = layout.place(term.components[1], source);
+            let lags = lags[term.kind].iter().enumerate();
+            let sum: f64 = lags.map(|(n, lag)| lag * (0.3 * n as f64).cos()).sum();
+            matrix[row * layout.len() + column] = sum * term.factor * pair.scale;
+        }
+    });
+    matrix
 }
 
 /// Without depth on a half-plane: the strip's closed form, but for a translation down and one to the right.
@@ -140,30 +144,27 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
     let soil = TrenchSoil::new(half_plane.into(), trench).unwrap();
     let source = TrenchSource { soil, stages: None, file: None };
     let strip = Strip::graded(-1.0..1.0, 8).unwrap();
-    let (count, size) = (8, 16);
-    let [mut found, mut wanted] = [(); 2].map(|()| vec![0.0; size * size]);
+    let count = 8;
+    let size = 16;
+    let mut found = vec![0.0; size * size];
+    let mut wanted = vec![0.0; size * size];
     source.static_compliance(&strip.elements(), &mut found).unwrap();
     let ground = ElasticGround::new(half_plane, strip).unwrap();
     crate::bem::Ground::static_compliance(&ground, &mut wanted).unwrap();
     // Tractions of the same force are compared: a translation is proportional to the force.
     let lengths: Vec<f64> =
         source.soil.elements().elements().iter().map(ContactElement::length).collect();
-    let difference = |matrix: &[f64], i: usize, j: usize| {
-        let per_force = |i: usize, j: usize| matrix[i * size + j] / lengths[j % count];
-        per_force(i, j) - per_force(j / count * count, j / count * count)
-    };
     let mut worst = 0.0_f64;
     for i in 0..size {
         for j in 0..size {
-            let own = i / count == j / count;
-            let [found, wanted] = [&found, &wanted].map(|matrix| {
-                if own {
-                    difference(matrix, i, j)
-                } else {
-                    matrix[i * size + j] / lengths[j % count]
-                }
+            let first = j / count * count;
+            let in_direction_of_force = i / count == j / count;
+            let per_force = [&found, &wanted].map(|matrix| {
+                let datum = matrix[first * size + first] / lengths[first % count];
+                let value = matrix[i * size + j] / lengths[j % count];
+                if in_direction_of_force { value - datum } else { value }
             });
-            worst = worst.max((found - wanted).abs());
+            worst = worst.max((per_force[0] - per_force[1]).abs());
         }
     }
     // Finite elements of degree 4; the largest entry is about 1.
@@ -173,20 +174,22 @@ fn static_compliance_without_depth_is_the_strips_up_to_translations() {
 
 /// (L R)ᵀ S⁻¹ (L R) of the static compliance S between all elements is the stiffness of the half models.
 #[test]
-fn static_compliance_holds_a_rigid_body_as_the_impedance_does() {
+fn rigid_body_has_the_static_impedance() {
     let source = source(1.2, 4, 3);
     let elements = source.soil.elements().elements();
-    let (count, size) = (elements.len(), 2 * elements.len());
+    let count = elements.len();
+    let size = 2 * elements.len();
     let mut matrix = vec![0.0; size * size];
     source.static_compliance(&elements, &mut matrix).unwrap();
     // To the right, down, and a rotation about the middle of the base that lowers the right end.
-    let motion = |place: usize| {
-        let (element, component) = (&elements[place % count], place / count);
-        let [x, _, z] = element.center();
-        let [along, _, up] = element.directions()[component];
-        [along, -up, along * (1.2 + z) - up * x]
-    };
-    let rows: Vec<[f64; 3]> = (0..size).map(motion).collect();
+    let mut rows: Vec<[f64; 3]> = vec![];
+    for place in 0..size {
+        let element = &elements[place % count];
+        let center = element.center();
+        let direction = element.directions()[place / count];
+        let moment = direction[0] * (1.2 + center[2]) - direction[2] * center[0];
+        rows.push([direction[0], -direction[2], moment]);
+    }
     let mut factor = crate::linalg::DenseFactor::with_columns(size, 1);
     assert!(factor.factor(&matrix, size));
     let mut stiffness = [[0.0; 3]; 3];
@@ -198,13 +201,18 @@ fn static_compliance_holds_a_rigid_body_as_the_impedance_does() {
             stiffness[i][k] = parts.sum();
         }
     }
-    let wanted = source
-        .soil
-        .response(Complex::default(), &source.soil.mesh_of_depth(Complex::default(), 24.0, DEGREE));
-    let [hh, vv, rr, hr, ..] = wanted.unwrap().map(|value| value.re);
-    let found =
-        [stiffness[0][0], stiffness[1][1], stiffness[2][2], stiffness[0][2], stiffness[2][0]];
-    for (found, wanted) in found.into_iter().zip([hh, vv, rr, hr, hr]) {
-        assert!((found - wanted).abs() < 1e-9 * rr, "{found} {wanted}");
+    let wanted = source.soil.response(
+        Complex::default(),
+        &source.soil.mesh_of_depth(Complex::default(), 24.0, ELEMENT_DEGREE),
+    );
+    let wanted = wanted.unwrap().stiffness.map(|value| value.re);
+    for (found, wanted) in [
+        (stiffness[0][0], wanted[0]),
+        (stiffness[1][1], wanted[1]),
+        (stiffness[2][2], wanted[2]),
+        (stiffness[0][2], wanted[3]),
+        (stiffness[2][0], wanted[3]),
+    ] {
+        assert!((found - wanted).abs() < 1e-9 * stiffness[2][2], "{found} {wanted}");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
-use crate::bem::layered::wavenumber::Workspace;
+use crate::bem::layered::wavenumber::StripWorkspace;
 use crate::bem::{Grading, Strip};
 use crate::history::KINDS;
 use crate::soil::{Elastic, SoilProfile};
@@ -13,7 +13,7 @@ fn quadrature(profile: SoilProfile, stages: Stages) -> Quadrature {
     Quadrature::new(profile, &classes, stages, 0.1, 1e-10)
 }
 
-fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
+fn block(quadrature: &Quadrature, number: usize, threads: usize) -> LagBlock {
     quadrature.block(number, threads, Samples::new(&mut Watch::nobody(), 0..0)).unwrap()
 }
 
@@ -21,7 +21,7 @@ fn block(quadrature: &Quadrature, number: usize, threads: usize) -> Block {
 ///
 /// Errors are relative to the mobilities of each pair's elements.
 #[test]
-fn panels_give_what_points_give() {
+fn panels_and_points_give_equal_values() {
     for (name, profile) in [
         ("damped", p1(gmb(5), gmb(1))),
         ("elastic", p1(Elastic, Elastic)),
@@ -30,13 +30,14 @@ fn panels_give_what_points_give() {
     ] {
         for stages in [Stages::Two, Stages::Three] {
             let quadrature = quadrature(profile.clone(), stages);
-            let own = quadrature.panels[0].own.clone();
-            let mut work = Workspace::default();
+            let self_pairs = quadrature.panels[0].self_pairs.clone();
+            let mut work = StripWorkspace::default();
             let mut values = vec![[Complex::default(); KINDS]; quadrature.classes];
             let mut scratch = values.clone();
-            let (mut worst, mut covered) = (0.0_f64, 0);
+            let mut worst = 0.0_f64;
+            let mut covered = 0;
             for number in [0, 2, 4] {
-                let circle = Block::circle(number, 1e-10);
+                let circle = LagBlock::circle(number, 1e-10);
                 let mut watch = Watch::nobody();
                 let mut samples = Samples::new(&mut watch, 0..0);
                 let spectra = quadrature.spectra(circle, 1, &mut samples).unwrap();
@@ -45,9 +46,10 @@ fn panels_give_what_points_give() {
                 for point in (0..count).step_by(31) {
                     let place = [circle.logarithm, circle.angle(point)];
                     quadrature.mobility(place, &mut work, &mut scratch, &mut values).unwrap();
-                    let size = |class: usize| values[class][0].abs().min(values[class][1].abs());
                     for (class, value) in values.iter().enumerate() {
-                        let unit = own[class].map(size).iter().product::<f64>().sqrt();
+                        let sizes = self_pairs[class]
+                            .map(|class| values[class][0].abs().min(values[class][1].abs()));
+                        let unit = (sizes[0] * sizes[1]).sqrt();
                         for (component, value) in value.iter().enumerate() {
                             let found = spectra[(class * KINDS + component) * count + point];
                             worst = worst.max((found - *value).abs() / unit);
@@ -68,9 +70,10 @@ fn panels_take_fewer_samples_than_points() {
     for (name, profile) in [("on rock", p1(Elastic, Elastic)), ("on rigid bedrock", p3(Elastic))] {
         for stages in [Stages::Two, Stages::Three] {
             let quadrature = quadrature(profile.clone(), stages);
-            let [mut taken, mut points] = [0; 2];
+            let mut taken = 0;
+            let mut points = 0;
             for number in 0..2 {
-                let circle = Block::circle(number, 1e-10);
+                let circle = LagBlock::circle(number, 1e-10);
                 let mut watch = Watch::nobody();
                 let mut samples = Samples::new(&mut watch, 0..0);
                 quadrature.spectra(circle, 1, &mut samples).unwrap();
@@ -98,13 +101,15 @@ fn lags_are_those_of_all_points() {
         for number in 0..4 {
             // All panels are marked as unresolved.
             for (node, panels) in points.panels.iter().enumerate() {
-                let unresolved = |places: &[CirclePanel]| {
+                let circle = LagBlock::circle(number, 1e-10);
+                let cover = circle.cover(node, |places| {
                     panels.stored().extend(places.iter().map(|place| (*place, None)));
                     Ok(vec![false; places.len()])
-                };
-                Block::circle(number, 1e-10).covered(node, unresolved).unwrap();
+                });
+                cover.unwrap();
             }
-            let [one, two] = [&panels, &points].map(|quadrature| block(quadrature, number, 1));
+            let one = block(&panels, number, 1);
+            let two = block(&points, number, 1);
             for (place, (one, two)) in one.values.iter().zip(&two.values).enumerate() {
                 let largest = &mut largest[place % KINDS];
                 *largest = two.iter().fold(*largest, |size, x| size.max(x.abs()));
@@ -119,7 +124,7 @@ fn lags_are_those_of_all_points() {
 
 /// The bits of a block do not depend on earlier samples or on the number of threads.
 #[test]
-fn bits_of_a_block_are_its_own() {
+fn bits_of_a_block_depend_on_nothing_else() {
     let alone = block(&quadrature(p1(gmb(5), gmb(1)), Stages::Three), 3, 1);
     let after = quadrature(p1(gmb(5), gmb(1)), Stages::Three);
     for number in [4, 0, 2] {
@@ -136,18 +141,15 @@ fn bits_of_a_block_are_its_own() {
 fn eigenvalues_keep_their_numbers() {
     for stages in [Stages::Two, Stages::Three] {
         for logarithm in [-0.06, -1e-3, -1e-6] {
-            let nodes = |point: usize| {
-                let [z, rest] =
-                    on_circle(logarithm, std::f64::consts::PI * (point as f64 + 0.5) / 4000.0);
-                stages.nodes(z, rest).map(|node| node.lambda).collect::<Vec<_>>()
-            };
-            let mut before = nodes(0);
-            for point in 1..4000 {
-                let now = nodes(point);
-                for (one, two) in before.iter().zip(&now) {
+            let mut previous: Vec<Complex> = vec![];
+            for point in 0..4000 {
+                let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 4000.0;
+                let CirclePoint { z, rest } = on_circle(logarithm, angle);
+                let roots: Vec<_> = stages.nodes(z, rest).map(|node| node.lambda).collect();
+                for (one, two) in previous.iter().zip(&roots) {
                     assert!((*one - *two).abs() < 0.02, "{stages:?} {point} {one:?} {two:?}");
                 }
-                before = now;
+                previous = roots;
             }
         }
     }

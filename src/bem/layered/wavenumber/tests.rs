@@ -7,18 +7,25 @@ use crate::bem::{Grading, Strip};
 use crate::fundamental::HalfPlane;
 use crate::soil::Soil;
 
-fn all(
+/// Compliances, and what they cost.
+struct PairCompliances {
+    values: Vec<[Complex; 3]>,
+    /// Number of wavenumbers at which the ground was evaluated.
+    evaluations: usize,
+}
+
+fn compliances(
     profile: &SoilProfile,
     strip: &Strip,
     s: Complex,
     tolerance: f64,
-) -> (Vec<[Complex; 3]>, usize) {
+) -> PairCompliances {
     let classes = PairClasses::new(strip.elements()).unwrap();
     let integrals = Wavenumbers::new(&classes, tolerance);
-    let mut work = Workspace::default();
+    let mut work = StripWorkspace::default();
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     integrals.compliance(profile, s, &mut work, &mut values).unwrap();
-    (values, work.panels.evaluations)
+    PairCompliances { values, evaluations: work.panels.evaluations }
 }
 
 /// `F_s_P1_gmb_Q3.csv`: another program, tolerance 1e-12.
@@ -29,14 +36,17 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
     let integrals = Wavenumbers::new(&classes, 1e-11);
     let profile = p1(gmb(5), gmb(1));
     let table = include_str!("../../../../tests/data/layered/F_s_P1_gmb_Q3.csv");
-    let (mut worst, mut largest, mut rows) = (0.0_f64, 0.0_f64, 0);
+    let mut worst = 0.0_f64;
+    let mut largest = 0.0_f64;
+    let mut rows = 0;
     let mut values = vec![[Complex::default(); 3]; classes.count()];
     for line in table.lines().skip(2) {
         let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let s = Complex::new(n[0], n[1]);
-        integrals.compliance(&profile, s, &mut Workspace::default(), &mut values).unwrap();
-        let index = |i: usize| line.split(',').nth(i).unwrap().parse::<usize>().unwrap();
-        let (row, column) = (index(2), index(3));
+        integrals.compliance(&profile, s, &mut StripWorkspace::default(), &mut values).unwrap();
+        let mut indices = line.split(',').skip(2).map(|text| text.parse::<usize>());
+        let row = indices.next().unwrap().unwrap();
+        let column = indices.next().unwrap().unwrap();
         let found = assembled(&classes, &values);
         if (row, column) == (0, 0) {
             // u_xx of an element due to its own traction.
@@ -77,8 +87,9 @@ fn agrees_with(
     end: f64,
 ) {
     let plane = HalfPlane::new(soil);
-    let (found, _) = all(&SoilProfile::on_half_plane(soil), strip, Complex::real(s), 1e-11);
-    let (layers, _) = all(many, strip, Complex::real(s), 1e-11);
+    let found =
+        compliances(&SoilProfile::on_half_plane(soil), strip, Complex::real(s), 1e-11).values;
+    let layers = compliances(many, strip, Complex::real(s), 1e-11).values;
     let rule = crate::linalg::gauss::largest();
     let largest = found.iter().fold(0.0_f64, |m, values| m.max(values[0].re));
     let mut worst = 0.0_f64;
@@ -135,27 +146,31 @@ fn tolerance_holds() {
             Complex::new(90.0, 700.0),
             Complex::real(3000.0),
         ] {
-            let (fine, many) = all(&profile, &strip, s, 1e-14);
-            let size = |element: crate::bem::ContactElement| {
-                let own = |e: &[crate::bem::ContactElement; 2]| {
-                    e[0] == e[1] && (e[0].length() / element.length() - 1.0).abs() < 1e-9
+            let fine = compliances(&profile, &strip, s, 1e-14);
+            // Smaller compliance of an element of this length with itself.
+            let self_compliance = |length: f64| {
+                let is_self_pair = |class: &usize| {
+                    let pair = classes.representative(*class).unwrap();
+                    pair[0] == pair[1] && (pair[0].length() / length - 1.0).abs() < 1e-9
                 };
-                let class = (0..classes.count())
-                    .find(|c| own(&classes.representative(*c).unwrap()))
-                    .unwrap();
-                fine[class][0].abs().min(fine[class][1].abs())
+                let class = (0..classes.count()).find(is_self_pair).unwrap();
+                fine.values[class][0].abs().min(fine.values[class][1].abs())
             };
             for (tolerance, worst) in [1e-8, 1e-10, 1e-12].into_iter().zip(&mut worst) {
-                let (found, evaluations) = all(&profile, &strip, s, tolerance);
+                let found = compliances(&profile, &strip, s, tolerance);
                 let mut largest = 0.0_f64;
                 for class in 0..classes.count() {
-                    let [p, q] = classes.representative(class).unwrap();
-                    let unit = (size(p) * size(q)).sqrt();
+                    let lengths = classes.representative(class).unwrap().map(|e| e.length());
+                    let unit = (self_compliance(lengths[0]) * self_compliance(lengths[1])).sqrt();
                     for c in 0..3 {
-                        largest = largest.max((found[class][c] - fine[class][c]).abs() / unit);
+                        let difference = found.values[class][c] - fine.values[class][c];
+                        largest = largest.max(difference.abs() / unit);
                     }
                 }
-                println!("{s:?} tolerance {tolerance:e}: {largest:e}, {evaluations} of {many}");
+                println!(
+                    "{s:?} tolerance {tolerance:e}: {largest:e}, {} of {}",
+                    found.evaluations, fine.evaluations
+                );
                 *worst = worst.max(largest / tolerance);
             }
         }

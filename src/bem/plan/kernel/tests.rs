@@ -10,16 +10,17 @@ use crate::history::ConvolutionWeights;
 use crate::soil::{GeneralizedMaxwell, Relaxation, Soil};
 use crate::unobserved;
 
-const STEP: f64 = 0.2;
+const TIME_STEP: f64 = 0.2;
 
 fn cells(counts: [usize; 2]) -> Vec<[usize; 2]> {
     (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]).collect()
 }
 
 fn kernel(profile: SoilProfile, lattice: &Lattice, stages: Stages) -> LatticeKernel {
-    let [columns, rows] = lattice.counts;
-    let plan = Plan::masked([0.0; 2], lattice.pitch, columns, &vec![true; columns * rows]).unwrap();
-    LatticeKernel::in_plan(profile, &plan, stages, [STEP, 1e-10], None).unwrap()
+    let counts = lattice.counts;
+    let mask = vec![true; counts[0] * counts[1]];
+    let plan = Plan::masked([0.0; 2], lattice.pitch, counts[0], &mask).unwrap();
+    LatticeKernel::in_plan(profile, &plan, stages, TIME_STEP, 1e-10, None).unwrap()
 }
 
 fn half_space() -> SoilProfile {
@@ -31,10 +32,10 @@ fn square() -> Lattice {
 }
 
 /// Weights of each class and series, all lags up to `lags`.
-fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES]> {
+fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES_PER_OFFSET]> {
     let all = 0..kernel.classes.count();
     all.map(|class| {
-        let mut values = [(); SERIES].map(|()| vec![0.0; lags]);
+        let mut values = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; lags]);
         let slices = values.each_mut().map(Vec::as_mut_slice);
         kernel.coefficients_in_plan(class, 1, slices).unwrap();
         values
@@ -53,40 +54,35 @@ fn weights_match_the_table_and_sum_up_to_statics() {
         let kernel = kernel(profile.clone(), &square(), Stages::Two);
         kernel.prepare(256, &mut unobserved).unwrap();
         let quadrature = &kernel.quadrature;
-        let mut work = Workspace::default();
-        let mut values = vec![[Complex::default(); SERIES]; kernel.classes.count()];
+        let mut work = CellWorkspace::default();
+        let mut values = vec![[Complex::default(); SERIES_PER_OFFSET]; kernel.classes.count()];
         let mut scratch = values.clone();
         for point in 0..20 {
             let angle = std::f64::consts::PI * (f64::from(point) + 0.5) / 20.0;
             quadrature.mobility([-1e-3, angle], &mut work, &mut scratch, &mut values).unwrap();
-            let least = crate::bem::layered::margin(&kernel.classes, &values);
-            assert!(least > 0.0, "{angle} {least:e}");
+            let margin = crate::bem::layered::margin(&kernel.classes, &values);
+            assert!(margin > 0.0, "{angle} {margin:e}");
         }
         let found = weights(&kernel, 256);
         let largest = found[0][1][0];
         let mut worst = 0.0_f64;
         for row in rows {
-            let number = |column: usize| row[column].parse::<isize>().unwrap();
-            let place = |at: usize| "zxy".find(row[2].chars().nth(at).unwrap()).unwrap();
-            let lag: Vec<[f64; SERIES]> = found
-                .iter()
-                .map(|kinds| kinds.each_ref().map(|lags| lags[number(1).unsigned_abs() - 1]))
-                .collect();
-            let value = square().block(&lag, [number(3), number(4)])[place(0)][place(1)];
+            let lag: usize = row[1].parse().unwrap();
+            let offset = [row[3].parse().unwrap(), row[4].parse().unwrap()];
+            let mut components = row[2].chars().map(|letter| "zxy".find(letter).unwrap());
+            let receiver = components.next().unwrap();
+            let source = components.next().unwrap();
+            let weights: Vec<[f64; SERIES_PER_OFFSET]> =
+                found.iter().map(|kinds| kinds.each_ref().map(|lags| lags[lag - 1])).collect();
+            let value = square().block(&weights, offset)[receiver][source];
             worst = worst.max((value - row[5].parse::<f64>().unwrap()).abs() / largest);
         }
-        let mut still = values.clone();
+        let mut at_rest = values.clone();
         let s = Complex::default();
-        quadrature.integrals.compliance(&profile, s, &mut work, &mut still).unwrap();
-        let rest = |lags: usize, kinds: std::ops::Range<usize>| {
-            let errors = found.iter().zip(&still).flat_map(|(found, still)| {
-                kinds.clone().map(move |kind| {
-                    (found[kind][..lags].iter().sum::<f64>() - still[kind].re).abs()
-                })
-            });
-            errors.fold(0.0, f64::max) / still[0][1].re
-        };
-        let [even, odd, before] = [rest(256, 0..4), rest(256, 4..6), rest(128, 4..6)];
+        quadrature.integrals.compliance(&profile, s, &mut work, &mut at_rest).unwrap();
+        let even = largest_sum_error(&found, &at_rest, 256, 0..4);
+        let odd = largest_sum_error(&found, &at_rest, 256, 4..6);
+        let before = largest_sum_error(&found, &at_rest, 128, 4..6);
         println!("{}: lags {worst:.1e}, sum {even:.1e}, {odd:.1e} (128: {before:.1e})", rows[0][0]);
         assert!(worst < 1e-6, "{worst:e}");
         let gates = if layered { [5e-5, 5e-5] } else { [1e-7, 2e-5] };
@@ -96,20 +92,39 @@ fn weights_match_the_table_and_sum_up_to_statics() {
     }
 }
 
+/// Largest difference between sums of the first lags and static compliances, relative to the largest compliance.
+fn largest_sum_error(
+    weights: &[[Vec<f64>; SERIES_PER_OFFSET]],
+    at_rest: &[[Complex; SERIES_PER_OFFSET]],
+    lags: usize,
+    kinds: std::ops::Range<usize>,
+) -> f64 {
+    let mut largest = 0.0_f64;
+    for (weights, at_rest) in weights.iter().zip(at_rest) {
+        for kind in kinds.clone() {
+            let sum = weights[kind][..lags].iter().sum::<f64>();
+            largest = largest.max((sum - at_rest[kind].re).abs());
+        }
+    }
+    largest / at_rest[0][1].re
+}
+
 /// Cells of a larger lattice, in another order of blocks, oblong, and with three stages.
 #[test]
 fn weights_depend_on_the_offset_alone() {
     for stages in [Stages::Two, Stages::Three] {
-        let oblong = |counts| Lattice { pitch: [0.5, 0.4], counts };
-        let small = kernel(p1(gmb(5), gmb(1)), &oblong([2, 3]), stages);
-        let large = kernel(p1(gmb(5), gmb(1)), &oblong([4, 3]), stages);
+        let small =
+            kernel(p1(gmb(5), gmb(1)), &Lattice { pitch: [0.5, 0.4], counts: [2, 3] }, stages);
+        let large =
+            kernel(p1(gmb(5), gmb(1)), &Lattice { pitch: [0.5, 0.4], counts: [4, 3] }, stages);
         large.prepare(200, &mut unobserved).unwrap();
-        let [one, two] = [weights(&small, 100), weights(&large, 200)];
+        let one = weights(&small, 100);
+        let two = weights(&large, 200);
         let largest = one[0][1][0];
         let mut worst = 0.0_f64;
-        let offsets = |kernel: &LatticeKernel| kernel.classes.plan().unwrap().0.classes();
-        for (class, offset) in offsets(&small).into_iter().enumerate() {
-            let other = offsets(&large).iter().position(|it| *it == offset).unwrap();
+        let large_offsets = large.classes.plan().unwrap().0.classes();
+        for (class, offset) in small.classes.plan().unwrap().0.classes().into_iter().enumerate() {
+            let other = large_offsets.iter().position(|it| *it == offset).unwrap();
             for (one, two) in
                 one[class].iter().flatten().zip(two[other].iter().flat_map(|lags| &lags[..100]))
             {
@@ -127,13 +142,13 @@ fn weights_depend_on_the_offset_alone() {
 fn weights_of_short_steps_are_sums_over_directions() {
     for (profile, step) in [(half_space(), 0.02), (p1(gmb(5), gmb(1)), 0.03)] {
         let plan = Plan::masked([0.0; 2], [0.5, 0.4], 3, &[true; 6]).unwrap();
-        let make = || {
-            let steps = [step, 1e-10];
-            LatticeKernel::in_plan(profile.clone(), &plan, Stages::Two, steps, None).unwrap()
-        };
-        let mut summed = make();
-        summed.quadrature.integrals.table.direct = usize::MAX;
-        let [one, two] = [make(), summed].map(|kernel| weights(&kernel, 128));
+        let by_waves =
+            LatticeKernel::in_plan(profile.clone(), &plan, Stages::Two, step, 1e-10, None).unwrap();
+        let mut by_sums =
+            LatticeKernel::in_plan(profile, &plan, Stages::Two, step, 1e-10, None).unwrap();
+        by_sums.quadrature.integrals.table.direct_panels = usize::MAX;
+        let one = weights(&by_waves, 128);
+        let two = weights(&by_sums, 128);
         let largest = one[0][1][0];
         let pairs = one.iter().flatten().flatten().zip(two.iter().flatten().flatten());
         let worst = pairs.fold(0.0_f64, |worst, (one, two)| worst.max((one - two).abs()));
@@ -160,14 +175,18 @@ fn errors_of_integrals_halve_no_panels() {
         .map(|[modulus, ratio, density]| Soil::new(modulus, ratio, density).unwrap());
     let law = GeneralizedMaxwell::constant_q(0.05, [0.1, 50.0], 1.0).unwrap();
     let plan = Plan::rectangle(0.0..10.0, 0.0..10.0, 8).unwrap();
-    let steps = [0.24 * plan.pitch()[0] / soil.pressure_wave_speed(), 1e-10];
-    let variables = [None, Some(steps[1])].map(|tolerance| {
+    let time_step = 0.24 * plan.pitch()[0] / soil.pressure_wave_speed();
+    let weight_tolerance = 1e-10;
+    let variables = [None, Some(weight_tolerance)].map(|tolerance| {
         let count = Arc::default();
         let layer = SoilProfile::on_half_plane(rock).with_layer(soil, 6.0).unwrap();
         let profile = layer.with_damping(Counted(law.clone(), Arc::clone(&count)));
-        let mut kernel = LatticeKernel::in_plan(profile, &plan, Stages::Two, steps, None).unwrap();
-        let own = &mut kernel.quadrature.integrals.tolerance;
-        *own = tolerance.unwrap_or(*own);
+        let mut kernel =
+            LatticeKernel::in_plan(profile, &plan, Stages::Two, time_step, weight_tolerance, None)
+                .unwrap();
+        if let Some(tolerance) = tolerance {
+            kernel.quadrature.integrals.tolerance = tolerance;
+        }
         kernel.prepare(4096, &mut unobserved).unwrap();
         count.load(Ordering::Relaxed)
     });
@@ -177,14 +196,14 @@ fn errors_of_integrals_halve_no_panels() {
 
 /// The passivity check takes some of many cells, each once.
 #[test]
-fn gates_take_some_of_many_cells() {
+fn passivity_is_checked_on_some_of_many_cells() {
     let all = cells([30, 20]);
-    let mut some = scattered(&all);
-    assert_eq!(some.len(), SOME_CELLS);
+    let mut some = random_sample(&all);
+    assert_eq!(some.len(), SAMPLED_CELL_COUNT);
     assert!(some.iter().all(|cell| all.contains(cell)));
     some.sort_unstable();
     some.dedup();
-    assert_eq!(some.len(), SOME_CELLS);
+    assert_eq!(some.len(), SAMPLED_CELL_COUNT);
 }
 
 #[test]
@@ -194,7 +213,7 @@ fn bad_requests_are_told() {
         kernel.coefficients(0, 1, [&mut [], &mut [], &mut []]),
         Err(Error::Scene { .. })
     ));
-    let mut none = [(); SERIES].map(|()| vec![]);
+    let mut none = [(); SERIES_PER_OFFSET].map(|()| vec![]);
     let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));
@@ -204,15 +223,18 @@ fn bad_requests_are_told() {
 #[cfg(feature = "rayon")]
 #[test]
 fn threads_change_no_bit() {
-    let bits = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| {
-            let kernel = kernel(half_space(), &square(), Stages::Two);
-            let fingerprint = kernel.admit(&mut crate::error::Watch::nobody()).unwrap();
-            let weights = weights(&kernel, 200).into_iter().flatten().flatten();
-            weights.map(f64::to_bits).chain([fingerprint]).collect::<Vec<_>>()
-        })
-    };
-    let alone = bits(1);
-    assert!(bits(2) == alone && bits(5) == alone);
+    let alone = bits_on_threads(1);
+    assert!(bits_on_threads(2) == alone && bits_on_threads(5) == alone);
+}
+
+/// Bits of the weights and of the passivity check.
+#[cfg(feature = "rayon")]
+fn bits_on_threads(threads: usize) -> Vec<u64> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| {
+        let kernel = kernel(half_space(), &square(), Stages::Two);
+        let fingerprint = kernel.check_passivity(&mut crate::error::Watch::nobody()).unwrap();
+        let weights = weights(&kernel, 200).into_iter().flatten().flatten();
+        weights.map(f64::to_bits).chain([fingerprint]).collect()
+    })
 }

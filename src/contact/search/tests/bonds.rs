@@ -31,9 +31,13 @@ fn bonds_break_where_brute_force_says_they_may() {
             };
             let mut problem = begin(delassus, count, &mut random);
             glue(&mut problem, &mut random);
-            let mut solver = ContactSolver::new(ContactLayout::new(PLANE, count));
-            let mut search =
-                ModeSearch::new(ContactLayout::new(PLANE, count), &[], true, ContactSearch::Robust);
+            let mut solver = ContactSolver::new(ContactLayout::new(COMPONENTS_IN_PLANE, count));
+            let mut search = ModeSearch::new(
+                ContactLayout::new(COMPONENTS_IN_PLANE, count),
+                &[],
+                true,
+                ContactSearch::Robust,
+            );
             let mut state_variables = problem.start.state_variables().to_vec();
             for _ in 0..10 {
                 push(&mut problem, &mut random);

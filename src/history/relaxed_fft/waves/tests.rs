@@ -7,7 +7,7 @@ use basemat_problems::random::Random;
 
 use super::*;
 use crate::error::Error;
-use crate::geometry::{Lattice as Plan, SERIES, offset};
+use crate::geometry::{Lattice as Plan, SERIES_PER_OFFSET, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
 
 /// Random coefficients that decay, with the zeros that symmetry requires.
@@ -22,7 +22,7 @@ impl Made {
         Arc::new(Self { classes, lattice: lattice.clone() })
     }
 
-    fn lag(&self, class: usize, lag: usize) -> [f64; SERIES] {
+    fn lag(&self, class: usize, lag: usize) -> [f64; SERIES_PER_OFFSET] {
         let mut random = Random((class * 100_003 + lag) as u64);
         let [i, j] = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
         let zeros = [1.0, 1.0, 1.0, i * j, i, j];
@@ -43,7 +43,7 @@ impl ConvolutionWeights for Made {
         &self,
         class: usize,
         first_lag: usize,
-        mut values: [&mut [f64]; SERIES],
+        mut values: [&mut [f64]; SERIES_PER_OFFSET],
     ) -> Result<()> {
         for place in 0..values[0].len() {
             let lag = self.lag(class, first_lag + place);

@@ -1,0 +1,70 @@
+//! Sums over late lags, which a polynomial in 1/n interpolates.
+//!
+//! n·(Gⁿ, Hⁿ) of an elastic plane is analytic in x = N/n for nΔt beyond the waves' travel time. Its
+//! polynomial through Chebyshev points of 0 < x < 1 is summed in closed form,
+//!
+//! ```text
+//! Σ_{n≥N} ζⁿ (N/n)^p = 1/Γ(p) ∫₀^∞ y^{p−1} e^{−y} ζ^N / (1 − ζ e^{−y/N}) dy ,
+//! ```
+//!
+//! with the integral by the trapezoidal rule in ln y, which converges exponentially: for |ζ| ≤ 1 the pole y =
+//! N ln ζ stays at least a quarter turn away.
+
+use std::f64::consts::PI;
+
+use realfft::num_complex::Complex64;
+
+/// Number of powers p = 1, 2, … of N/n.
+pub(super) const TAIL_POWERS: usize = 10;
+
+/// Step of ln y in the trapezoidal rule.
+const LOGARITHM_STEP: f64 = 0.125;
+
+/// Lag of the Chebyshev point `k`; numbers between integers lie between the points.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "n ≥ N")]
+pub(super) fn interpolation_lag(first: f64, k: f64) -> usize {
+    let point = 0.5 + 0.5 * (PI * (k + 0.5) / TAIL_POWERS as f64).cos();
+    (first / point).ceil() as usize
+}
+
+/// Σ_{n≥first} ζⁿ (first/n)^p for p = 1 … [`TAIL_POWERS`].
+pub(super) fn tail_sums(zeta: Complex64, first: f64) -> [Complex64; TAIL_POWERS] {
+    let mut sums = [Complex64::default(); TAIL_POWERS];
+    let front = (zeta.ln() * first).exp() * LOGARITHM_STEP;
+    for k in -280..=32 {
+        let y = (LOGARITHM_STEP * f64::from(k)).exp();
+        // dy = y d(ln y)
+        let mut term = front * (-y).exp() * y / (1.0 - zeta * (-y / first).exp());
+        for (p, sum) in sums.iter_mut().enumerate() {
+            *sum += term;
+            term *= y / (p + 1) as f64;
+        }
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// GOAL: the closed sum against direct summation where |ζ| < 1, and on the circle against Abel's
+    /// summation by parts, exact to (1−ζ)^{−1} N^{−2} terms there.
+    #[test]
+    fn tails_are_sums() {
+        for (radius, angle) in [(0.99, 0.0), (0.99, 1.0), (0.98, 3.1), (0.995, 0.01)] {
+            let zeta = Complex64::from_polar(radius, angle);
+            let tails = tail_sums(zeta, 64.0);
+            for (p, tail) in tails.iter().enumerate() {
+                let power = i32::try_from(p + 1).unwrap();
+                let sum: Complex64 =
+                    (64..9000).map(|n| zeta.powi(n) * (64.0 / f64::from(n)).powi(power)).sum();
+                assert!((tail - sum).norm() < 1e-12, "{zeta} {p}: {tail} {sum}");
+            }
+        }
+        // On the circle: Σ_{n≥1} ζⁿ/n = −ln(1−ζ).
+        let zeta = Complex64::from_polar(1.0, 0.3);
+        let early: Complex64 = (1..64).map(|n| zeta.powi(n) / f64::from(n)).sum();
+        let sum = early + tail_sums(zeta, 64.0)[0] / 64.0;
+        assert!((sum + (1.0 - zeta).ln()).norm() < 1e-13);
+    }
+}
