@@ -3,7 +3,7 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::{dense_multiply_add, transposed_multiply_add};
 
 /// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
@@ -14,7 +14,7 @@ const RANK: usize = 64;
 pub(crate) struct Delassus {
     values: Vec<f64>,
     /// G¹, if the values are its sum with another part.
-    soil: Option<Arc<Thinned>>,
+    soil: Option<Arc<CompressedMatrix>>,
     split: Option<Split>,
 }
 
@@ -46,7 +46,7 @@ impl Delassus {
     /// `columns` holds C column by column; `means` multiplies a vector by B.
     pub(crate) fn new(
         values: Vec<f64>,
-        soil: &Arc<Thinned>,
+        soil: &Arc<CompressedMatrix>,
         columns: &[f64],
         means: impl Fn(&[f64], &mut [f64]),
     ) -> Self {
@@ -76,7 +76,7 @@ impl Delassus {
     }
 
     /// The soil's step compliance G¹; `None` if it is not known.
-    pub(crate) fn soil(&self) -> Option<&Thinned> {
+    pub(crate) fn soil(&self) -> Option<&CompressedMatrix> {
         self.soil.as_deref()
     }
 
@@ -116,11 +116,15 @@ mod tests {
             }
         }
         let whole = Delassus::from(values.clone());
-        let split =
-            Delassus::new(values, &Arc::new(Thinned::new(soil, size)), &columns, |x, out| {
+        let split = Delassus::new(
+            values,
+            &Arc::new(CompressedMatrix::new(soil, size)),
+            &columns,
+            |x, out| {
                 out.fill(0.0);
                 dense_multiply_add(&means, 1.0, x, out);
-            });
+            },
+        );
         assert!(split.split.is_some());
         let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
         let [mut a, mut b] = [(); 2].map(|()| vec![1.0; size]);

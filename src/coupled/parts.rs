@@ -20,7 +20,7 @@ use crate::geometry::{Patch, lattice_cells};
 use crate::interface::{
     Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
@@ -136,7 +136,7 @@ pub(crate) struct Parts {
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
-    pub(crate) soil: Arc<Thinned>,
+    pub(crate) soil: Arc<CompressedMatrix>,
     /// Whether the ground damps at first order in the time step.
     pub(crate) first_order_ground: bool,
     /// Free field at t = 0, 2Q or 3Q.
@@ -255,7 +255,7 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
 /// Step compliance of the ground; an error if it could generate energy.
 ///
 /// With rows weighted by the elements' areas, its symmetric part must not be negative.
-fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinned> {
+fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<CompressedMatrix> {
     const NAME: &str = "instantaneous operator of the ground";
     let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
@@ -278,8 +278,8 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinn
     }
     match indefinite_pivot(&symmetric, size) {
         None => Ok(match lattice_cells(elements) {
-            Some(cells) => Thinned::on_lattice(operator, &cells, areas),
-            None => Thinned::new(operator, size),
+            Some(cells) => CompressedMatrix::on_lattice(operator, &cells, areas),
+            None => CompressedMatrix::new(operator, size),
         }),
         Some(row) => {
             let diagonal = operator[row * (size + 1)];

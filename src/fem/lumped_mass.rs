@@ -56,8 +56,8 @@ impl LumpedMass {
         for inertia in rotary_inertia {
             not_negative("rotary inertia of the lumped mass", inertia)?;
         }
-        let turns = rotary_inertia.iter().any(|&inertia| inertia > 0.0);
-        let directions = if turns { IN_SPACE } else { &IN_SPACE[..3] };
+        let has_rotary_inertia = rotary_inertia.iter().any(|&inertia| inertia > 0.0);
+        let directions = if has_rotary_inertia { IN_SPACE } else { &IN_SPACE[..3] };
         Ok(Self { directions, rotary_inertia, ..Self::new(node, mass)? })
     }
 
@@ -97,9 +97,9 @@ impl Element for LumpedMass {
 
     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         let axes = if self.directions.contains(&Direction::Z) { 3 } else { 2 };
-        let next = self.order() + 1;
+        let diagonal_step = self.order() + 1;
         let diagonal = std::iter::repeat_n(self.mass, axes).chain(self.rotary_inertia);
-        for (entry, value) in matrix.iter_mut().step_by(next).zip(diagonal) {
+        for (entry, value) in matrix.iter_mut().step_by(diagonal_step).zip(diagonal) {
             *entry += value;
         }
     }

@@ -129,13 +129,16 @@ pub(super) fn add_energy<const N: usize, const S: usize>(
     elasticity: &[[f64; S]; S],
     area: f64,
 ) {
-    let dot = |a: &[f64; S], b: &[f64; S]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+    let stress = strain.map(|column| elasticity.map(|row| inner_product(&row, &column)));
     for i in 0..N {
         for j in 0..N {
-            matrix[i][j] += area * dot(&strain[i], &stress[j]);
+            matrix[i][j] += area * inner_product(&strain[i], &stress[j]);
         }
     }
+}
+
+fn inner_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Strains due to unit displacements of the nodes, in x and y alternately.
@@ -167,11 +170,11 @@ impl Element for Quad4 {
             QuadFormulation::OnePoint => self.integrated([[0.0; 2]], 4.0, coordinates),
             QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
             QuadFormulation::Hourglass { percent } => {
-                let share = f64::from(percent) / 100.0;
+                let fraction = f64::from(percent) / 100.0;
                 let full = self.integrated(gauss_points(), 1.0, coordinates);
                 let mut mixed = self.integrated([[0.0; 2]], 4.0, coordinates);
                 for (mixed, full) in mixed.iter_mut().flatten().zip(full.as_flattened()) {
-                    *mixed += share * (full - *mixed);
+                    *mixed += fraction * (full - *mixed);
                 }
                 mixed
             }
@@ -205,7 +208,7 @@ impl Element for Quad4 {
     /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
-        for corner in CORNERS {
+        for corner in NODE_COORDINATES {
             let value = Jacobian::at(corner, coordinates).determinant;
             let quantity = "Jacobian at a corner of a quadrilateral";
             let needed = "above zero: convex, nodes counter-clockwise";
@@ -216,17 +219,18 @@ impl Element for Quad4 {
 }
 
 /// Natural coordinates (ξ, η) of the four nodes, counter-clockwise.
-pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+pub(super) const NODE_COORDINATES: [[f64; 2]; 4] =
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
 pub(super) fn gauss_points() -> [[f64; 2]; 4] {
     let place = gauss::rule(2).nodes[1];
-    CORNERS.map(|[xi, eta]| [place * xi, place * eta])
+    NODE_COORDINATES.map(|[xi, eta]| [place * xi, place * eta])
 }
 
 /// Bilinear shape functions at (ξ, η).
 pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
-    CORNERS.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
+    NODE_COORDINATES.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
 }
 
 /// Inverse transpose and determinant of the Jacobian ∂(x, y)/∂(ξ, η) at a point.
@@ -238,7 +242,8 @@ pub(super) struct Jacobian {
 
 impl Jacobian {
     pub(super) fn at<const D: usize>(point: [f64; 2], coordinates: &[[f64; D]]) -> Self {
-        let (j, determinant) = derivatives(&natural_slopes(point), coordinates);
+        let j = tangents(&natural_slopes(point), coordinates);
+        let determinant = determinant(&j);
         let inverse = [
             [j[1][1] / determinant, -j[1][0] / determinant],
             [-j[0][1] / determinant, j[0][0] / determinant],
@@ -257,11 +262,11 @@ impl Jacobian {
     }
 }
 
-/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions, and its determinant.
-pub(super) fn derivatives<const D: usize>(
+/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions.
+pub(super) fn tangents<const D: usize>(
     natural: &[[f64; 2]],
     coordinates: &[[f64; D]],
-) -> ([[f64; 2]; 2], f64) {
+) -> [[f64; 2]; 2] {
     let mut j = [[0.0; 2]; 2];
     for (slope, node) in natural.iter().zip(coordinates) {
         for axis in 0..2 {
@@ -269,10 +274,15 @@ pub(super) fn derivatives<const D: usize>(
             j[axis][1] += slope[1] * node[axis];
         }
     }
-    (j, j[0][0] * j[1][1] - j[0][1] * j[1][0])
+    j
+}
+
+/// Determinant of a matrix of order 2.
+pub(super) fn determinant(j: &[[f64; 2]; 2]) -> f64 {
+    j[0][0] * j[1][1] - j[0][1] * j[1][0]
 }
 
 /// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
 pub(super) fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
-    CORNERS.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
+    NODE_COORDINATES.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
 }

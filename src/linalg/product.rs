@@ -8,8 +8,8 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 pub(crate) use pulp::{Scalar, Simd, WithSimd};
 
-/// Number of rows read together.
-pub(super) const ROWS: usize = 4;
+/// Number of matrix rows that one pass over a vector reads.
+pub(super) const ROWS_AT_ONCE: usize = 4;
 
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
@@ -41,10 +41,11 @@ impl WithSimd for MultiplyAdd<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix, factor, x, y } = self;
         let columns = x.len();
-        let mut blocks = matrix.chunks_exact(ROWS * columns);
-        let mut outputs = y.chunks_exact_mut(ROWS);
+        let mut blocks = matrix.chunks_exact(ROWS_AT_ONCE * columns);
+        let mut outputs = y.chunks_exact_mut(ROWS_AT_ONCE);
         for (block, y) in blocks.by_ref().zip(outputs.by_ref()) {
-            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            let rows: [&[f64]; ROWS_AT_ONCE] =
+                std::array::from_fn(|k| &block[k * columns..][..columns]);
             for (y, sum) in y.iter_mut().zip(dots(simd, rows, x)) {
                 *y += factor * sum;
             }
@@ -70,10 +71,11 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix, factor, x, y } = self;
         let columns = y.len();
-        let mut blocks = matrix.chunks_exact(ROWS * columns);
-        let mut inputs = x.chunks_exact(ROWS);
+        let mut blocks = matrix.chunks_exact(ROWS_AT_ONCE * columns);
+        let mut inputs = x.chunks_exact(ROWS_AT_ONCE);
         for (block, x) in blocks.by_ref().zip(inputs.by_ref()) {
-            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            let rows: [&[f64]; ROWS_AT_ONCE] =
+                std::array::from_fn(|k| &block[k * columns..][..columns]);
             add_rows(simd, std::array::from_fn(|k| factor * x[k]), rows, y);
         }
         let rest = blocks.remainder().chunks_exact(columns);
@@ -85,13 +87,14 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
 
 /// Σ aᵢ xᵢ for four rows of the length of x.
 #[inline(always)]
-fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
+fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS_AT_ONCE], x: &[f64]) -> [f64; ROWS_AT_ONCE] {
     // An addition waits for the previous one to the same sum, so each row has two sums.
-    let mut sums = [simd.splat_f64s(0.0); 2 * ROWS];
+    let mut sums = [simd.splat_f64s(0.0); 2 * ROWS_AT_ONCE];
     let (x, x_tail) = S::as_simd_f64s(x);
     let ((a, a_tail), (b, b_tail)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
     let ((c, c_tail), (d, d_tail)) = (S::as_simd_f64s(c), S::as_simd_f64s(d));
-    let (pairs, n) = (x.chunks_exact(2), x.len());
+    let n = x.len();
+    let pairs = x.chunks_exact(2);
     let odd = pairs.remainder();
     let rows = a.chunks_exact(2).zip(b.chunks_exact(2));
     let rows = rows.zip(c.chunks_exact(2).zip(d.chunks_exact(2)));
@@ -119,17 +122,17 @@ fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS
 #[inline(always)]
 pub(crate) fn add_rows<S: Simd>(
     simd: S,
-    factors: [f64; ROWS],
-    rows: [&[f64]; ROWS],
+    factors: [f64; ROWS_AT_ONCE],
+    rows: [&[f64]; ROWS_AT_ONCE],
     y: &mut [f64],
 ) {
-    let [p, q, r, s] = factors.map(|factor| simd.splat_f64s(factor));
+    let splat = factors.map(|factor| simd.splat_f64s(factor));
     let [a, b, c, d] = rows.map(S::as_simd_f64s);
     let (y, y_tail) = S::as_mut_simd_f64s(y);
     let rows = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
     for (y, ((a, b), (c, d))) in y.iter_mut().zip(rows) {
-        let first = simd.mul_add_e_f64s(*b, q, simd.mul_add_e_f64s(*a, p, *y));
-        *y = simd.mul_add_e_f64s(*d, s, simd.mul_add_e_f64s(*c, r, first));
+        let first_two = simd.mul_add_e_f64s(*b, splat[1], simd.mul_add_e_f64s(*a, splat[0], *y));
+        *y = simd.mul_add_e_f64s(*d, splat[3], simd.mul_add_e_f64s(*c, splat[2], first_two));
     }
     for (i, y) in y_tail.iter_mut().enumerate() {
         for (row, factor) in [a, b, c, d].iter().zip(factors) {
@@ -141,17 +144,18 @@ pub(crate) fn add_rows<S: Simd>(
 /// y ← y + factor · row.
 #[inline(always)]
 pub(crate) fn add_row<S: Simd>(simd: S, factor: f64, row: &[f64], y: &mut [f64]) {
-    let wide = simd.splat_f64s(factor);
+    let splat_factor = simd.splat_f64s(factor);
     let ((row, row_tail), (y, y_tail)) = (S::as_simd_f64s(row), S::as_mut_simd_f64s(y));
     for (y, value) in y.iter_mut().zip(row) {
-        *y = simd.mul_add_e_f64s(*value, wide, *y);
+        *y = simd.mul_add_e_f64s(*value, splat_factor, *y);
     }
     y_tail.iter_mut().zip(row_tail).for_each(|(y, value)| *y += factor * value);
 }
 
 /// Row-major A Bᵀ for row-major A and B with `columns` columns.
 pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
-    let (m, n) = (a.len() / columns.max(1), b.len() / columns.max(1));
+    let m = a.len() / columns.max(1);
+    let n = b.len() / columns.max(1);
     let mut products = vec![0.0; m * n];
     matmul(
         MatMut::from_row_major_slice_mut(&mut products, m, n),
@@ -196,7 +200,8 @@ pub(crate) fn add_combined_rows(
     factor: f64,
     sum: &mut [f64],
 ) {
-    let (m, k) = (vectors.len() / columns.max(1), sum.len() / columns.max(1));
+    let m = vectors.len() / columns.max(1);
+    let k = sum.len() / columns.max(1);
     matmul(
         MatMut::from_row_major_slice_mut(sum, k, columns),
         Accum::Add,
@@ -224,7 +229,8 @@ pub(crate) fn mixed(values: &[f64]) -> f64 {
 
 /// Σ |xᵢ|.
 pub(crate) fn magnitude(x: &[f64]) -> f64 {
-    let (chunks, mut sums) = (x.chunks_exact(8), [0.0; 8]);
+    let chunks = x.chunks_exact(8);
+    let mut sums = [0.0; 8];
     let tail: f64 = chunks.remainder().iter().map(|x| x.abs()).sum();
     for x in chunks {
         for k in 0..8 {
@@ -261,7 +267,8 @@ impl WithSimd for Dot<'_> {
         let (y, y_tail) = S::as_simd_f64s(&self.y[..length]);
         // An addition waits for the previous one to the same sum, so there are four sums.
         let mut sums = [simd.splat_f64s(0.0); 4];
-        let (x, y) = (x.chunks_exact(4), y.chunks_exact(4));
+        let x = x.chunks_exact(4);
+        let y = y.chunks_exact(4);
         let rest = x.remainder().iter().zip(y.remainder());
         let tail = x_tail.iter().zip(y_tail);
         let Some(weights) = self.weights else {

@@ -5,7 +5,7 @@
 use super::sampled::{At, Functions, Highest};
 use super::slowness::{Medium, surface_motion, surface_motion_across};
 use crate::error::Result;
-use crate::linalg::{Complex, Number};
+use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
 
 /// Prescribed motion of an inclined wave, at the depth of the base's top.
@@ -66,7 +66,7 @@ impl<'a> Surface<'a> {
     }
 
     #[inline(always)]
-    fn travels<C: Number>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
+    fn travels<C: ComplexArithmetic>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
         let layer = &self.profile.layers()[index];
         let medium = Medium::layer(layer.soil, modulus, s, self.slowness);
         let [a, b] = medium.slownesses();
@@ -77,7 +77,7 @@ impl<'a> Surface<'a> {
 
 impl Functions for Surface<'_> {
     /// A layer and its travels.
-    type LayerValues<C: Number> = (Medium<C>, [C; 2]);
+    type LayerValues<C: ComplexArithmetic> = (Medium<C>, [C; 2]);
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -88,7 +88,7 @@ impl Functions for Surface<'_> {
     }
 
     #[inline(always)]
-    fn evaluate<C: Number>(
+    fn evaluate<C: ComplexArithmetic>(
         &self,
         at: &At<C>,
         moduli: &[C],

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 
 use super::transform::ContourPoint;
 use crate::error::Result;
-use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
+use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorized};
 use crate::soil::SoilProfile;
 
 /// A place on the contour, one in each lane.
@@ -87,14 +87,14 @@ impl<const WAVES: usize> Highest<WAVES> {
 
     /// Modulus of a soil; `modulus` outside the band.
     #[inline(always)]
-    pub(super) fn modulus<C: Number>(&self, index: usize, at: &At<C>, modulus: C) -> C {
+    pub(super) fn modulus<C: ComplexArithmetic>(&self, index: usize, at: &At<C>, modulus: C) -> C {
         let Some([nearness, _]) = at.near else { return modulus };
         modulus + (modulus.like_real(self.moduli[index]) - modulus) * nearness
     }
 
     /// Travels through a layer; `travels` outside the band.
     #[inline(always)]
-    pub(super) fn travels<C: Number>(
+    pub(super) fn travels<C: ComplexArithmetic>(
         &self,
         index: usize,
         at: &At<C>,
@@ -112,7 +112,7 @@ impl<const WAVES: usize> Highest<WAVES> {
 /// Functions of s, one or several, of a layered ground.
 pub(super) trait Functions {
     /// Intermediate values of a layer, kept between calls.
-    type LayerValues<C: Number>;
+    type LayerValues<C: ComplexArithmetic>;
 
     fn profile(&self) -> &SoilProfile;
 
@@ -122,7 +122,7 @@ pub(super) trait Functions {
     /// Overwrites `found` with one number for each function, at one place.
     ///
     /// `moduli`: of the soils from the surface down. Implementations must be `#[inline(always)]`.
-    fn evaluate<C: Number>(
+    fn evaluate<C: ComplexArithmetic>(
         &self,
         at: &At<C>,
         moduli: &[C],
@@ -166,7 +166,7 @@ impl<F: Functions> WithSimd for Evaluation<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { functions, places, s, moduli, found } = self;
-        let (length, count) = (places.len(), Lanes::<S>::COUNT);
+        let (length, count) = (places.len(), Lanes::<S>::LANE_COUNT);
         let zero = Complex::default();
         let directions: Vec<Complex> = s.iter().map(|s| direction(*s)).collect();
         // Hysteretic damping has constant moduli.

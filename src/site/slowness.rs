@@ -17,7 +17,7 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::linalg::Number;
+use crate::linalg::ComplexArithmetic;
 use crate::soil::Soil;
 
 /// Squared vertical slowness of a layer, relative to the value at vertical incidence, that counts as zero.
@@ -45,7 +45,7 @@ pub(super) struct Medium<C> {
 /// A 2 × 2 matrix, row by row.
 type Square<C> = [C; 4];
 
-impl<C: Number> Medium<C> {
+impl<C: ComplexArithmetic> Medium<C> {
     /// Slownesses of a finite layer.
     #[inline(always)]
     pub(super) fn layer(soil: Soil, modulus: C, s: C, p: f64) -> Self {
@@ -153,23 +153,23 @@ impl<C: Number> Medium<C> {
 
 /// 1/c₂² and 1/c₁².
 #[inline(always)]
-fn squares<C: Number>(soil: Soil, modulus: C) -> [C; 2] {
+fn squares<C: ComplexArithmetic>(soil: Soil, modulus: C) -> [C; 2] {
     let shear = modulus.inverse().scale(soil.density());
     [shear, shear.scale(soil.speed_ratio_squared())]
 }
 
 #[inline(always)]
-fn times<C: Number>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
+fn times<C: ComplexArithmetic>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
     [a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h]
 }
 
 #[inline(always)]
-fn scaled<C: Number>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
+fn scaled<C: ComplexArithmetic>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
     [a * scale, b * scale, c * scale, d * scale]
 }
 
 #[inline(always)]
-fn inverse<C: Number>([a, b, c, d]: Square<C>) -> Square<C> {
+fn inverse<C: ComplexArithmetic>([a, b, c, d]: Square<C>) -> Square<C> {
     let scale = (a * d - b * c).inverse();
     scaled([d, -b, -c, a], scale)
 }
@@ -181,7 +181,7 @@ struct Above<C> {
     reflection: Square<C>,
 }
 
-impl<C: Number> Above<C> {
+impl<C: ComplexArithmetic> Above<C> {
     /// The same at the top of the next medium down; without `above`, at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
@@ -209,7 +209,7 @@ impl<C: Number> Above<C> {
 ///
 /// `layers` from the surface down, each with s h a and s h b.
 #[inline(always)]
-pub(super) fn surface_motion<C: Number>(
+pub(super) fn surface_motion<C: ComplexArithmetic>(
     layers: &[(Medium<C>, [C; 2])],
     base: &Medium<C>,
 ) -> Square<C> {
@@ -229,7 +229,7 @@ pub(super) fn surface_motion<C: Number>(
 /// `layers` from the surface down, each with s h a and s h b. Displacement u = (1 + R) A and stress μ b (1 − R) A
 /// are continuous between layers.
 #[inline(always)]
-pub(super) fn surface_motion_across<C: Number>(
+pub(super) fn surface_motion_across<C: ComplexArithmetic>(
     layers: &[(Medium<C>, [C; 2])],
     base: &Medium<C>,
 ) -> C {

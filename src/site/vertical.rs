@@ -12,7 +12,7 @@
 
 use super::sampled::{At, Functions, Highest};
 use crate::error::Result;
-use crate::linalg::{Complex, Number};
+use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Bedrock, Soil, SoilProfile};
 
 /// Kind of wave that travels along a column.
@@ -85,13 +85,13 @@ impl<'a> Column<'a> {
     }
 
     #[inline(always)]
-    fn speed<C: Number>(&self, index: usize, modulus: C) -> [C; 2] {
+    fn speed<C: ComplexArithmetic>(&self, index: usize, modulus: C) -> [C; 2] {
         let speed = modulus.scale(self.soils[index][1]).sqrt();
         [speed, speed.inverse()]
     }
 
     #[inline(always)]
-    fn travel<C: Number>(&self, index: usize, s: C, [_, slowness]: [C; 2]) -> C {
+    fn travel<C: ComplexArithmetic>(&self, index: usize, s: C, [_, slowness]: [C; 2]) -> C {
         s.scale(self.profile.layers()[index].thickness) * slowness
     }
 
@@ -99,7 +99,7 @@ impl<'a> Column<'a> {
     ///
     /// `above`: impedance above; `below`: reciprocal of the impedance below.
     #[inline(always)]
-    fn cross<C: Number>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
+    fn cross<C: ComplexArithmetic>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
         let sum = (up + down).scale(0.5);
         let difference = (up - down).scale(0.5) * above * below;
         [sum + difference, sum - difference]
@@ -109,7 +109,7 @@ impl<'a> Column<'a> {
     ///
     /// `total`: travel Σ κh through all layers. `kept`: values of each soil.
     #[inline(always)]
-    fn sought<C: Number>(
+    fn sought<C: ComplexArithmetic>(
         &self,
         at: &At<C>,
         waves: [C; 2],
@@ -153,7 +153,7 @@ impl<'a> Column<'a> {
 
 impl Functions for Column<'_> {
     /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
-    type LayerValues<C: Number> = [C; 6];
+    type LayerValues<C: ComplexArithmetic> = [C; 6];
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -169,7 +169,7 @@ impl Functions for Column<'_> {
     }
 
     #[inline(always)]
-    fn evaluate<C: Number>(
+    fn evaluate<C: ComplexArithmetic>(
         &self,
         at: &At<C>,
         moduli: &[C],

@@ -9,7 +9,7 @@ use super::grid::Grid;
 use super::polynomials::Polynomials;
 use super::stack::{Column, Elements, Layer, Loads, Moduli, Stack};
 use crate::error::{Error, Result};
-use crate::linalg::Block;
+use crate::linalg::ComplexBlock;
 
 /// Largest number of doublings of the regular columns.
 const DOUBLINGS: usize = 45;
@@ -20,8 +20,8 @@ const DOUBLINGS: usize = 45;
 /// vertical for each. Displacements are integrals over the elements, tractions are constant on them.
 #[derive(Debug, Clone)]
 pub(super) struct Halves {
-    pub(super) symmetric: Block,
-    pub(super) antisymmetric: Block,
+    pub(super) symmetric: ComplexBlock,
+    pub(super) antisymmetric: ComplexBlock,
 }
 
 impl Halves {
@@ -150,7 +150,7 @@ impl Model<'_> {
 
 /// Stiffness of the soil beyond a vertical line, bordered by the loads there.
 struct Side {
-    matrix: Block,
+    matrix: ComplexBlock,
     nodes: usize,
     loads: usize,
 }
@@ -169,8 +169,8 @@ impl Side {
         let (own, order) = (self.nodes, 2 * nodes + loads);
         let mut rest = column.mean(1.0);
         let across = column.mean(-1.0);
-        let mut pivot = self.matrix.part(0..2 * own, 0..2 * own);
-        let mut coupling = Block::zeros(2 * own, order);
+        let mut pivot = self.matrix.submatrix(0..2 * own, 0..2 * own);
+        let mut coupling = ComplexBlock::zeros(2 * own, order);
         // Places and values of each of the column's nodes on this line.
         let alone: Vec<_>;
         let entries = if let Some(entries) = joined {
@@ -191,7 +191,7 @@ impl Side {
                 coupling[(*place, column)] += stiffness * *value;
             }
         }
-        let mut half = Block::zeros(2 * own, 2 * nodes);
+        let mut half = ComplexBlock::zeros(2 * own, 2 * nodes);
         for (row, place, value) in &all {
             for column in 0..2 * nodes {
                 let stiffness =
@@ -219,11 +219,11 @@ impl Side {
     }
 
     /// Compliance of the loads if only the `free` degrees of freedom of this line are not fixed.
-    fn compliance(&self, free: Range<usize>) -> Result<Block> {
+    fn compliance(&self, free: Range<usize>) -> Result<ComplexBlock> {
         let loads = 2 * self.nodes..2 * self.nodes + self.loads;
-        let mut rest = self.matrix.part(loads.clone(), loads.clone());
-        let pivot = self.matrix.part(free.clone(), free.clone());
-        rest.eliminate(&pivot, &self.matrix.part(free, loads))?;
+        let mut rest = self.matrix.submatrix(loads.clone(), loads.clone());
+        let pivot = self.matrix.submatrix(free.clone(), free.clone());
+        rest.eliminate(&pivot, &self.matrix.submatrix(free, loads))?;
         Ok(rest.negated())
     }
 }
@@ -234,7 +234,7 @@ fn mirrored(row: usize, nodes: usize, value: Complex64) -> Complex64 {
 }
 
 /// Stiffness of a side of endless equal columns; `None` if waves do not come to rest in 2^45 of them.
-fn far_columns(mut column: Column, nodes: usize) -> Result<Option<Block>> {
+fn far_columns(mut column: Column, nodes: usize) -> Result<Option<ComplexBlock>> {
     for _ in 0..DOUBLINGS {
         let [sum, difference] = [1.0, -1.0].map(|sign| column.mean(sign));
         if difference.largest() < FADED * sum.largest() {
@@ -246,13 +246,13 @@ fn far_columns(mut column: Column, nodes: usize) -> Result<Option<Block>> {
 }
 
 /// Two equal columns as one, from the stiffness of a side of one, and between both sides.
-fn doubled(own: &Block, across: &Block, nodes: usize) -> Result<Column> {
+fn doubled(own: &ComplexBlock, across: &ComplexBlock, nodes: usize) -> Result<Column> {
     let order = 2 * nodes;
     // In the middle one component is fixed, and the other one is free.
     let halved = |free: Range<usize>| {
         let mut half = own.clone();
-        let pivot = own.part(free.clone(), free.clone());
-        half.eliminate(&pivot, &across.part(free, 0..order))?;
+        let pivot = own.submatrix(free.clone(), free.clone());
+        half.eliminate(&pivot, &across.submatrix(free, 0..order))?;
         Ok::<_, Error>(half)
     };
     Ok(Column { symmetric: halved(nodes..order)?, antisymmetric: halved(0..nodes)? })

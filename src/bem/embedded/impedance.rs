@@ -13,7 +13,7 @@ use super::motion::KinematicMotion;
 use super::soil::{FreeFieldAtFaces, Mesh, TrenchSoil};
 use crate::bem::layered::{StripImpedance, impedance_watch, points, stiffnesses};
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
-use crate::linalg::{Block, Complex, DenseFactor};
+use crate::linalg::{Complex, ComplexBlock, DenseFactor};
 use crate::soil::Bedrock;
 
 /// hh, vv, rr and hr of the stiffness; horizontal, rotation and vertical of the motion.
@@ -217,7 +217,11 @@ impl<'a> Faces<'a> {
 /// Aᵀ F⁻¹ A, and Aᵀ (F⁻¹ u − t).
 type Reduced = ([[Complex64; MOTIONS]; MOTIONS], [Complex64; MOTIONS]);
 
-fn reduced(compliance: &Block, motions: &[[f64; MOTIONS]], field: &Field) -> Result<Reduced> {
+fn reduced(
+    compliance: &ComplexBlock,
+    motions: &[[f64; MOTIONS]],
+    field: &Field,
+) -> Result<Reduced> {
     const COLUMNS: usize = MOTIONS + 1;
     let order = compliance.rows();
     let rows = motions.iter().zip(&field.displacements);

@@ -4,7 +4,7 @@ use super::soil::TrenchSoil;
 use crate::bem::layered::{Compliance, Compliances, surface_outlook};
 use crate::error::Result;
 use crate::history::TRENCH_KINDS;
-use crate::linalg::{Block, Complex};
+use crate::linalg::{Complex, ComplexBlock};
 use crate::soil::SoilProfile;
 
 /// Compliances of the classes of [`PairClasses::around_trench`](crate::history::PairClasses::around_trench).
@@ -41,7 +41,7 @@ impl TrenchPairs {
     /// Overwrites `values`, one per class, with the compliances for the halves of fields.
     pub(super) fn read(
         &self,
-        [symmetric, antisymmetric]: [&Block; 2],
+        [symmetric, antisymmetric]: [&ComplexBlock; 2],
         values: &mut [[Complex; TRENCH_KINDS]],
     ) {
         let (same, across) = values.split_at_mut(values.len() / 2);

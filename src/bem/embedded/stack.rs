@@ -6,7 +6,7 @@ use realfft::num_complex::Complex64;
 
 use super::polynomials::{Integrals, Polynomials, lagrange, nodes};
 use crate::error::Result;
-use crate::linalg::Block;
+use crate::linalg::ComplexBlock;
 
 /// Elastic constants of a soil at a Laplace variable s.
 #[derive(Debug, Clone, Copy)]
@@ -110,8 +110,8 @@ impl Parity {
         &self,
         width: f64,
         [nodes, first]: [usize; 2],
-        sides: &mut Block,
-        coupling: &mut Block,
+        sides: &mut ComplexBlock,
+        coupling: &mut ComplexBlock,
     ) {
         for (component, means) in self.means.iter().enumerate() {
             let (side, load) = (component * nodes, 2 * nodes + first + component);
@@ -153,17 +153,17 @@ pub(super) struct Elements {
 /// Rows: horizontal and vertical displacement of the nodes of a side, then loads on the top edge. The energy
 /// counts for one side.
 pub(super) struct Column {
-    pub(super) symmetric: Block,
-    pub(super) antisymmetric: Block,
+    pub(super) symmetric: ComplexBlock,
+    pub(super) antisymmetric: ComplexBlock,
 }
 
 impl Column {
     /// Half the sum of both matrices, or for a `sign` of −1 of their difference.
     ///
     /// The sum is the stiffness of a side, and the difference the stiffness between a side and the mirrored other one.
-    pub(super) fn mean(&self, sign: f64) -> Block {
+    pub(super) fn mean(&self, sign: f64) -> ComplexBlock {
         let order = self.symmetric.rows();
-        let mut mean = Block::zeros(order, order);
+        let mut mean = ComplexBlock::zeros(order, order);
         for j in 0..order {
             for i in 0..order {
                 mean[(i, j)] = (self.symmetric[(i, j)] + self.antisymmetric[(i, j)] * sign) * 0.5;
@@ -208,14 +208,14 @@ impl Elements {
         stack: &Stack,
         soils: &[Moduli],
         loads: Loads,
-    ) -> Result<Block> {
+    ) -> Result<ComplexBlock> {
         let count = stack.nodes();
         // Functions inside the column, of u_x and then of u_z.
         let inner = parity.counts.iter().sum::<usize>() - 2;
-        let mut sides = Block::zeros(2 * count + loads.count, 2 * count + loads.count);
+        let mut sides = ComplexBlock::zeros(2 * count + loads.count, 2 * count + loads.count);
         let edges = stack.0.len() * inner;
-        let mut pivot = Block::zeros(edges, edges);
-        let mut coupling = Block::zeros(edges, 2 * count + loads.count);
+        let mut pivot = ComplexBlock::zeros(edges, edges);
+        let mut coupling = ComplexBlock::zeros(edges, 2 * count + loads.count);
         let mut node = 0;
         for (k, layer) in stack.0.iter().enumerate() {
             let down = &self.down[usize::from(layer.degree != self.down[0].degree)];
@@ -301,7 +301,7 @@ impl Element<'_> {
     }
 
     /// Matrix of the functions that do not vanish on all sides, and these functions.
-    fn condensed(&self) -> Result<(Block, Vec<Part>)> {
+    fn condensed(&self) -> Result<(ComplexBlock, Vec<Part>)> {
         let degree = self.down.degree;
         let (mut kept, mut parts, mut inside) = (vec![], vec![], vec![]);
         for component in 0..2 {
@@ -322,7 +322,7 @@ impl Element<'_> {
             }
         }
         let matrix = |rows: &[[usize; 3]], columns: &[[usize; 3]]| {
-            let mut block = Block::zeros(rows.len(), columns.len());
+            let mut block = ComplexBlock::zeros(rows.len(), columns.len());
             for (j, column) in columns.iter().enumerate() {
                 for (i, row) in rows.iter().enumerate() {
                     block[(i, j)] = self.stiffness(*row, *column);

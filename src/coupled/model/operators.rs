@@ -7,7 +7,7 @@ use crate::contact::Delassus;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition};
 
@@ -36,7 +36,7 @@ impl Operators {
     pub(crate) fn new(
         model: &Model,
         base: &PlacedBase,
-        soil: &Arc<Thinned>,
+        soil: &Arc<CompressedMatrix>,
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Self {

@@ -21,8 +21,8 @@ use corners::Corners;
 use frame::Frame;
 use quad_bending::QuadBending;
 use quad_membrane::QuadMembrane;
-use section::Section;
-use surface::Surface;
+use section::ShellSection;
+use surface::MiddleSurface;
 use triangle_bending::TriangleBending;
 use triangle_membrane::TriangleMembrane;
 
@@ -99,20 +99,23 @@ impl Shell {
     /// bending stiffness or mass is not.
     pub fn new(nodes: impl AsRef<[usize]>, material: Material, thickness: f64) -> Result<Self> {
         let nodes = nodes.as_ref();
-        let create = || {
-            let (found, needed) = (nodes.len(), 4);
-            let quantity = "list of nodes of a shell (three, or four)";
-            let corners = Corners::of(nodes).ok_or(Error::Size { quantity, found, needed })?;
-            let differ = (1..found).all(|k| !nodes[..k].contains(&nodes[k]));
-            require_part("nodes of a shell", differ, "each only once")?;
-            positive("thickness of a shell", thickness)?;
-            let shared = [false; 3];
-            let shell = Self { nodes: corners, material, thickness, shared };
-            positive("bending stiffness of a shell", shell.section().bending()[0][0])?;
-            finite("mass per area of a shell", material.density() * thickness)?;
-            Ok(shell)
-        };
-        create().map_err(|error| within(error, nodes))
+        Self::unnamed(nodes, material, thickness).map_err(|error| within(error, nodes))
+    }
+
+    /// [`Shell::new`] with errors that do not name the nodes.
+    fn unnamed(nodes: &[usize], material: Material, thickness: f64) -> Result<Self> {
+        let corners = Corners::of(nodes).ok_or(Error::Size {
+            quantity: "list of nodes of a shell (three, or four)",
+            found: nodes.len(),
+            needed: 4,
+        })?;
+        let all_differ = (1..nodes.len()).all(|k| !nodes[..k].contains(&nodes[k]));
+        require_part("nodes of a shell", all_differ, "each only once")?;
+        positive("thickness of a shell", thickness)?;
+        let shell = Self { nodes: corners, material, thickness, shared: [false; 3] };
+        positive("bending stiffness of a shell", shell.section().bending()[0][0])?;
+        finite("mass per area of a shell", material.density() * thickness)?;
+        Ok(shell)
     }
 
     /// Matches triangles to the quadrilaterals with which they share sides.
@@ -148,8 +151,8 @@ impl Shell {
         }
         for shell in shells {
             if let Corners::Three(nodes) = shell.nodes {
-                let is_shared = |k: usize| sides.contains(&side(nodes[k], nodes[(k + 1) % 3]));
-                shell.shared = [0, 1, 2].map(is_shared);
+                shell.shared =
+                    [0, 1, 2].map(|k| sides.contains(&side(nodes[k], nodes[(k + 1) % 3])));
             }
         }
     }
@@ -169,8 +172,8 @@ impl Shell {
     pub fn areas(&self, coordinates: &[[f64; 3]]) -> Result<Vec<f64>> {
         self.check(coordinates)?;
         Ok(match self.points(coordinates)? {
-            Corners::Four(nodes) => Surface::quadrilateral(&nodes).areas().to_vec(),
-            Corners::Three(nodes) => Surface::triangle(&nodes).areas().to_vec(),
+            Corners::Four(nodes) => MiddleSurface::quadrilateral(&nodes).areas().to_vec(),
+            Corners::Three(nodes) => MiddleSurface::triangle(&nodes).areas().to_vec(),
         })
     }
 
@@ -188,8 +191,8 @@ impl Shell {
     ) -> Result<Vec<[f64; 3]>> {
         self.check(coordinates)?;
         let vectors = match self.points(coordinates)? {
-            Corners::Four(nodes) => Surface::quadrilateral(&nodes).vectors.to_vec(),
-            Corners::Three(nodes) => Surface::triangle(&nodes).vectors.to_vec(),
+            Corners::Four(nodes) => MiddleSurface::quadrilateral(&nodes).vectors.to_vec(),
+            Corners::Three(nodes) => MiddleSurface::triangle(&nodes).vectors.to_vec(),
         };
         Ok(vectors.into_iter().map(|area| area.map(|part| pressure * part)).collect())
     }
@@ -217,36 +220,41 @@ impl Shell {
             Corners::Four(nodes) => {
                 let frame = Frame::quadrilateral(&nodes);
                 let points = &frame.points;
-                let [membrane, bending] = frame.local::<12>(displacement);
-                let membrane = QuadMembrane { points, section }.corner_strains(&membrane);
-                let bending = QuadBending { points, section }.corner_strains(&bending);
+                let local = frame.local::<12>(displacement);
+                let membrane = QuadMembrane { points, section }.corner_strains(&local.membrane);
+                let bending = QuadBending { points, section }.corner_strains(&local.bending);
                 section.resultants(frame.axes, &membrane, &bending)
             }
             Corners::Three(nodes) => {
                 let frame = Frame::triangle(&nodes);
                 let points = &frame.points;
-                let [membrane, bending] = frame.local::<9>(displacement);
+                let local = frame.local::<9>(displacement);
                 let membrane = TriangleMembrane { points, section, shared: self.shared }
-                    .corner_strains(&membrane);
-                let bending = TriangleBending { points, section }.corner_strains(&bending);
+                    .corner_strains(&local.membrane);
+                let bending = TriangleBending { points, section }.corner_strains(&local.bending);
                 section.resultants(frame.axes, &membrane, &bending)
             }
         })
     }
 
-    fn section(&self) -> Section {
-        Section::new(&self.material, self.thickness)
+    fn section(&self) -> ShellSection {
+        ShellSection::new(&self.material, self.thickness)
     }
 
     /// Coordinates of the corners, one for each node.
     fn points(&self, coordinates: &[[f64; 3]]) -> Result<Corners<[f64; 3]>> {
-        let (quantity, found) = ("coordinates of a shell", coordinates.len());
+        let found = coordinates.len();
         let needed = self.nodes().len();
         let points = Corners::of(coordinates).filter(|_| found == needed);
-        points.ok_or(Error::Size { quantity, found, needed })
+        points.ok_or(Error::Size { quantity: "coordinates of a shell", found, needed })
     }
 
-    fn add_mass<const N: usize>(&self, surface: &Surface<N>, kind: MassKind, matrix: &mut [f64]) {
+    fn add_mass<const N: usize>(
+        &self,
+        surface: &MiddleSurface<N>,
+        kind: MassKind,
+        matrix: &mut [f64],
+    ) {
         let translation = self.material.density() * self.thickness;
         let rotation = translation * self.thickness.powi(2) / 12.0;
         for i in 0..N {
@@ -267,7 +275,7 @@ fn side(from: usize, to: usize) -> [usize; 2] {
     [from.min(to), from.max(to)]
 }
 
-/// The fault of a shell with its nodes.
+/// An error of a shell, with the shell's nodes.
 fn within(error: Error, nodes: &[usize]) -> Error {
     error.within(format!("shell on nodes {nodes:?}"))
 }
@@ -319,9 +327,11 @@ impl Element for Shell {
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         match self.points(coordinates) {
             Ok(Corners::Four(nodes)) => {
-                self.add_mass(&Surface::quadrilateral(&nodes), kind, matrix);
+                self.add_mass(&MiddleSurface::quadrilateral(&nodes), kind, matrix);
             }
-            Ok(Corners::Three(nodes)) => self.add_mass(&Surface::triangle(&nodes), kind, matrix),
+            Ok(Corners::Three(nodes)) => {
+                self.add_mass(&MiddleSurface::triangle(&nodes), kind, matrix)
+            }
             Err(_) => (),
         }
     }

@@ -24,7 +24,7 @@ use crate::error::Result;
 use crate::geometry::{Lattice, PLANE, SERIES, SPACE};
 use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::pair_classes::{KINDS, PairClasses};
-use crate::linalg::smooth;
+use crate::linalg::next_smooth_even;
 
 /// Smallest number of elements for which the transform along the surface is used.
 ///
@@ -75,7 +75,7 @@ impl ElementGrid {
     /// The lattice of the elements; `None` if they are not on a lattice, or most of its cells are empty.
     pub(super) fn from_pairs(pairs: &PairClasses) -> Option<Self> {
         if let Some((lattice, cells)) = pairs.plan() {
-            let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
+            let lengths = lattice.counts.map(|count| next_smooth_even(2 * count - 1));
             let cells = cells.iter().map(|[i, j]| j * lengths[0] + i).collect();
             let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
             let rows = lattice.counts[1];
@@ -114,7 +114,7 @@ impl ElementGrid {
                 }
             }
         }
-        let lengths = [smooth(2 * classes.len() - 1), 1];
+        let lengths = [next_smooth_even(2 * classes.len() - 1), 1];
         Some(Self::new(cells, Offsets::Strip(classes), scale, lengths, 1))
     }
 

@@ -3,14 +3,14 @@
 use crate::error::Result;
 use crate::geometry::{Lattice, SERIES};
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::linalg::{add_combined_rows, smooth};
+use crate::linalg::{add_combined_rows, next_smooth_even};
 
 /// Number of lags evaluated together.
 pub(super) const CHUNK: usize = 512;
 
 /// Number of wavenumbers of a lattice in plan: all, and only those with spectra.
 pub(crate) fn waves_in_plan(lattice: &Lattice) -> [usize; 2] {
-    let [along, across] = lattice.counts.map(|count| smooth(2 * count - 1));
+    let [along, across] = lattice.counts.map(|count| next_smooth_even(2 * count - 1));
     [across, across / 2 + 1].map(|rows| (along / 2 + 1) * rows)
 }
 

@@ -226,9 +226,10 @@ impl GmshSpaceMesh {
             let own = &cell.nodes[..];
             let faces: Vec<Vec<usize>> = match cell.kind.dimension() {
                 2 => vec![own.to_vec()],
-                3 => {
-                    Hex8::FACES.iter().map(|face| face.map(|corner| own[corner]).to_vec()).collect()
-                }
+                3 => Hex8::FACE_CORNERS
+                    .iter()
+                    .map(|face| face.map(|corner| own[corner]).to_vec())
+                    .collect(),
                 _ => continue,
             };
             for face in faces {
