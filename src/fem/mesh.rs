@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::element::{Element, MassKind};
-use super::element_face::ElementFace;
+use super::duplicate::{element_key, is_duplicate};
+use super::element::Element;
 use super::force_rotation::ForceRotation;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
@@ -15,9 +15,6 @@ use crate::geometry::{Direction, FRAME, IN_SPACE};
 ///
 /// It is far below the size of any element and far above the rounding of a coordinate.
 const COINCIDENCE_TOLERANCE: f64 = 1e-6;
-
-/// Relative difference up to which matrix entries count as equal: rounding.
-const MATRIX_ENTRY_TOLERANCE: f64 = 1e-12;
 
 /// Nodes and elements, in the plane or in space.
 ///
@@ -149,7 +146,10 @@ impl Mesh {
         element.check(&self.coordinates(nodes))?;
         let key = element_key(&element);
         let same_place = self.elements_at.get(&key).map_or(&[][..], Vec::as_slice);
-        if let Some(&first) = same_place.iter().find(|&&other| self.is_duplicate(other, &element)) {
+        if let Some(first) = same_place
+            .iter()
+            .find(|other| is_duplicate(&element, self.elements[**other].as_ref(), &self.nodes))
+        {
             let item = format!("element on nodes {nodes:?}");
             let reason = format!("it lies where element {first} is, and would count twice");
             return Err(Error::part(item, reason));
@@ -157,61 +157,6 @@ impl Mesh {
         self.elements_at.entry(key).or_default().push(self.elements.len());
         self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
-    }
-
-    /// Whether `element` is a duplicate of the element `other` at the same nodes.
-    fn is_duplicate(&self, other: usize, element: &dyn Element) -> bool {
-        let other = self.elements[other].as_ref();
-        let is_solid = |candidate: &dyn Element| candidate.faces().iter().any(ElementFace::is_side);
-        if is_solid(element) || is_solid(other) {
-            return is_solid(element) && is_solid(other);
-        }
-        let nodes = element.nodes();
-        let directions = element.directions();
-        let order = nodes.len() * directions.len();
-        let same_directions = other.directions() == directions;
-        if nodes.len() < 2 || !same_directions || [element.order(), other.order()] != [order; 2] {
-            return false;
-        }
-        let matrices = self.matrices_by_node(element);
-        let other_matrices = self.matrices_by_node(other);
-        let has_mass = matrices[order * order..2 * order * order].iter().any(|mass| *mass != 0.0);
-        has_mass
-            && matrices
-                .iter()
-                .zip(&other_matrices)
-                .all(|(a, b)| (a - b).abs() <= MATRIX_ENTRY_TOLERANCE * a.abs().max(b.abs()))
-    }
-
-    /// Stiffness, mass and damping of an element, with its nodes in ascending order.
-    fn matrices_by_node(&self, element: &dyn Element) -> Vec<f64> {
-        let nodes = element.nodes();
-        let points = self.coordinates(nodes);
-        let order = element.order();
-        let directions = element.directions().len();
-        let mut ascending: Vec<usize> = (0..nodes.len()).collect();
-        ascending.sort_by_key(|&k| nodes[k]);
-        let dofs: Vec<usize> =
-            ascending.into_iter().flat_map(|k| k * directions..(k + 1) * directions).collect();
-        let mut stiffness = vec![0.0; order * order];
-        let mut mass = vec![0.0; order * order];
-        let mut damping = vec![0.0; order * order];
-        element.stiffness(&points, &mut stiffness);
-        element.mass(&points, MassKind::default(), &mut mass);
-        element.damping(&points, &mut damping);
-        let mut matrices = Vec::with_capacity(3 * order * order);
-        for matrix in [stiffness, mass, damping] {
-            let largest = matrix.iter().fold(0.0_f64, |largest, entry| largest.max(entry.abs()));
-            for row in &dofs {
-                for column in &dofs {
-                    // An entry that cancels keeps a rounding error, which depends on the order of the nodes.
-                    let entry = matrix[row * order + column];
-                    let is_rounding = entry.abs() <= MATRIX_ENTRY_TOLERANCE * largest;
-                    matrices.push(if is_rounding { 0.0 } else { entry });
-                }
-            }
-        }
-        matrices
     }
 
     /// Coordinates [x, y, z] of all nodes, m; z is zero in the plane.
@@ -384,18 +329,6 @@ impl Mesh {
     pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&index| self.nodes[index]).collect()
     }
-}
-
-/// Key of an element's place: the nodes of its faces, or all nodes without faces, sorted.
-fn element_key(element: &dyn Element) -> Vec<usize> {
-    let mut key: Vec<usize> =
-        element.faces().iter().flat_map(ElementFace::corners).copied().collect();
-    if key.is_empty() {
-        key = element.nodes().to_vec();
-    }
-    key.sort_unstable();
-    key.dedup();
-    key
 }
 
 /// Error unless all coordinates of a node are finite.

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use super::convolution::{ConvolutionHistory, check_inputs};
-use super::convolution_weights::{ConvolutionWeights, all_kinds};
+use super::convolution_weights::{ConvolutionWeights, read_coefficients};
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
-/// Number of steps summed together, so that tractions and coefficients stay in cache.
-const CHUNK: usize = 512;
+/// Number of steps summed for all pairs in turn, so that tractions and coefficients stay in cache.
+const STEPS_PER_CHUNK: usize = 512;
 
 /// Direct summation of the history: the reference for all other methods.
 ///
@@ -42,7 +42,7 @@ impl DirectHistory {
         Self { kernel, capacity: 0, kinds, traction, steps: 0, memory }
     }
 
-    /// Limits the memory to `bytes`: more steps are [`Error::Memory`].
+    /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
     pub(super) fn within(mut self, bytes: usize) -> Self {
         self.memory = self.memory.min(bytes as f64);
         self
@@ -50,7 +50,8 @@ impl DirectHistory {
 
     /// Stores the coefficients of the lags up to `lags`.
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
+        let old = self.capacity;
+        let new = lags.max(2 * self.capacity).max(64);
         let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
         let needed = 8.0 * numbers as f64 * new as f64;
         if needed > self.memory {
@@ -62,19 +63,19 @@ impl DirectHistory {
                 remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
             }));
         }
-        let own = self.kernel.classes().layout().components();
+        let diagonal_kinds = self.kernel.classes().layout().components();
         let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
         self.kernel.prepare(new, observer)?;
         for class in 0..self.kernel.classes().count() {
             let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
             let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
-            all_kinds(&*self.kernel, class, old + 1, &mut values)?;
+            read_coefficients(&*self.kernel, class, old + 1, &mut values)?;
             for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
-                if kind < own {
+                if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);
                 } else if last > stored[class].len() {
-                    let kept = last - old.min(last);
-                    prepend_reversed(&mut stored[class], &lags[..kept]);
+                    let coupled = last - old.min(last);
+                    prepend_reversed(&mut stored[class], &lags[..coupled]);
                 }
             }
         }
@@ -125,19 +126,18 @@ impl ConvolutionHistory for DirectHistory {
             self.grow(past + 1, &mut unobserved)?;
         }
         // Input m (from 0) acts with lag past + 1 − m.
-        for begin in (0..past).step_by(CHUNK) {
-            let end = (begin + CHUNK).min(past);
+        for begin in (0..past).step_by(STEPS_PER_CHUNK) {
+            let end = (begin + STEPS_PER_CHUNK).min(past);
             self.kernel.classes().each(|[receiver, source], pair, terms| {
                 for term in terms {
                     let factor = term.factor * pair.scale;
                     let lags = &self.kinds[term.kind][pair.class];
                     let first = (past + 1).saturating_sub(lags.len()).max(begin);
                     if first < end && factor != 0.0 {
-                        let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
-                        let [to, from] = term.components;
-                        let traction = &self.traction[layout.place(from, source)];
-                        displacement[layout.place(to, receiver)] +=
-                            factor * dot(&lags[seen], &traction[first..end]);
+                        let range = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
+                        let traction = &self.traction[layout.place(term.components[1], source)];
+                        displacement[layout.place(term.components[0], receiver)] +=
+                            factor * dot(&lags[range], &traction[first..end]);
                     }
                 }
             });

@@ -39,9 +39,9 @@ impl SharedSpectra {
     /// Returns the tables of type `T`, empty at first.
     pub(super) fn tables<T: Default + Send + 'static>(&self) -> Shared<T> {
         let mut tables = lock(&self.stores.tables);
-        let own = tables.iter().find(|(of, _)| *of == TypeId::of::<T>());
-        if let Some(own) = own.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
-            return own;
+        let stored = tables.iter().find(|(id, _)| *id == TypeId::of::<T>());
+        if let Some(stored) = stored.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
+            return stored;
         }
         let new = Shared::<T>::default();
         tables.push((TypeId::of::<T>(), new.clone()));

@@ -110,9 +110,11 @@ impl InterfaceLaw for EarthPressure {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let [normal, tangential] = self.passive_limits(start).conditions(mode, start, [0.0; 2]);
-        let normal = if mode.is_active() { Condition::pressure_is(self.active) } else { normal };
-        [normal, tangential]
+        let mut conditions = self.passive_limits(start).conditions(mode, start, [0.0; 2]);
+        if mode.is_active() {
+            conditions[0] = Condition::pressure_is(self.active);
+        }
+        conditions
     }
 
     fn next_mode(
@@ -123,8 +125,7 @@ impl InterfaceLaw for EarthPressure {
         tolerance: Tolerance,
     ) -> Mode {
         let limits = self.passive_limits(start);
-        let modes = [mode, self.modes()[0]];
-        let next = limits.next_mode(modes, start, trial, tolerance, [0.0; 2]);
+        let next = limits.next_mode(mode, self.modes()[0], start, trial, tolerance, [0.0; 2]);
         if self.opens() {
             return next;
         }

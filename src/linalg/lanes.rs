@@ -50,18 +50,12 @@ impl<S: Simd> Lanes<S> {
     /// Loads `numbers` into the lanes; lanes beyond repeat the last number.
     #[inline(always)]
     pub(crate) fn load(simd: S, numbers: &[Complex]) -> Self {
-        let last = numbers.len() - 1;
-        let mut re = [0.0; MAX_LANES];
-        let mut im = [0.0; MAX_LANES];
-        for k in 0..Self::LANE_COUNT {
-            re[k] = numbers[k.min(last)].re;
-            im[k] = numbers[k.min(last)].im;
-        }
-        Self {
-            simd,
-            re: S::as_simd_f64s(&re[..Self::LANE_COUNT]).0[0],
-            im: S::as_simd_f64s(&im[..Self::LANE_COUNT]).0[0],
-        }
+        let at: [usize; MAX_LANES] = std::array::from_fn(|k| k.min(numbers.len() - 1));
+        let re = at.map(|k| numbers[k].re);
+        let im = at.map(|k| numbers[k].im);
+        let re = S::as_simd_f64s(&re[..Self::LANE_COUNT]).0[0];
+        let im = S::as_simd_f64s(&im[..Self::LANE_COUNT]).0[0];
+        Self { simd, re, im }
     }
 
     /// Writes the first lanes to `numbers`.
@@ -83,8 +77,7 @@ impl<S: Simd> Lanes<S> {
 
     /// `x` where the mask is set, `y` elsewhere.
     ///
-    /// It selects bits, because pulp's function for bits is compiled for its caller, and its function for numbers is
-    /// not.
+    /// It selects bits: pulp's function for bits is compiled for its caller, its function for numbers is not.
     #[inline(always)]
     fn select(simd: S, mask: S::m64s, x: S::f64s, y: S::f64s) -> S::f64s {
         let x_bits = simd.transmute_u64s_f64s(x);
@@ -302,6 +295,7 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
 mod tests {
     use super::super::{WithSimd, vectorized};
     use super::*;
+    use std::f64::consts::FRAC_PI_4;
 
     /// A function of one number, written for lanes and for single ones.
     trait Function {
@@ -378,8 +372,7 @@ mod tests {
         }
         // Pure decay and pure rotation, and both; quarters of a turn.
         let mut numbers = spread(&[1e-9, 0.3, 1.0, 20.0, 300.0, 700.0]);
-        let quarter = std::f64::consts::FRAC_PI_4;
-        numbers.extend((-400..400).map(|k| Complex::new(0.0, quarter * f64::from(k))));
+        numbers.extend((-400..400).map(|k| Complex::new(0.0, FRAC_PI_4 * f64::from(k))));
         numbers.extend((0..400).map(|k| Complex::new(-0.5, 2.47e5 * f64::from(k))));
         numbers.extend((0..400).map(|k| Complex::new(-1.8 * f64::from(k), 1e-3)));
         let computed = each(&Exponential, &numbers);
@@ -393,11 +386,11 @@ mod tests {
 
     #[test]
     fn lanes_out_of_range_are_not_finite() {
-        let beyond = [0.0, 1e-200, 1e200].map(Complex::real);
-        let computed = each(&Inverse, &beyond);
-        assert!(computed[..2].iter().flatten().all(|x| !x.is_finite()), "{computed:?}");
+        let inverses = each(&Inverse, &[0.0, 1e-200, 1e200].map(Complex::real));
         let beyond = [[0.0, 1e9], [800.0, 1.0], [f64::NAN, 1.0], [0.0, f64::INFINITY]];
-        let computed = each(&Exponential, &beyond.map(|[re, im]| Complex::new(re, im)));
-        assert!(computed[..2].iter().flatten().all(|x| !x.is_finite()), "{computed:?}");
+        let exponentials = each(&Exponential, &beyond.map(|[re, im]| Complex::new(re, im)));
+        for computed in [inverses, exponentials] {
+            assert!(computed[..2].iter().flatten().all(|x| !x.is_finite()), "{computed:?}");
+        }
     }
 }

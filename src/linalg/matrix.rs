@@ -39,7 +39,7 @@ pub(crate) struct SparseMatrix {
 impl SparseMatrix {
     /// Matrix of the entries that `fill` writes into `triplets`.
     ///
-    /// The order is that of `triplets`, whose entries are overwritten.
+    /// It has the order of `triplets`, whose entries are overwritten.
     pub(crate) fn assembled(
         name: &'static str,
         triplets: &mut Triplets,

@@ -10,10 +10,10 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::sampled::{At, Functions, Highest};
+use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
 use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
-use crate::soil::{Bedrock, Soil, SoilProfile};
+use crate::soil::{Bedrock, SoilProfile};
 
 /// Kind of wave that travels along a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -39,9 +39,9 @@ pub enum ControlPoint {
     Within,
 }
 
-/// Functions of s of a column.
+/// Quantity of a column as a function of s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sought {
+pub(super) enum ColumnQuantity {
     /// Control motion by surface motion without its factor e^x, and x.
     Inverse,
     /// Acceleration at the tops of all layers and of the base, by the control motion.
@@ -52,36 +52,42 @@ pub(super) enum Sought {
 
 /// Functions of a profile for one kind of wave, with unmodified layers or layers modified for samples.
 #[derive(Debug)]
-pub(super) struct Column<'a> {
+pub(super) struct ColumnFunctions<'a> {
     profile: &'a SoilProfile,
     /// Soils from the surface down: density, and M/(μρ) of the wave's stiffness M.
     soils: Vec<[f64; 2]>,
     control: ControlPoint,
-    sought: Sought,
-    highest: Highest<1>,
+    quantity: ColumnQuantity,
+    nyquist: NyquistLayers<1>,
 }
 
-impl<'a> Column<'a> {
+impl<'a> ColumnFunctions<'a> {
     /// Functions of the unmodified layers.
     pub(super) fn exact(
         profile: &'a SoilProfile,
         wave: VerticalWave,
         control: ControlPoint,
-        sought: Sought,
+        quantity: ColumnQuantity,
     ) -> Self {
-        let stiffness = |soil: Soil| match wave {
-            VerticalWave::Shear => 1.0,
-            VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
-        };
-        let of = |soil: Soil| [soil.density(), stiffness(soil) / soil.density()];
-        let soils = profile.soils().map(|(soil, _)| of(soil)).collect();
-        Self { profile, soils, control, sought, highest: Highest::default() }
+        let soils = profile
+            .soils()
+            .map(|(soil, _)| {
+                let stiffness = match wave {
+                    VerticalWave::Shear => 1.0,
+                    VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
+                };
+                [soil.density(), stiffness / soil.density()]
+            })
+            .collect();
+        Self { profile, soils, control, quantity, nyquist: NyquistLayers::default() }
     }
 
     /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
-        let travel = |index: usize, modulus| [self.travel(index, end, self.speed(index, modulus))];
-        Ok(Self { highest: Highest::new(self.profile, end, travel)?, ..self })
+        let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
+            [self.travel(index, end, self.speed(index, modulus))]
+        })?;
+        Ok(Self { nyquist, ..self })
     }
 
     #[inline(always)]
@@ -99,51 +105,53 @@ impl<'a> Column<'a> {
     ///
     /// `above`: impedance above; `below`: reciprocal of the impedance below.
     #[inline(always)]
-    fn cross<C: ComplexArithmetic>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
+    fn below_interface<C: ComplexArithmetic>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
         let sum = (up + down).scale(0.5);
         let difference = (up - down).scale(0.5) * above * below;
         [sum + difference, sum - difference]
     }
 
-    /// Overwrites `found` with the functions, from the waves (up, down) at the bottom.
+    /// Overwrites `results` with the functions, from the waves (up, down) at the bottom.
     ///
-    /// `total`: travel Σ κh through all layers. `kept`: values of each soil.
+    /// `total`: travel Σ κh through all layers. `layer_values`: values of each soil.
     #[inline(always)]
-    fn sought<C: ComplexArithmetic>(
+    fn quantities<C: ComplexArithmetic>(
         &self,
-        at: &At<C>,
+        at: &ContourLanes<C>,
         waves: [C; 2],
         total: C,
-        kept: &[[C; 6]],
-        found: &mut [C],
+        layer_values: &[[C; 6]],
+        results: &mut [C],
     ) {
-        let ([up, down], layers) = (waves, self.profile.layers().len());
+        let [up, down] = waves;
+        let layers = self.profile.layers().len();
         // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
             && matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
         let value = if is_outcrop { up } else { (up + down).scale(0.5) };
         let mut decay = value.inverse().scale(0.5);
-        match self.sought {
-            Sought::Inverse => {
-                found[0] = value;
-                found[1] = total;
+        match self.quantity {
+            ColumnQuantity::Inverse => {
+                results[0] = value;
+                results[1] = total;
             }
-            Sought::Accelerations => {
-                found[layers] = (up + down) * decay;
-                let kept = found[..layers].iter_mut().zip(&kept[..layers]);
-                for (found, [_, _, up, down, _, half]) in kept.rev() {
+            ColumnQuantity::Accelerations => {
+                results[layers] = (up + down) * decay;
+                let pairs = results[..layers].iter_mut().zip(&layer_values[..layers]);
+                for (result, [_, _, up, down, _, half]) in pairs.rev() {
                     decay = decay * *half * *half;
-                    *found = (*up + *down) * decay;
+                    *result = (*up + *down) * decay;
                 }
             }
-            Sought::Strains => {
+            ColumnQuantity::Strains => {
                 let square = (at.s * at.s).inverse();
-                let sizes = self.profile.layers().iter().zip(&kept[..layers]);
-                for (found, (layer, own)) in found[..layers].iter_mut().zip(sizes).rev() {
-                    let [_, _, up, down, travel, half] = own;
+                let layer_data = self.profile.layers().iter().zip(&layer_values[..layers]);
+                for (result, (layer, values)) in results[..layers].iter_mut().zip(layer_data).rev()
+                {
+                    let [_, _, up, down, travel, half] = values;
                     decay = decay * *half;
                     let wavenumber = travel.scale(1.0 / layer.thickness) * square;
-                    *found = (*up - *down * *half * *half) * wavenumber * decay;
+                    *result = (*up - *down * *half * *half) * wavenumber * decay;
                     decay = decay * *half;
                 }
             }
@@ -151,7 +159,7 @@ impl<'a> Column<'a> {
     }
 }
 
-impl Functions for Column<'_> {
+impl SiteFunctions for ColumnFunctions<'_> {
     /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
     type LayerValues<C: ComplexArithmetic> = [C; 6];
 
@@ -161,51 +169,53 @@ impl Functions for Column<'_> {
 
     fn count(&self) -> usize {
         let layers = self.profile.layers().len();
-        match self.sought {
-            Sought::Inverse => 2,
-            Sought::Accelerations => layers + 1,
-            Sought::Strains => layers,
+        match self.quantity {
+            ColumnQuantity::Inverse => 2,
+            ColumnQuantity::Accelerations => layers + 1,
+            ColumnQuantity::Strains => layers,
         }
     }
 
     #[inline(always)]
     fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &At<C>,
+        at: &ContourLanes<C>,
         moduli: &[C],
-        kept: &mut Vec<[C; 6]>,
-        found: &mut [C],
+        layer_values: &mut Vec<[C; 6]>,
+        results: &mut [C],
     ) {
-        let [none, one] = [at.s.like_real(0.0), at.s.like_real(1.0)];
-        let (mut waves, mut total) = ([one; 2], none);
+        let zero = at.s.like_real(0.0);
+        let one = at.s.like_real(1.0);
+        let mut waves = [one; 2];
+        let mut total = zero;
         let mut above: Option<C> = None;
-        if kept.len() != moduli.len() {
-            kept.clear();
-            kept.resize(moduli.len(), [none; 6]);
+        if layer_values.len() != moduli.len() {
+            layer_values.clear();
+            layer_values.resize(moduli.len(), [zero; 6]);
         }
         let layers = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
             if !at.repeats {
                 let [speed, slowness] = self.speed(index, *modulus);
-                kept[index] = [speed, slowness, none, none, none, none];
+                layer_values[index] = [speed, slowness, zero, zero, zero, zero];
             }
-            let speeds = [kept[index][0], kept[index][1]];
-            let mut now = speeds;
+            let exact_speed = [layer_values[index][0], layer_values[index][1]];
+            let mut modified_speed = exact_speed;
             let is_layer = index < layers;
-            let mut travel = none;
+            let mut travel = zero;
             if is_layer {
-                travel = self.travel(index, at.s, speeds);
+                travel = self.travel(index, at.s, exact_speed);
             }
-            if at.is_near() {
-                now = self.speed(index, self.highest.modulus(index, at, *modulus));
+            if at.is_in_band() {
+                modified_speed = self.speed(index, self.nyquist.modulus(index, at, *modulus));
                 if is_layer {
-                    [travel] = self.highest.travels(index, at, [travel]);
+                    [travel] = self.nyquist.travels(index, at, [travel]);
                 }
             }
-            let [speed, slowness] = now;
+            let [speed, slowness] = modified_speed;
             let density = self.soils[index][0];
             if let Some(above) = above {
-                waves = Self::cross(waves, above, slowness.scale(1.0 / density));
+                waves = Self::below_interface(waves, above, slowness.scale(1.0 / density));
             }
             above = Some(speed.scale(density));
             if !is_layer {
@@ -213,16 +223,16 @@ impl Functions for Column<'_> {
             }
             let [up, down] = waves;
             total = total + travel;
-            let both = if self.sought == Sought::Inverse {
+            let round_trip = if self.quantity == ColumnQuantity::Inverse {
                 travel.scale(-2.0).exp()
             } else {
                 let half = travel.scale(-0.5).exp();
-                kept[index] = [speeds[0], speeds[1], up, down, travel, half];
-                let once = half * half;
-                once * once
+                layer_values[index] = [exact_speed[0], exact_speed[1], up, down, travel, half];
+                let through = half * half;
+                through * through
             };
-            waves = [up, down * both];
+            waves = [up, down * round_trip];
         }
-        self.sought(at, waves, total, kept, found);
+        self.quantities(at, waves, total, layer_values, results);
     }
 }

@@ -29,7 +29,7 @@ use super::runge_kutta::{Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK, Wavenumbers};
 use crate::error::{Error, Result, Watch};
-use crate::history::{KINDS as STRIP_KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 

@@ -69,7 +69,7 @@ pub(crate) fn margin<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],
 ) -> f64 {
-    classes.least_eigenvalue(own(values), |_, pair| real(&values[pair.class]))
+    classes.smallest_eigenvalue(own(values), |_, pair| real(&values[pair.class]))
 }
 
 /// Absolute values of the components of elements with themselves.

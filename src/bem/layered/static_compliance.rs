@@ -13,7 +13,7 @@ use super::compliance::{Compliance, SurfaceCompliance};
 use super::wavenumber::{Scratch, Wavenumbers, deep};
 use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
-use crate::history::{KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
@@ -51,12 +51,15 @@ pub(in crate::bem) fn static_compliance(
 }
 
 /// Static compliances zz, xx, zx of all classes, integrals over receiver and source.
-pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; KINDS]>> {
+pub(super) fn pairs(
+    profile: &SoilProfile,
+    classes: &PairClasses,
+) -> Result<Vec<[Complex; STRIP_KINDS]>> {
     let mut compliance = Compliance::default();
     compliance.set(profile, Complex::default())?;
     let span = classes.span();
     let integrals = Wavenumbers::new(classes, TOLERANCE);
-    let mut values = vec![[Complex::default(); KINDS]; classes.count()];
+    let mut values = vec![[Complex::default(); STRIP_KINDS]; classes.count()];
     let far = compliance.half_plane().map(|(modulus, _, a2)| {
         // 1 − ν and (1 − 2ν)/2 over μ.
         let even = 0.5 / (1.0 - a2) / modulus.re;
@@ -173,7 +176,7 @@ mod tests {
             let integrals = Wavenumbers::new(&classes, 1e-12);
             let s = Complex::real(2e-5);
             integrals.compliance(&profile, s, &mut Workspace::default(), &mut slow).unwrap();
-            let mean = |values: &[[Complex; KINDS]], class: usize, component: usize| {
+            let mean = |values: &[[Complex; STRIP_KINDS]], class: usize, component: usize| {
                 let [p, q] = classes.representative(class).unwrap();
                 values[class][component].re / (p.length() * q.length())
             };

@@ -15,7 +15,7 @@ use super::compliance::{Compliance, SurfaceCompliance};
 use super::form_factors::{DEGREES, FormFactors, LANES, POINTS, Panel, Sums, accumulate, legendre};
 use super::tail::{REACH, TERMS, Tails, on_grid, surface_series};
 use crate::error::{Error, GroundError, Result, Watch};
-use crate::history::{KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -122,7 +122,7 @@ pub(super) enum Found<'a> {
 }
 
 /// Compliances zz, xx and zx of each class.
-impl Compliances<KINDS> for Wavenumbers {
+impl Compliances<STRIP_KINDS> for Wavenumbers {
     type Workspace = Workspace;
 
     fn compliance(
@@ -130,7 +130,7 @@ impl Compliances<KINDS> for Wavenumbers {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Self::Workspace,
-        values: &mut [[Complex; KINDS]],
+        values: &mut [[Complex; STRIP_KINDS]],
     ) -> Result<()> {
         let Workspace { compliance, panels: work } = work;
         compliance.set(profile, s)?;
@@ -211,7 +211,7 @@ impl Wavenumbers {
         compliance: &Compliance,
         least: f64,
         work: &mut Scratch,
-        values: &mut [[Complex; KINDS]],
+        values: &mut [[Complex; STRIP_KINDS]],
         symbol: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
         let panels = self.panels(least)?;
@@ -285,7 +285,7 @@ impl Wavenumbers {
         accumulate(self.tails.rows(&self.forms, panels), &coefficients, &mut work.sums);
     }
 
-    fn read(&self, work: &Scratch, values: &mut [[Complex; KINDS]]) {
+    fn read(&self, work: &Scratch, values: &mut [[Complex; STRIP_KINDS]]) {
         const UNIT: f64 = std::f64::consts::FRAC_1_PI;
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
             let (sums, lane) = (&work.sums[class / LANES], class % LANES);

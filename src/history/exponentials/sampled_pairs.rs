@@ -1,26 +1,28 @@
 //! Error of the exponentials against the exact coefficients of sampled pairs.
 
-use super::tail::{Measured, Tail};
+use super::tail::{MeasuredErrors, Tail};
 use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::KINDS;
+use crate::history::pair_classes::STRIP_KINDS;
 
-/// Lags checked per octave: about two per period of the trapezoidal rule's error, which oscillates
-/// with ln t, at phases that do not repeat.
-const PER_OCTAVE: f64 = 7.3;
-/// Number of pair classes checked; of more classes, an even sample. The error is a polynomial in
-/// space.
-const CLASSES: usize = 150;
+/// Number of lags checked per octave.
+///
+/// The trapezoidal rule's error oscillates with ln t: this is about two lags a period, at phases that do not repeat.
+const CHECKED_LAGS_PER_OCTAVE: f64 = 7.3;
+/// Largest number of pair classes checked; of more classes, an even sample.
+///
+/// The error is a polynomial in space.
+const MAX_CHECKED_CLASSES: usize = 150;
 
 /// Errors at one lag, their change to the next lag, and the largest coefficient.
-struct Sample {
+struct LagErrors {
     error: f64,
     change: f64,
     relative: f64,
     largest: f64,
 }
 
-impl Measured {
+impl MeasuredErrors {
     /// Measures the errors over the lags from `window` + 1 to `horizon`.
     pub(super) fn over(
         kernel: &dyn ConvolutionWeights,
@@ -29,20 +31,20 @@ impl Measured {
         horizon: usize,
     ) -> Result<Self> {
         let pairs = SampledPairs::new(kernel);
-        let sample = |lag: usize| pairs.at(kernel, tail, lag, window);
         let mut lag = window + 1;
-        let mut before = sample(lag)?;
+        let mut errors = pairs.errors_at(kernel, tail, lag, window)?;
         let mut found =
-            Self { relative: before.relative, increments: before.error, last: before.largest };
+            Self { relative: errors.relative, increments: errors.error, last: errors.largest };
         while lag < horizon {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a lag")]
-            let next = (lag as f64 * (1.0 / PER_OCTAVE).exp2()).ceil() as usize;
+            let next = (lag as f64 * (1.0 / CHECKED_LAGS_PER_OCTAVE).exp2()).ceil() as usize;
             let next = next.clamp(lag + 1, horizon.max(lag + 1));
-            let now = sample(next)?;
-            found.increments += before.change.max(now.change) * (next - lag) as f64;
-            found.relative = found.relative.max(now.relative);
-            found.last = now.largest;
-            (lag, before) = (next, now);
+            let next_errors = pairs.errors_at(kernel, tail, next, window)?;
+            found.increments += errors.change.max(next_errors.change) * (next - lag) as f64;
+            found.relative = found.relative.max(next_errors.relative);
+            found.last = next_errors.largest;
+            lag = next;
+            errors = next_errors;
         }
         Ok(found)
     }
@@ -57,7 +59,7 @@ impl SampledPairs {
         for (place, pair) in kernel.classes().pairs().iter().enumerate() {
             first_pair[pair.class].get_or_insert(place);
         }
-        let stride = kernel.classes().count().div_ceil(CLASSES);
+        let stride = kernel.classes().count().div_ceil(MAX_CHECKED_CLASSES);
         let places = first_pair.iter().flatten().copied().enumerate();
         let places =
             places.filter(|(k, _)| k % stride == 0 || k + 1 == first_pair.len()).map(|(_, at)| at);
@@ -65,37 +67,40 @@ impl SampledPairs {
     }
 
     /// Errors of the exponentials at a lag beyond the window.
-    fn at(
+    fn errors_at(
         &self,
         kernel: &dyn ConvolutionWeights,
         tail: &Tail,
         lag: usize,
         window: usize,
-    ) -> Result<Sample> {
+    ) -> Result<LagErrors> {
         let count = kernel.classes().elements().len();
         let age = (lag - window - 1) as f64;
         let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
-        let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
+        let mut errors = LagErrors { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
+        // Largest error and coefficient of the normal and of the tangential components.
         let mut worst = [[0.0_f64; 2]; 2];
         for &place in &self.0 {
             let pair = kernel.classes().pairs()[place];
-            let (p, q) = (place / count, place % count);
-            let [mut zz, mut xx, mut zx] = [[0.0; 2]; KINDS];
-            kernel.coefficients(pair.class, lag, [&mut zz, &mut xx, &mut zx])?;
-            for (part, exact) in [zz, xx].iter().enumerate() {
-                let error =
-                    [0, 1].map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));
-                let [worst_error, largest] = &mut worst[part];
-                *worst_error = worst_error.max(error[0].abs());
-                *largest = largest.max((pair.scale * exact[0]).abs());
-                sample.change = sample.change.max((error[1] - error[0]).abs());
+            let receiver = place / count;
+            let source = place % count;
+            let mut exact = [[0.0; 2]; STRIP_KINDS];
+            let slices = exact.each_mut().map(<[f64; 2]>::as_mut_slice);
+            kernel.coefficients(pair.class, lag, slices)?;
+            for (part, (exact, worst)) in exact.iter().zip(&mut worst).enumerate() {
+                let error = [0, 1].map(|k| {
+                    pair.scale * (tail.of_pair(&fits[k][part], receiver, source) - exact[k])
+                });
+                worst[0] = worst[0].max(error[0].abs());
+                worst[1] = worst[1].max((pair.scale * exact[0]).abs());
+                errors.change = errors.change.max((error[1] - error[0]).abs());
             }
         }
         for [error, largest] in worst {
-            sample.error = sample.error.max(error);
-            sample.largest = sample.largest.max(largest);
-            sample.relative = sample.relative.max(error / largest);
+            errors.error = errors.error.max(error);
+            errors.largest = errors.largest.max(largest);
+            errors.relative = errors.relative.max(error / largest);
         }
-        Ok(sample)
+        Ok(errors)
     }
 }

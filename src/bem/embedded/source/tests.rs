@@ -2,7 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::on_circle;
 use crate::bem::{ElasticGround, Strip};
-use crate::history::KINDS;
+use crate::history::STRIP_KINDS;
 use crate::soil::{KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
@@ -122,7 +122,7 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
         weights.coefficients_around_trench(class, 1, [nn, tt, nt, tn]).unwrap();
     });
     sums(&mut wanted, strip.classes(), &|class, values| {
-        let values: &mut [&mut [f64]; KINDS] = values.try_into().unwrap();
+        let values: &mut [&mut [f64]; STRIP_KINDS] = values.try_into().unwrap();
         let [zz, xx, zx] = values;
         strip.coefficients(class, 1, [zz, xx, zx]).unwrap();
     });

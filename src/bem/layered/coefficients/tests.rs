@@ -4,7 +4,7 @@ use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
 use crate::bem::layered::wavenumber::Workspace;
 use crate::bem::{Grading, Strip};
-use crate::history::KINDS;
+use crate::history::STRIP_KINDS;
 use crate::soil::{Elastic, SoilProfile};
 
 fn quadrature(profile: SoilProfile, stages: Stages) -> Quadrature {
@@ -32,7 +32,7 @@ fn panels_give_what_points_give() {
             let quadrature = quadrature(profile.clone(), stages);
             let own = quadrature.panels[0].own.clone();
             let mut work = Workspace::default();
-            let mut values = vec![[Complex::default(); KINDS]; quadrature.classes];
+            let mut values = vec![[Complex::default(); STRIP_KINDS]; quadrature.classes];
             let mut scratch = values.clone();
             let (mut worst, mut covered) = (0.0_f64, 0);
             for number in [0, 2, 4] {
@@ -49,7 +49,7 @@ fn panels_give_what_points_give() {
                     for (class, value) in values.iter().enumerate() {
                         let unit = own[class].map(size).iter().product::<f64>().sqrt();
                         for (component, value) in value.iter().enumerate() {
-                            let found = spectra[(class * KINDS + component) * count + point];
+                            let found = spectra[(class * STRIP_KINDS + component) * count + point];
                             worst = worst.max((found - *value).abs() / unit);
                         }
                     }
@@ -93,7 +93,7 @@ fn lags_are_those_of_all_points() {
     ] {
         let panels = quadrature(profile.clone(), Stages::Two);
         let points = quadrature(profile, Stages::Two);
-        let mut largest = [0.0_f64; KINDS];
+        let mut largest = [0.0_f64; STRIP_KINDS];
         let mut worst = 0.0_f64;
         for number in 0..4 {
             // All panels are marked as unresolved.
@@ -106,7 +106,7 @@ fn lags_are_those_of_all_points() {
             }
             let [one, two] = [&panels, &points].map(|quadrature| block(quadrature, number, 1));
             for (place, (one, two)) in one.values.iter().zip(&two.values).enumerate() {
-                let largest = &mut largest[place % KINDS];
+                let largest = &mut largest[place % STRIP_KINDS];
                 *largest = two.iter().fold(*largest, |size, x| size.max(x.abs()));
                 let error = one.iter().zip(two).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 worst = worst.max(error / *largest);
