@@ -67,7 +67,7 @@ fn cell_key(cell: [f64; 3]) -> [u64; 3] {
     cell.map(|index| (index + 0.0).to_bits())
 }
 
-/// Error for a row of nodes whose neighbours are within the tolerance and whose ends are not.
+/// Error for nodes in a row: neighbours within the tolerance, ends beyond it.
 fn in_a_row(one: usize, other: usize, tolerance: f64) -> Error {
     let reason = format!(
         "they are within the tolerance of {tolerance} m, as others beside them, which are farther apart: take a \

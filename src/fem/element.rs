@@ -80,7 +80,9 @@ pub trait Element: Any + Send + Sync {
     /// It is symmetric; a rigid motion of all nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]);
 
-    /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m, in the plane per metre.
+    /// Adds the geometric stiffness (P–Δ) of the static axial force, N/m.
+    ///
+    /// In the plane it is per metre.
     ///
     /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
     /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
@@ -167,7 +169,9 @@ pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; 
     }
 }
 
-/// Adds Tᵀ k T of a `local` matrix k, where T = `to_local` takes global to local displacements.
+/// Adds Tᵀ k T of a `local` matrix k.
+///
+/// T = `to_local` transforms global to local displacements.
 pub(crate) fn add_transformed<const N: usize>(
     local: &[[f64; N]; N],
     to_local: &[[f64; N]; N],

@@ -23,7 +23,7 @@ use crate::geometry::Direction;
 const ROUNDING_OF_FORCES: f64 = 1e-12;
 /// Imbalance of an element's forces, relative to the largest, above which they cannot turn with it.
 const MAX_FORCE_IMBALANCE: f64 = 1e-8;
-/// Distance of nodes from a line, relative to the size of the element, at which they count as on it.
+/// Largest distance of nodes that lie on a line, relative to the size of the element.
 const MAX_DISTANCE_FROM_LINE: f64 = 1e-6;
 
 /// Static state in which the forces of an element are computed.

@@ -31,7 +31,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Nodes of the row `index`, from its first column on; a pole is a row of one node.
+    /// Nodes of the row `index`, column by column; a pole is one node.
     ///
     /// Empty for a row that does not exist.
     pub fn row(&self, index: usize) -> &[usize] {
@@ -69,7 +69,9 @@ impl Grid {
         corners
     }
 
-    /// Shells of all cells, in the order of [`cells`](Grid::cells); `thickness` of each row of cells in m.
+    /// Shells of all cells, in the order of [`cells`](Grid::cells).
+    ///
+    /// `thickness`: of each row of cells, m.
     ///
     /// Triangles at a pole are matched to the quadrilaterals beside them ([`Shell::match_sides`]).
     ///
@@ -138,7 +140,9 @@ impl Grid {
 }
 
 impl Mesh {
-    /// Adds the nodes of a surface: `point(row, column)` is the place of each, [x, y, z] in m.
+    /// Adds the nodes of a surface, row by row.
+    ///
+    /// `point(row, column)` is the place of each node, [x, y, z] in m.
     ///
     /// ```
     /// use basemat::fem::{Hex8, Material, Mesh};
@@ -173,7 +177,9 @@ impl Mesh {
         Ok(Grid { rows: nodes, is_closed: false })
     }
 
-    /// Adds the nodes of a surface of revolution about the vertical axis through `axis` ([x, y], m).
+    /// Adds the nodes of a surface of revolution about a vertical axis.
+    ///
+    /// `axis`: [x, y] of the axis, m.
     ///
     /// `meridian`: [radius, height] of each row of nodes, m. A row on the axis is one node, a pole. `sectors`: number
     /// of columns round the axis, from the direction of x towards y. [`Grid`] has an example.

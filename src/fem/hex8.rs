@@ -278,7 +278,9 @@ impl Slopes {
         Self { shape, natural, determinant }
     }
 
-    /// Slopes of the shape functions and of the modes 1 − ξ², 1 − η² and 1 − ζ², at the `point` of these slopes.
+    /// Slopes of the shape functions and of the inner modes at the `point` of these slopes.
+    ///
+    /// The modes are 1 − ξ², 1 − η² and 1 − ζ².
     ///
     /// Slopes of the modes are those by the Jacobian at the `centre`, scaled so that their integral over the element
     /// vanishes: a constant stress does no work on them.

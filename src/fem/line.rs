@@ -35,7 +35,9 @@ impl ElementLine {
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds the axial `stiffness` of the line; degrees of freedom along the first `axes` axes at both ends.
+    /// Adds the axial `stiffness` of the line.
+    ///
+    /// Degrees of freedom: along the first `axes` axes at both ends.
     pub(super) fn add_axial(&self, stiffness: f64, axes: usize, matrix: &mut [f64]) {
         add_relative(stiffness, self.along, axes, matrix);
     }

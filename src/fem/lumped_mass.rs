@@ -34,7 +34,9 @@ impl LumpedMass {
         Ok(Self { node: [node], mass, directions: TRANSLATIONS, rotary_inertia: [0.0; 3] })
     }
 
-    /// Point mass of a mesh in space, kg, with the rotary inertias about x, y and z, kg m².
+    /// Point mass (kg) of a mesh in space, with three rotary inertias.
+    ///
+    /// `rotary_inertia`: about x, y and z, kg m².
     ///
     /// Without rotary inertia it adds no rotation degree of freedom. With one the node gets all three; other elements
     /// should restrain those without inertia.
@@ -61,7 +63,9 @@ impl LumpedMass {
         Ok(Self { directions, rotary_inertia, ..Self::new(node, mass)? })
     }
 
-    /// Adds rotary inertia about the node of a mesh in the plane, kg m² per metre of thickness.
+    /// Adds rotary inertia to a mass in the plane.
+    ///
+    /// `rotary_inertia`: about the node, kg m² per metre of thickness.
     ///
     /// If the rotary inertia is above zero, the node gets a rotation degree of freedom. Other elements should
     /// restrain it.

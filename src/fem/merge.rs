@@ -17,7 +17,9 @@ pub struct MergedNodes {
 }
 
 impl Mesh {
-    /// Merges nodes that lie at the same place within `tolerance` (m), so that their elements act on each other.
+    /// Merges nodes at the same place, so that their elements act on each other.
+    ///
+    /// `tolerance`: largest distance of merged nodes, m.
     ///
     /// The first node of a place stays where it is; nodes are renumbered in their order, elements keep their indices.
     /// A tolerance of a thousandth of the smallest distance of nodes is far above rounding. The mesh stays as it was

@@ -233,7 +233,9 @@ impl Mesh {
         })
     }
 
-    /// Indices of the nodes at height `height` (y in the plane, z in space) within `tolerance` (m).
+    /// Indices of the nodes at a `height`, within `tolerance` (m).
+    ///
+    /// The height is y in the plane and z in space, m.
     ///
     /// They are listed from left to right, in space at each x from front to back.
     ///

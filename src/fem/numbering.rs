@@ -52,7 +52,9 @@ impl Numbering {
         *self.numbers.chunks_exact(self.directions.len()).nth(node)?.get(place)?
     }
 
-    /// Overwrites `indices` with the indices of the degrees of freedom of `element`, in the order of its matrices.
+    /// Overwrites `indices` with the degrees of freedom of `element`.
+    ///
+    /// They have the order of the element's matrices.
     pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
         indices.clear();
         for &node in element.nodes() {

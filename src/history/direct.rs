@@ -10,6 +10,9 @@ use crate::linalg::dot;
 /// Number of steps summed for all pairs in turn, so that tractions and coefficients stay in cache.
 const STEPS_PER_CHUNK: usize = 512;
 
+/// Smallest number of lags for which coefficients are stored.
+const MIN_CAPACITY_LAGS: usize = 64;
+
 /// Direct summation of the history: the reference for all other methods.
 ///
 /// Coefficients are stored per pair *class* (on a uniform patch, per offset), reversed in time, so that each
@@ -18,8 +21,9 @@ pub struct DirectHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
-    /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end. The coupling is stored only
-    /// while it is not zero.
+    /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end.
+    ///
+    /// The coupling is stored only while it is not zero.
     kinds: Vec<Vec<Vec<f64>>>,
     /// Tractions of all steps, for each contact component.
     traction: Vec<Vec<f64>>,
@@ -51,7 +55,7 @@ impl DirectHistory {
     /// Stores the coefficients of the lags up to `lags`.
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let old = self.capacity;
-        let new = lags.max(2 * self.capacity).max(64);
+        let new = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
         let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
         let needed = 8.0 * numbers as f64 * new as f64;
         if needed > self.memory {
@@ -84,7 +88,7 @@ impl DirectHistory {
     }
 }
 
-/// Puts `next` (the lags that follow the stored ones) in front of `stored`, reversed.
+/// Puts the lags `next`, which follow the stored ones, in front of `stored`, reversed.
 fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
     let mut grown = Vec::with_capacity(stored.len() + next.len());
     grown.extend(next.iter().rev());

@@ -16,7 +16,7 @@ const REMAINDER_RATIO: f64 = 1.0 / 3.0;
 pub(super) struct LastLag {
     /// Last lag that is not neglected, a power of two.
     pub(super) lag: usize,
-    /// Bound of the change in a step of the displacement neglected by dropping later lags, per pascal of traction, m/Pa.
+    /// Bound of the neglected displacement's change in a step, per traction, m/Pa.
     ///
     /// The sum of |Gⁿ − Gⁿ⁻¹| with zero at the last lag: late coefficients change slowly.
     pub(super) change: f64,
@@ -84,7 +84,7 @@ impl LastLag {
     }
 }
 
-/// Largest sum of a displacement component over a row of the matrix, from sums for each class and kind.
+/// Largest row sum of the matrix, from sums for each class and kind.
 fn largest_row(lattice: &Lattice, sums: &[[f64; SERIES]]) -> f64 {
     let offsets = (0..lattice.counts[0]).flat_map(|i| (0..lattice.counts[1]).map(move |j| [i, j]));
     let mut rows = [0.0; 3];

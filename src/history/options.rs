@@ -14,7 +14,9 @@ use crate::error::{Result, memory};
 const NEGLECTED_WEIGHT_FRACTION: f64 = 1e-8;
 /// Tolerance of exponentials that the rule chooses: it changes results by rounding only.
 const RULE_TOLERANCE: f64 = 1e-12;
-/// Longest window with which the rule chooses exponentials, lags: the fit takes a few tenths of a second.
+/// Longest window with which the rule chooses exponentials, lags.
+///
+/// Its fit takes a few tenths of a second.
 const MAX_RULE_WINDOW: usize = 1 << 14;
 
 /// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
@@ -70,7 +72,9 @@ impl HistoryOptions {
         Ok(self)
     }
 
-    /// Makes an empty history of `weights` for `steps` steps in all; `None` if no end is known.
+    /// Makes an empty history of `weights`.
+    ///
+    /// `steps`: their number in all; `None` if no end is known.
     pub(crate) fn history(
         self,
         weights: &Arc<dyn ConvolutionWeights>,

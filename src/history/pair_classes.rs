@@ -21,7 +21,9 @@ pub(crate) const TRENCH_KINDS: usize = 4;
 pub(crate) const MAX_KINDS: usize =
     if cfg!(feature = "embedded") { STRIP_KINDS + 1 } else { STRIP_KINDS };
 
-/// Length as an integer in units of 1e-12 of the patch, so that rounding of the nodes does not split a class.
+/// Length in units of 1e-12 of the patch, as an integer.
+///
+/// Rounding of the nodes therefore does not split a class.
 #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
 fn length_key(length: f64, span: f64) -> i64 {
     (length / span * 1e12).round() as i64

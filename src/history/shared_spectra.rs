@@ -25,7 +25,9 @@ struct Stores {
 /// Tables of one type, in a store.
 pub(super) type Shared<T> = Arc<Mutex<T>>;
 
-/// Locks tables: other threads wait while one computes. Even after a panic, a table is complete or absent.
+/// Locks tables: other threads wait while one computes.
+///
+/// Even after a panic, a table is complete or absent.
 pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
     tables.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -76,7 +76,9 @@ impl Coulomb {
         Ok(Self { friction, ..Self::frictionless() })
     }
 
-    /// Law that opens but never slides (infinite friction). In plan, steps may have several solutions: see [`Coulomb::new`].
+    /// Law that opens but never slides (infinite friction).
+    ///
+    /// In plan, steps may have several solutions: see [`Coulomb::new`].
     pub fn uplift_only() -> Self {
         Self { friction: f64::INFINITY, ..Self::frictionless() }
     }
@@ -132,7 +134,7 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// Gap of a closed element at the end of the step; `None` if the element cannot close.
+    /// Gap of a closed element at the step's end; `None` if it cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
             UnilateralCondition::Position => Some(0.0),

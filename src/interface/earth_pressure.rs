@@ -5,7 +5,7 @@ use super::{
 };
 use crate::error::{Error, Result, not_negative, require};
 
-/// Coulomb friction of a wall on soil that yields at its passive pressure and follows the wall at its active one.
+/// Coulomb friction of a wall on soil between its active and its passive pressure.
 ///
 /// The soil beside a wall bears no more than its passive pressure, and presses with no less than its active pressure: a
 /// wedge of it slides up before a wall that is pushed in, and down behind a wall that moves away. The state variable of
@@ -62,7 +62,9 @@ validated! {
 }
 
 impl EarthPressure {
-    /// Law with an active and a passive pressure (Pa), and a friction coefficient of zero or more.
+    /// Law with an active and a passive pressure (Pa), and friction.
+    ///
+    /// The friction coefficient is zero or more.
     ///
     /// If the coefficient is infinite, nothing ever slides.
     ///

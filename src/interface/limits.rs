@@ -31,8 +31,9 @@ use crate::error::{Error, Result, finite, not_negative, require};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Limits {
-    /// Friction coefficient; infinite where nothing slides. With 3 or more, a step may have several solutions: see
-    /// [`Coulomb::new`](super::Coulomb::new).
+    /// Friction coefficient; infinite where nothing slides.
+    ///
+    /// With 3 or more, a step may have several solutions: see [`Coulomb::new`](super::Coulomb::new).
     pub friction: f64,
     /// Pressure that is added to p for friction, Pa.
     pub attraction: f64,

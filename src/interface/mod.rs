@@ -53,11 +53,13 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
-/// A number of an element: its word, its SI unit, whether only grounds in plan have it, and its value.
+/// A number of an element: word, SI unit, whether in plan only, value.
 type Number = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
-    /// All numbers, in the order of columns in files: word, SI unit, whether only grounds in plan have it, value.
+    /// All numbers, in the order of columns in files.
+    ///
+    /// Each has its word, its SI unit, whether only grounds in plan have it, and its value.
     pub const NUMBERS: [Number; 6] = [
         ("gap", "m", false, |state| state.gap),
         ("slip", "m", false, |state| state.slip),
@@ -67,7 +69,9 @@ impl ContactState {
         ("shear_across", "Pa", true, |state| state.shear_across),
     ];
 
-    /// Gap, slip and tractions of an element from their components: down, along x, and in plan along y.
+    /// Gap, slip and tractions of an element from their components.
+    ///
+    /// Components: down, along x, and in plan along y.
     #[inline]
     pub(crate) fn from_components(
         jump: impl Fn(usize) -> f64,
@@ -124,7 +128,7 @@ pub struct ContactScene {
     pub time_step: f64,
 }
 
-/// Error unless there is one law, or one for each of `count` elements, and all have modes.
+/// Checks that there is one law, or one for each element, with modes.
 pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<()> {
     if laws.len() != 1 {
         same_length("list of interface laws", laws.len(), count)?;
@@ -206,7 +210,7 @@ pub trait InterfaceLaw: Send {
     /// [`Error::part`](crate::Error::part); for a law of the plane alone [`Limits::only_in_plane`].
     fn limits(&self, start: &PreviousContact) -> Result<Limits>;
 
-    /// The modes that this law uses in the plane, first the mode of an element at rest in contact.
+    /// The modes of this law in the plane, first the mode of rest.
     ///
     /// The default has all modes of a law with [`limits`](InterfaceLaw::limits).
     fn modes(&self) -> &[Mode] {
@@ -300,7 +304,7 @@ pub trait InterfaceLaw: Send {
         None
     }
 
-    /// Called after a condition that is not finite; returns the reason if the law can name it.
+    /// Reason for a condition that is not finite, if the law can name it.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
@@ -313,7 +317,9 @@ pub trait InterfaceLaw: Send {
         }
     }
 
-    /// The same law without friction and cohesion, for the gravity stage on a ground in the plane.
+    /// The same law without friction and cohesion, for the gravity stage.
+    ///
+    /// It acts on a ground in the plane.
     ///
     /// By default, hard and frictionless contact. Building returns an error where the law does not hold the static state
     /// found with it. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and

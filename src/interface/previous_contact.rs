@@ -255,8 +255,9 @@ impl PreviousContacts {
         Ok(())
     }
 
-    /// Advances to the start of the next step, after a step that ended in `states`, `modes` and
-    /// `state_variables`.
+    /// Advances to the start of the next step.
+    ///
+    /// The step before ended in `states`, `modes` and `state_variables`.
     pub(crate) fn advance(
         &mut self,
         states: &[ContactState],

@@ -48,8 +48,9 @@ words! { pub(crate) FrictionLimit, "friction limit", {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SlipSense {
-    /// Slip beyond the elastic slip, as in plasticity. It starts in the sense of the shear traction and
-    /// continues while it grows.
+    /// Slip beyond the elastic slip, as in plasticity.
+    ///
+    /// It starts in the sense of the shear traction and continues while it grows.
     #[default]
     Inelastic,
     /// The relative velocity of this step, including the elastic part [PS, eq. 12].
@@ -212,7 +213,9 @@ impl ThinLayer {
         self
     }
 
-    /// Sets the fraction of the shear stiffness that resists the slip of each step, in addition to friction.
+    /// Sets the fraction of the shear stiffness that resists slip besides friction.
+    ///
+    /// It acts on the slip of each step.
     ///
     /// The default is zero. It acts as a viscosity, since the next step does not depend on it.
     ///
@@ -240,8 +243,9 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + ratio · k_s (±Δs), in a form that has a limit for infinite friction (see
-    /// [`super::Coulomb`]).
+    /// ± τ = limit + ratio · k_s (±Δs), for any friction.
+    ///
+    /// The form has a limit for infinite friction (see [`super::Coulomb`]).
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
         let slip_resistance = self.slip_stiffness * self.stiffness()[1];
         let initial_resistance = slip_resistance * start.state.slip;
@@ -386,12 +390,7 @@ impl InterfaceLaw for ThinLayer {
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
         let quantity = "friction limited by the static pressure";
-        let needed = "there is none without gravity";
-        require_part(
-            quantity,
-            self.limit != FrictionLimit::Static || scene.gravity != 0.0,
-            needed,
-        )?;
-        Ok(())
+        let has_pressure = self.limit != FrictionLimit::Static || scene.gravity != 0.0;
+        require_part(quantity, has_pressure, "there is none without gravity")
     }
 }

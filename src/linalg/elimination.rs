@@ -22,7 +22,7 @@ type Pattern<'a> = SymbolicSparseColMatRef<'a, usize>;
 ///
 /// Smaller factors cost less than the dissection.
 const MIN_SHARED_ORDER_ENTRIES: usize = 1_500_000;
-/// Smallest ratio of a factor's entries to the square of the number of rows on which it is condensed.
+/// Smallest ratio of a factor's entries to its condensed matrix' entries.
 const MIN_ENTRIES_PER_SQUARE: usize = 4;
 
 /// Order of elimination that matrices of one structure share.
@@ -50,7 +50,9 @@ impl Elimination {
         elimination
     }
 
-    /// The shared order with the rows `last` at the end, if the factor has many more entries than their square.
+    /// The shared order with the rows `last` at the end.
+    ///
+    /// `None` unless the factor has many more entries than the square of their number.
     pub(crate) fn ending_with(&self, last: &[usize]) -> Option<Self> {
         let order = self
             .0
@@ -65,7 +67,9 @@ impl Elimination {
         Some(Self(Arc::new(OnceLock::from(reordered))))
     }
 
-    /// Symbolic factor in the shared order, or in the order of minimum degree while there is none.
+    /// Symbolic factor in the shared order.
+    ///
+    /// While there is none, in the order of minimum degree.
     ///
     /// The first factor of many entries chooses the shared order: by dissection, if its factor has fewer entries.
     pub(super) fn analyse(&self, pattern: Pattern<'_>) -> Option<SymbolicCholesky<usize>> {
@@ -206,7 +210,7 @@ mod tests {
         SparseMatrix::new("cube", &matrix).unwrap()
     }
 
-    /// Factors of a few entries keep the order of minimum degree; of many entries they share a better one.
+    /// Small factors keep the order of minimum degree; large ones share a better order.
     #[test]
     fn factors_of_many_entries_share_an_order_with_fewer() {
         let elimination = Elimination::default();
@@ -273,7 +277,7 @@ mod tests {
         assert!(Elimination::default().ending_with(&last).is_none());
     }
 
-    /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.
+    /// Three uncoupled cubes, numbered in turns: an order for coupled cubes gives the factors of each.
     #[test]
     fn separate_parts_are_eliminated_one_after_the_other() {
         let one = cube(13, 2.0);

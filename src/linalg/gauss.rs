@@ -17,6 +17,9 @@ pub(crate) struct Rule {
 /// Target relative error of a rule on one piece.
 const RULE_ERROR_TOLERANCE: f64 = 1e-14;
 
+/// Number of Newton's iterations for a node: enough for rounding at all orders.
+const NEWTON_ITERATIONS: usize = 6;
+
 impl Rule {
     /// Rule of `order` points.
     ///
@@ -49,7 +52,7 @@ impl Rule {
         for i in 0..order {
             let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
             let mut slope = 1.0;
-            for _ in 0..6 {
+            for _ in 0..NEWTON_ITERATIONS {
                 let mut before = 1.0;
                 let mut value = x;
                 for k in 2..=order {
@@ -67,7 +70,8 @@ impl Rule {
     }
 }
 
-/// Legendre polynomial of `degree` at `x` from the two polynomials of lower degree:
+/// Legendre polynomial of `degree` at `x` from the two of lower degree.
+///
 /// k Pₖ = (2k−1) x Pₖ₋₁ − (k−1) Pₖ₋₂.
 pub(crate) fn next_legendre(degree: usize, x: f64, [before, last]: [f64; 2]) -> f64 {
     let k = degree as f64;
@@ -103,7 +107,7 @@ fn rules() -> &'static [Rule] {
     RULES.get_or_init(|| CACHED_ORDERS.iter().map(|&order| Rule::new(order)).collect())
 }
 
-/// Index of the largest rule used on a piece; a piece that needs a larger one is split.
+/// Index of the largest rule for a piece; a piece that needs a larger rule is split.
 const LARGEST_PIECE_RULE: usize = 10;
 
 /// The rule of `order` points, from 2 to 8.
@@ -123,7 +127,9 @@ pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
     rules()[..=LARGEST_PIECE_RULE].iter().find(|rule| rule.reach <= reach)
 }
 
-/// (|p − a| + |p − b|)/(b − a) of a point p in the complex plane and the interval [a, b].
+/// Size of the ellipse through a point of the complex plane with foci at an interval's ends.
+///
+/// (|p − a| + |p − b|)/(b − a) for the point p and the interval [a, b].
 pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
     if point[1] == 0.0 {
         // Squares of tiny slownesses underflow to zero; the pieces would then be split endlessly.

@@ -50,9 +50,13 @@ impl<S: Simd> Lanes<S> {
     /// Loads `numbers` into the lanes; lanes beyond repeat the last number.
     #[inline(always)]
     pub(crate) fn load(simd: S, numbers: &[Complex]) -> Self {
-        let at: [usize; MAX_LANES] = std::array::from_fn(|k| k.min(numbers.len() - 1));
-        let re = at.map(|k| numbers[k].re);
-        let im = at.map(|k| numbers[k].im);
+        let mut re = [0.0; MAX_LANES];
+        let mut im = [0.0; MAX_LANES];
+        for k in 0..Self::LANE_COUNT {
+            let number = numbers[k.min(numbers.len() - 1)];
+            re[k] = number.re;
+            im[k] = number.im;
+        }
         let re = S::as_simd_f64s(&re[..Self::LANE_COUNT]).0[0];
         let im = S::as_simd_f64s(&im[..Self::LANE_COUNT]).0[0];
         Self { simd, re, im }

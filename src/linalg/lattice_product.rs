@@ -27,7 +27,9 @@ pub(crate) struct LatticeProduct {
     rows: usize,
     along: (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>),
     across: [Arc<dyn Fft<f64>>; 2],
-    /// For each k, columns of S along y: diagonal of ĝ, then its entries (0, 1), (0, 2), (1, 2).
+    /// ĝ at each k: its diagonal, then its entries (0, 1), (0, 2), (1, 2).
+    ///
+    /// For each k along x all along y.
     spectra: Vec<([f64; 3], [Complex<f64>; 3])>,
 }
 

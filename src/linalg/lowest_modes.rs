@@ -124,7 +124,9 @@ impl KrylovSpace<'_> {
         self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// The best approximations of the lowest `count` modes in this space, up to the first one above `limit`.
+    /// Approximations of the lowest `count` modes in this space.
+    ///
+    /// They end with the first one above `limit`.
     fn approximations(&self, count: usize, limit: f64) -> Option<Approximations> {
         let m = self.columns.len();
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);

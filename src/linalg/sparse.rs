@@ -76,8 +76,9 @@ impl SparseFactor {
         matches!(self.factors, Factors::Cholesky { .. })
     }
 
-    /// Returns `None` if a solve is not finite: LU may accept a singular matrix with a pivot of rounding
-    /// size.
+    /// This factor, or `None` if a solve is not finite.
+    ///
+    /// LU may accept a singular matrix with a pivot of rounding size.
     fn probed(mut self) -> Option<Self> {
         let mut probe = vec![1.0; self.order];
         self.solve(&mut probe);
@@ -226,7 +227,9 @@ impl SparseFactor {
     }
 }
 
-/// Places in the lower triangle of the rows `last`, row-major, and among the values of a factor.
+/// Places of the last rows' lower triangle: in their matrix, and among a factor's values.
+///
+/// The matrix is row-major.
 ///
 /// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
 fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {

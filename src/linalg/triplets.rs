@@ -178,8 +178,9 @@ impl Triplets {
     }
 }
 
-/// Triplets whose order follows from the largest index. Rows without entries at the end are therefore lost;
-/// [`Triplets::from_entries`] keeps them.
+/// Triplets whose order follows from the largest index.
+///
+/// Rows without entries at the end are therefore lost; [`Triplets::from_entries`] keeps them.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();

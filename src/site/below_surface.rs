@@ -19,8 +19,38 @@
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// u_x, u_z, τ, σ.
-pub(super) type Field = [Complex; 4];
+/// Displacements and impulses of stresses at one depth.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct WaveField {
+    /// u_x.
+    pub(super) right: Complex,
+    /// u_z.
+    pub(super) down: Complex,
+    /// τ.
+    pub(super) shear: Complex,
+    /// σ.
+    pub(super) normal: Complex,
+}
+
+impl WaveField {
+    fn times(self, factor: Complex) -> Self {
+        Self {
+            right: self.right * factor,
+            down: self.down * factor,
+            shear: self.shear * factor,
+            normal: self.normal * factor,
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            right: self.right + other.right,
+            down: self.down + other.down,
+            shear: self.shear + other.shear,
+            normal: self.normal + other.normal,
+        }
+    }
+}
 
 /// Size of a term at which the series of an exponential ends: rounding.
 const SERIES_TOLERANCE: f64 = 1e-17;
@@ -52,24 +82,25 @@ impl FieldMedium {
     }
 
     /// q.
-    pub(super) fn horizontal_stress(&self, [x, _, _, normal]: Field) -> Complex {
-        normal.scale(self.lateral_ratio) - self.plane_strain_modulus * x.scale(self.slowness)
+    pub(super) fn horizontal_stress(&self, field: WaveField) -> Complex {
+        field.normal.scale(self.lateral_ratio)
+            - self.plane_strain_modulus * field.right.scale(self.slowness)
     }
 
     /// Derivative of a field over depth, over s.
-    fn rate(&self, field: Field) -> Field {
-        let [x, z, shear, normal] = field;
+    fn rate(&self, field: WaveField) -> WaveField {
+        let WaveField { right, down, shear, normal } = field;
         let p = self.slowness;
-        [
-            shear * self.compliances[0] + z.scale(p),
-            normal * self.compliances[1] + x.scale(p * self.lateral_ratio),
-            x.scale(self.density) + self.horizontal_stress(field).scale(p),
-            z.scale(self.density) + shear.scale(p),
-        ]
+        WaveField {
+            right: shear * self.compliances[0] + down.scale(p),
+            down: normal * self.compliances[1] + right.scale(p * self.lateral_ratio),
+            shear: right.scale(self.density) + self.horizontal_stress(field).scale(p),
+            normal: down.scale(self.density) + shear.scale(p),
+        }
     }
 
     /// The field `height` (m) below `field`.
-    pub(super) fn below(&self, s: Complex, height: f64, mut field: Field) -> Field {
+    pub(super) fn below(&self, s: Complex, height: f64, mut field: WaveField) -> WaveField {
         let slowness = (self.density * self.compliances[0].abs()).sqrt() + self.slowness.abs();
         let travel = s.abs() * height * slowness;
         let mut remaining = travel;
@@ -84,8 +115,8 @@ impl FieldMedium {
                 order += 1.0;
                 term_size *= step / order;
                 let factor = length.scale(1.0 / order);
-                term = self.rate(term).map(|value| value * factor);
-                field.iter_mut().zip(term).for_each(|(sum, value)| *sum += value);
+                term = self.rate(term).times(factor);
+                field = field.plus(term);
             }
             remaining -= step;
         }
@@ -122,7 +153,8 @@ mod tests {
             let p_odd = g * odd;
             let s_odd = -(a * odd.scale(2.0 * p));
             let medium = FieldMedium::new(soil, modulus, p);
-            let upper = medium.below(s, 1.1, [x, z, Complex::default(), Complex::default()]);
+            let surface = WaveField { right: x, down: z, ..WaveField::default() };
+            let upper = medium.below(s, 1.1, surface);
             let found = medium.below(s, 0.6, upper);
             // Σ over waves up (e = 1) and down (e = −1).
             let mut wanted = [Complex::default(); 4];
@@ -140,8 +172,9 @@ mod tests {
                 wanted[3] += modulus * (shear * b.scale(2.0 * p) - pressure * g);
                 horizontal_stress += -(pressure * pressing) - shear * modulus * b.scale(2.0 * p);
             }
-            for (found, wanted) in found.iter().zip(wanted) {
-                assert!((*found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
+            let values = [found.right, found.down, found.shear, found.normal];
+            for (found, wanted) in values.into_iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
             }
             assert!((medium.horizontal_stress(found) - horizontal_stress).abs() < 1e-12);
         }
@@ -161,18 +194,18 @@ mod tests {
         for (kind, wave) in waves.into_iter().enumerate() {
             let wave = wave.unwrap();
             let p = 1.0 / wave.apparent_velocity();
-            let [x, up] = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
+            let [right, up] = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
             let s = Complex::new(0.0, 0.8 * std::f64::consts::TAU);
-            let mut field = [x, -up, Complex::default(), Complex::default()];
+            let mut field = WaveField { right, down: -up, ..WaveField::default() };
             for ((soil, _), layer) in profile.soils().zip(profile.layers()) {
                 let medium = FieldMedium::new(soil, Complex::real(soil.shear_modulus()), p);
                 field = medium.below(s, layer.thickness, field);
             }
-            let [x, z, shear, normal] = field;
+            let WaveField { right: x, down: z, .. } = field;
             let a = (rock.pressure_wave_speed().powi(-2) - p * p).sqrt();
             let b = (rock.shear_wave_speed().powi(-2) - p * p).sqrt();
-            let shear = shear.scale(1.0 / rock.shear_modulus());
-            let normal = normal.scale(1.0 / rock.shear_modulus());
+            let shear = field.shear.scale(1.0 / rock.shear_modulus());
+            let normal = field.normal.scale(1.0 / rock.shear_modulus());
             // P along (p, −a), S along (b, p), upwards.
             let g = b * b - p * p;
             let c = 0.5 * rock.shear_wave_speed().powi(2);

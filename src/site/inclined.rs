@@ -260,7 +260,7 @@ impl InclinedWave {
         }
     }
 
-    /// Error if waves with a part in the motion are evanescent in a layer: motion would precede its cause.
+    /// Error if waves are evanescent in a layer: motion would precede its cause.
     ///
     /// Layers stiffen with frequency, so the highest frequency decides.
     fn check_beginning(&self, highest: f64) -> Result<()> {

@@ -58,7 +58,9 @@ pub enum ComplexModulus {
 }
 
 impl ComplexModulus {
-    /// Modulus G' and damping ratio ξ' for which G'(1 + 2iξ') is a layer's complex modulus; layers count from 0.
+    /// Modulus G' and damping ratio ξ' of the complex modulus G'(1 + 2iξ').
+    ///
+    /// `index`: of the layer, from 0.
     fn real_part_and_ratio(self, index: usize, [modulus, damping]: [f64; 2]) -> Result<[f64; 2]> {
         if self == Self::RealPart {
             return Ok([modulus, damping]);
@@ -74,7 +76,9 @@ impl ComplexModulus {
     }
 }
 
-/// Outcrop of the rock, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz, G(1 + 2iξ).
+/// Outcrop of the rock, and G(1 + 2iξ) over 0.1 to 30 Hz.
+///
+/// 0.65 of the largest strain, and a tolerance of 1e-3 in at most 50 iterations.
 impl Default for EquivalentLinearOptions {
     fn default() -> Self {
         Self {
@@ -216,7 +220,9 @@ impl<'a> Iteration<'a> {
         Ok(strains)
     }
 
-    /// Motion of the surface, and accelerations at the tops of layers and base, as long as the given motion.
+    /// Motion of the surface, and accelerations at the tops of layers and base.
+    ///
+    /// They have the length of the column's input.
     pub(super) fn accelerations(
         &mut self,
         properties: &[[f64; 2]],
@@ -301,7 +307,9 @@ fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
     changes.fold(0.0, f64::max)
 }
 
-/// Adds the layer (`index` from 0) to an error; for a damping ratio that no law represents, also the ratio.
+/// Adds the layer (`index` from 0) to an error.
+///
+/// For a damping ratio that no law represents, it adds the ratio too.
 fn layer_error(index: usize, ratio: f64, error: Error) -> Error {
     let has_no_law = matches!(error, Error::Accuracy { .. });
     let quantity = "strain-compatible damping ratio";

@@ -61,7 +61,7 @@ pub enum SiteWarning {
         /// Iterations made.
         iterations: usize,
     },
-    /// The surface moves before the motion's first sample or after its last, by more than 1 % of its peak.
+    /// Motion of the surface outside the record's time above 1 % of its peak.
     ///
     /// The record needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more
     /// damping.

@@ -69,7 +69,8 @@ impl<'a> SurfaceFunctions<'a> {
         let layer = &self.profile.layers()[index];
         let medium = WaveMedium::layer(layer.soil, modulus, s, self.slowness);
         let time = s.scale(layer.thickness);
-        medium.slownesses().map(|slowness| time * slowness)
+        let slownesses = medium.slownesses();
+        [time * slownesses[0], time * slownesses[1]]
     }
 }
 
@@ -103,7 +104,8 @@ impl SiteFunctions for SurfaceFunctions<'_> {
         for (index, (layer, modulus)) in profile.layers().iter().zip(moduli).enumerate() {
             let time = at.s.scale(layer.thickness);
             let mut medium = WaveMedium::layer(layer.soil, *modulus, s, p);
-            let mut travels = medium.slownesses().map(|slowness| time * slowness);
+            let slownesses = medium.slownesses();
+            let mut travels = [time * slownesses[0], time * slownesses[1]];
             if at.is_in_band() {
                 travels = nyquist.travels(index, at, travels);
                 medium = WaveMedium::layer(layer.soil, nyquist.modulus(index, at, *modulus), s, p);

@@ -63,7 +63,9 @@ pub(super) struct NyquistLayers<const WAVES: usize> {
 }
 
 impl<const WAVES: usize> NyquistLayers<WAVES> {
-    /// Layers of `profile` on a contour that ends at s = `end`; `travel` gives their travels for a modulus.
+    /// Layers of `profile` on a contour that ends at s = `end`.
+    ///
+    /// `travel(index, modulus)`: travels through a layer.
     pub(super) fn new(
         profile: &SoilProfile,
         end: Complex,
@@ -146,7 +148,9 @@ pub(super) trait SiteFunctions {
     }
 }
 
-/// Overwrites `found` with the functions at the places: all numbers of the first function, then of the next.
+/// Overwrites `results` with the functions at the places.
+///
+/// All numbers of the first function come first, then of the next.
 pub(super) fn evaluate(
     functions: &impl SiteFunctions,
     places: &[ContourPoint],

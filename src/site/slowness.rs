@@ -5,8 +5,8 @@
 //!
 //! U↓ = [[p, b], [a, −p]],  T↓ = μ [[2pa, g], [g, −2pb]];  U↑ = diag(1, −1) U↓,  T↑ = diag(−1, 1) T↓
 //!
-//! The reflection R from A to B is carried down from the free surface, with decaying exponentials only. So is the
-//! surface motion by A (Kennett 1983, ch. 6).
+//! The reflection R (B = R A) is computed from the free surface downwards, with decaying exponentials only. So is the
+//! surface motion due to A (Kennett 1983, ch. 6).
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -46,8 +46,9 @@ pub(super) struct WaveMedium<C> {
     a: C,
     b: C,
     g: C,
-    /// 1/c₂², 1/c₁².
+    /// 1/c₂².
     pub(super) shear: C,
+    /// 1/c₁².
     pub(super) pressure: C,
 }
 
@@ -111,7 +112,7 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         Self { modulus, density: soil.density(), p, a, b, g, shear, pressure }
     }
 
-    /// Motion of a free surface, to the right and up, by the waves A below it.
+    /// Motion of a free surface, to the right and up, due to the waves A below it.
     #[inline(always)]
     pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
@@ -158,9 +159,11 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
         let sums = [a * ((modulus * x).scale(2.0 * p) + normal), modulus * g * x - normal.scale(p)];
         let differences =
             [modulus * g * z + shear.scale(p), b * (shear - (modulus * z).scale(2.0 * p))];
-        let up = [0, 1].map(|wave| (sums[wave] - differences[wave]).scale(half));
-        let down = [0, 1].map(|wave| (sums[wave] + differences[wave]).scale(half));
-        [up, down]
+        let up_p = (sums[0] - differences[0]).scale(half);
+        let up_sv = (sums[1] - differences[1]).scale(half);
+        let down_p = (sums[0] + differences[0]).scale(half);
+        let down_sv = (sums[1] + differences[1]).scale(half);
+        [[up_p, up_sv], [down_p, down_sv]]
     }
 }
 
@@ -195,10 +198,10 @@ struct SurfaceTransfer<C> {
 }
 
 impl<C: ComplexArithmetic> SurfaceTransfer<C> {
-    /// The same at the top of the next medium down; without `above`, at the free surface.
+    /// Surface motion and R at the top of the next medium down; without `above`, at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
-    fn enter(above: Option<Self>, medium: &WaveMedium<C>) -> [Square<C>; 2] {
+    fn at_next_medium(above: Option<Self>, medium: &WaveMedium<C>) -> [Square<C>; 2] {
         let Some(Self { medium: upper, surface, reflection }) = above else {
             return [medium.free_surface(), medium.surface_reflection()];
         };
@@ -218,7 +221,7 @@ impl<C: ComplexArithmetic> SurfaceTransfer<C> {
     }
 }
 
-/// Motion of the surface, to the right and up, by the waves A in `base`.
+/// Motion of the surface, to the right and up, due to the waves A in `base`.
 ///
 /// `layers` from the surface down, each with s h a and s h b.
 #[inline(always)]
@@ -228,7 +231,7 @@ pub(super) fn surface_motion<C: ComplexArithmetic>(
 ) -> Square<C> {
     let mut above = None;
     for &(medium, travels) in layers {
-        let [[xp, xs, zp, zs], [pp, ps, sp, ss]] = SurfaceTransfer::enter(above, &medium);
+        let [[xp, xs, zp, zs], [pp, ps, sp, ss]] = SurfaceTransfer::at_next_medium(above, &medium);
         let p_decay = (-travels[0]).exp();
         let s_decay = (-travels[1]).exp();
         let surface = [xp * p_decay, xs * s_decay, zp * p_decay, zs * s_decay];
@@ -240,7 +243,7 @@ pub(super) fn surface_motion<C: ComplexArithmetic>(
         ];
         above = Some(SurfaceTransfer { medium, surface, reflection });
     }
-    SurfaceTransfer::enter(above, base)[0]
+    SurfaceTransfer::at_next_medium(above, base)[0]
 }
 
 /// Motion of the surface across p by an SH wave of unit displacement in `base`.

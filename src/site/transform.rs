@@ -26,8 +26,9 @@ const MAX_SAMPLES: usize = 1 << 24;
 ///
 /// The transfer function is exact only below this band. A narrower band would make responses last longer.
 pub(super) const BAND_FRACTION: f64 = 0.02;
-/// Exponent of the transition's slope, e^(β(√(1 − x²) − 1)) over the band (Barnett, Magland & af
-/// Klinteberg 2019): its transform is e^(−β) from 2β/(π · band) samples on.
+/// Exponent β of the transition's slope, e^(β(√(1 − x²) − 1)) over the band.
+///
+/// Its transform is e^(−β) from 2β/(π · band) samples on (Barnett, Magland & af Klinteberg 2019).
 const TRANSITION_SHARPNESS: f64 = 24.0;
 /// Frequency used in place of zero, in frequency steps of the transform.
 const ZERO_FREQUENCY_STEPS: f64 = 1e-3;

@@ -57,7 +57,9 @@ pub struct TrenchMotion {
 struct Component {
     /// Time by which the records begin earlier than the motion of the surface, s.
     lead: f64,
-    /// Velocity of the padded record at the beginning of the surface's motion, m/s: an artefact to subtract.
+    /// Velocity (m/s) that padding leaves at the beginning of the surface's motion.
+    ///
+    /// It is subtracted.
     drift: f64,
     /// Records for the elements of a wall, from the surface down, and for the base.
     levels: Vec<LevelRecords>,

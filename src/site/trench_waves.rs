@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use super::below_surface::{Field, FieldMedium};
+use super::below_surface::{FieldMedium, WaveField};
 use super::part_progress::PartProgress;
 use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
@@ -150,7 +150,9 @@ impl<'a> TrenchWaves<'a> {
         Ok(SurfaceRecords { lead: lead * step, records: [horizontal, vertical] })
     }
 
-    /// Motion at all levels by a component of the surface's motion, to the right (0) or up (1).
+    /// Motion at all levels due to one component of the surface's motion.
+    ///
+    /// `kind`: 0 for the motion to the right, 1 for the motion up.
     pub(super) fn levels(
         &self,
         kind: usize,
@@ -197,7 +199,9 @@ impl<'a> TrenchWaves<'a> {
         Ok(levels)
     }
 
-    /// Overwrites `values` with the mean values of each level, per unit acceleration of a component of the surface.
+    /// Overwrites `values` with the means of each level.
+    ///
+    /// They are per unit acceleration of a component of the surface.
     fn values(
         &self,
         kind: usize,
@@ -210,17 +214,20 @@ impl<'a> TrenchWaves<'a> {
             .map(|((soil, _), modulus)| FieldMedium::new(soil, *modulus, self.slowness))
             .collect();
         let zero = Complex::default();
-        let mut field: Field = [zero; 4];
-        field[kind] = Complex::real(if kind == 0 { 1.0 } else { -1.0 });
+        let mut field = if kind == 0 {
+            WaveField { right: Complex::real(1.0), ..WaveField::default() }
+        } else {
+            WaveField { down: Complex::real(-1.0), ..WaveField::default() }
+        };
         values.clear();
         values.resize(self.walls + 1, [zero; VALUE_COUNT]);
         for point in &self.points {
             let medium = &media[point.soil];
             field = medium.below(s, point.height, field);
-            let [right, down, shear, normal] = field;
-            let across =
-                if point.level < self.walls { medium.horizontal_stress(field) } else { normal };
-            let point_values = [right, -down, shear / s, -(across / s)];
+            // Normal to the face: the walls are vertical, the base is horizontal.
+            let is_wall = point.level < self.walls;
+            let normal = if is_wall { medium.horizontal_stress(field) } else { field.normal };
+            let point_values = [field.right, -field.down, field.shear / s, -(normal / s)];
             for (sum, value) in values[point.level].iter_mut().zip(point_values) {
                 *sum += value.scale(point.weight);
             }

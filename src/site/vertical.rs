@@ -50,6 +50,57 @@ pub(super) enum ColumnQuantity {
     Strains,
 }
 
+/// Speed of a wave in a soil, and its reciprocal.
+#[derive(Clone, Copy)]
+pub(super) struct WaveSpeed<C> {
+    speed: C,
+    slowness: C,
+}
+
+/// Amplitudes of the waves up and down at one depth.
+#[derive(Clone, Copy)]
+pub(super) struct WavePair<C> {
+    up: C,
+    down: C,
+}
+
+impl<C: ComplexArithmetic> WavePair<C> {
+    /// Waves below an interface from these waves above it.
+    ///
+    /// `above`: impedance above; `below`: reciprocal of the impedance below.
+    #[inline(always)]
+    fn below_interface(self, above: C, below: C) -> Self {
+        let sum = (self.up + self.down).scale(0.5);
+        let difference = (self.up - self.down).scale(0.5) * above * below;
+        Self { up: sum + difference, down: sum - difference }
+    }
+}
+
+/// Intermediate values of a soil; of the base only the speed is set.
+#[derive(Clone, Copy)]
+pub(super) struct ColumnLayer<C> {
+    /// Speed in the unmodified soil.
+    exact: WaveSpeed<C>,
+    /// Waves at the top of the layer.
+    top: WavePair<C>,
+    /// κh.
+    travel: C,
+    /// e^(−κh/2).
+    half_decay: C,
+}
+
+impl<C: Copy> ColumnLayer<C> {
+    #[inline(always)]
+    fn filled(value: C) -> Self {
+        Self {
+            exact: WaveSpeed { speed: value, slowness: value },
+            top: WavePair { up: value, down: value },
+            travel: value,
+            half_decay: value,
+        }
+    }
+}
+
 /// Functions of a profile for one kind of wave, with unmodified layers or layers modified for samples.
 #[derive(Debug)]
 pub(super) struct ColumnFunctions<'a> {
@@ -85,50 +136,40 @@ impl<'a> ColumnFunctions<'a> {
     /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
         let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
-            [self.travel(index, end, self.speed(index, modulus))]
+            [self.travel(index, end, self.speed(index, modulus).slowness)]
         })?;
         Ok(Self { nyquist, ..self })
     }
 
     #[inline(always)]
-    fn speed<C: ComplexArithmetic>(&self, index: usize, modulus: C) -> [C; 2] {
+    fn speed<C: ComplexArithmetic>(&self, index: usize, modulus: C) -> WaveSpeed<C> {
         let speed = modulus.scale(self.soils[index][1]).sqrt();
-        [speed, speed.inverse()]
+        WaveSpeed { speed, slowness: speed.inverse() }
     }
 
+    /// κh of a layer, from the slowness 1/c.
     #[inline(always)]
-    fn travel<C: ComplexArithmetic>(&self, index: usize, s: C, [_, slowness]: [C; 2]) -> C {
+    fn travel<C: ComplexArithmetic>(&self, index: usize, s: C, slowness: C) -> C {
         s.scale(self.profile.layers()[index].thickness) * slowness
     }
 
-    /// Waves (up, down) below an interface from the waves above it.
+    /// Overwrites `results` with the functions, from the waves at the bottom.
     ///
-    /// `above`: impedance above; `below`: reciprocal of the impedance below.
-    #[inline(always)]
-    fn below_interface<C: ComplexArithmetic>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
-        let sum = (up + down).scale(0.5);
-        let difference = (up - down).scale(0.5) * above * below;
-        [sum + difference, sum - difference]
-    }
-
-    /// Overwrites `results` with the functions, from the waves (up, down) at the bottom.
-    ///
-    /// `total`: travel Σ κh through all layers. `layer_values`: values of each soil.
+    /// `total`: travel Σ κh through all layers.
     #[inline(always)]
     fn quantities<C: ComplexArithmetic>(
         &self,
         at: &ContourLanes<C>,
-        waves: [C; 2],
+        bottom: WavePair<C>,
         total: C,
-        layer_values: &[[C; 6]],
+        layer_values: &[ColumnLayer<C>],
         results: &mut [C],
     ) {
-        let [up, down] = waves;
         let layers = self.profile.layers().len();
         // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
             && matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let value = if is_outcrop { up } else { (up + down).scale(0.5) };
+        let value = if is_outcrop { bottom.up } else { (bottom.up + bottom.down).scale(0.5) };
         let mut decay = value.inverse().scale(0.5);
         match self.quantity {
             ColumnQuantity::Inverse => {
@@ -136,11 +177,11 @@ impl<'a> ColumnFunctions<'a> {
                 results[1] = total;
             }
             ColumnQuantity::Accelerations => {
-                results[layers] = (up + down) * decay;
+                results[layers] = (bottom.up + bottom.down) * decay;
                 let pairs = results[..layers].iter_mut().zip(&layer_values[..layers]);
-                for (result, [_, _, up, down, _, half]) in pairs.rev() {
-                    decay = decay * *half * *half;
-                    *result = (*up + *down) * decay;
+                for (result, values) in pairs.rev() {
+                    decay = decay * values.half_decay * values.half_decay;
+                    *result = (values.top.up + values.top.down) * decay;
                 }
             }
             ColumnQuantity::Strains => {
@@ -148,11 +189,12 @@ impl<'a> ColumnFunctions<'a> {
                 let layer_data = self.profile.layers().iter().zip(&layer_values[..layers]);
                 for (result, (layer, values)) in results[..layers].iter_mut().zip(layer_data).rev()
                 {
-                    let [_, _, up, down, travel, half] = values;
-                    decay = decay * *half;
-                    let wavenumber = travel.scale(1.0 / layer.thickness) * square;
-                    *result = (*up - *down * *half * *half) * wavenumber * decay;
-                    decay = decay * *half;
+                    let half_decay = values.half_decay;
+                    decay = decay * half_decay;
+                    let wavenumber = values.travel.scale(1.0 / layer.thickness) * square;
+                    let difference = values.top.up - values.top.down * half_decay * half_decay;
+                    *result = difference * wavenumber * decay;
+                    decay = decay * half_decay;
                 }
             }
         }
@@ -160,8 +202,7 @@ impl<'a> ColumnFunctions<'a> {
 }
 
 impl SiteFunctions for ColumnFunctions<'_> {
-    /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
-    type LayerValues<C: ComplexArithmetic> = [C; 6];
+    type LayerValues<C: ComplexArithmetic> = ColumnLayer<C>;
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -181,57 +222,55 @@ impl SiteFunctions for ColumnFunctions<'_> {
         &self,
         at: &ContourLanes<C>,
         moduli: &[C],
-        layer_values: &mut Vec<[C; 6]>,
+        layer_values: &mut Vec<ColumnLayer<C>>,
         results: &mut [C],
     ) {
         let zero = at.s.like_real(0.0);
         let one = at.s.like_real(1.0);
-        let mut waves = [one; 2];
+        let mut waves = WavePair { up: one, down: one };
         let mut total = zero;
-        let mut above: Option<C> = None;
+        let mut impedance_above: Option<C> = None;
         if layer_values.len() != moduli.len() {
             layer_values.clear();
-            layer_values.resize(moduli.len(), [zero; 6]);
+            layer_values.resize(moduli.len(), ColumnLayer::filled(zero));
         }
         let layers = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
             if !at.repeats {
-                let [speed, slowness] = self.speed(index, *modulus);
-                layer_values[index] = [speed, slowness, zero, zero, zero, zero];
+                layer_values[index] = ColumnLayer::filled(zero);
+                layer_values[index].exact = self.speed(index, *modulus);
             }
-            let exact_speed = [layer_values[index][0], layer_values[index][1]];
-            let mut modified_speed = exact_speed;
+            let exact = layer_values[index].exact;
+            let mut modified = exact;
             let is_layer = index < layers;
             let mut travel = zero;
             if is_layer {
-                travel = self.travel(index, at.s, exact_speed);
+                travel = self.travel(index, at.s, exact.slowness);
             }
             if at.is_in_band() {
-                modified_speed = self.speed(index, self.nyquist.modulus(index, at, *modulus));
+                modified = self.speed(index, self.nyquist.modulus(index, at, *modulus));
                 if is_layer {
                     [travel] = self.nyquist.travels(index, at, [travel]);
                 }
             }
-            let [speed, slowness] = modified_speed;
             let density = self.soils[index][0];
-            if let Some(above) = above {
-                waves = Self::below_interface(waves, above, slowness.scale(1.0 / density));
+            if let Some(above) = impedance_above {
+                waves = waves.below_interface(above, modified.slowness.scale(1.0 / density));
             }
-            above = Some(speed.scale(density));
+            impedance_above = Some(modified.speed.scale(density));
             if !is_layer {
                 break;
             }
-            let [up, down] = waves;
             total = total + travel;
             let round_trip = if self.quantity == ColumnQuantity::Inverse {
                 travel.scale(-2.0).exp()
             } else {
-                let half = travel.scale(-0.5).exp();
-                layer_values[index] = [exact_speed[0], exact_speed[1], up, down, travel, half];
-                let through = half * half;
+                let half_decay = travel.scale(-0.5).exp();
+                layer_values[index] = ColumnLayer { exact, top: waves, travel, half_decay };
+                let through = half_decay * half_decay;
                 through * through
             };
-            waves = [up, down * round_trip];
+            waves.down = waves.down * round_trip;
         }
         self.quantities(at, waves, total, layer_values, results);
     }

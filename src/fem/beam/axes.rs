@@ -21,7 +21,9 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Axes of a beam between two `ends`; its y axis lies in the plane of the beam and the `orientation`.
+    /// Axes of a beam between two `ends`.
+    ///
+    /// The y axis lies in the plane of the beam and the `orientation`.
     pub(super) fn new(ends: [[f64; 3]; 2], orientation: [f64; 3]) -> Result<Self> {
         let axis = add(ends[1], -1.0, ends[0]);
         let beam_length = positive("length of the beam", length(axis))?;

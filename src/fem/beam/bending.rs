@@ -9,7 +9,9 @@ use crate::linalg::gauss;
 /// Rotations are positive from the axis towards the positive deflection.
 pub(super) type EndMatrix = [[f64; 4]; 4];
 
-/// Bending and shear of a straight beam in one plane: the parts of its matrices across its axis.
+/// Bending and shear of a straight beam in one plane.
+///
+/// It gives the parts of the beam's matrices across its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bending {
     /// E I, N m².

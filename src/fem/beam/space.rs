@@ -56,7 +56,9 @@ pub struct SpaceBeam {
 }
 
 impl SpaceBeam {
-    /// Beam of a material and a section whose y axis lies in the plane of beam and `orientation`.
+    /// Beam of a material and a section.
+    ///
+    /// The section's y axis lies in the plane of the beam and the `orientation`.
     ///
     /// The orientation is a vector in x, y, z of any length. The axes of the section matter even if both second
     /// moments are equal, for releases and forces.
@@ -120,7 +122,9 @@ impl SpaceBeam {
         })
     }
 
-    /// Places the ends of the beam away from its nodes, by rigid arms from node to end (m, along x, y, z).
+    /// Places the ends of the beam away from its nodes, by rigid arms.
+    ///
+    /// `offsets`: from each node to its end along x, y and z, m.
     ///
     /// # Errors
     /// [`Error::NotFinite`] unless all are finite.
@@ -130,7 +134,7 @@ impl SpaceBeam {
         Ok(Self { offsets, ..self })
     }
 
-    /// Releases the first (0) or second (1) end in `directions`, which are in the axes of the beam.
+    /// Releases an end (0 or 1) in `directions`, in the axes of the beam.
     ///
     /// Nothing holds the end in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending
     /// along y. Adds to earlier releases. A lumped mass loses the entries of released directions.

@@ -2,7 +2,7 @@
 
 use crate::fem::vector::{add, cross, dot, unit};
 
-/// Axes e1, e2, n of an element with N nodes, and the places of the nodes in them.
+/// Axes e1, e2, n of an element, and the places of its N nodes.
 ///
 /// The element itself lies in the plane through the mean of its nodes. A node beside the plane, as in a warped
 /// quadrilateral, moves its projection as a rigid link does, so that rigid motions cause no strain.
@@ -16,7 +16,9 @@ pub(super) struct Frame<const N: usize> {
 }
 
 impl Frame<4> {
-    /// Frame of a quadrilateral: n across both diagonals, e1 from the middle of side 4–1 to the middle of side 2–3.
+    /// Frame of a quadrilateral.
+    ///
+    /// n is across both diagonals; e1 runs from the middle of side 4–1 to the middle of side 2–3.
     pub(super) fn quadrilateral(nodes: &[[f64; 3]; 4]) -> Self {
         let first_diagonal = add(nodes[2], -1.0, nodes[0]);
         let second_diagonal = add(nodes[3], -1.0, nodes[1]);
@@ -45,7 +47,9 @@ impl<const N: usize> Frame<N> {
         Self { axes, points: local.map(|[x, y, _]| [x, y]), heights: local.map(|[_, _, z]| z) }
     }
 
-    /// Rows u, v, w, θ1, θ2, θn of the projection of `node` by the six displacements of the node.
+    /// Displacements of a node's projection due to the six displacements of the node.
+    ///
+    /// Rows: u, v, w, θ1, θ2, θn.
     fn transformation(&self, node: usize) -> [[f64; 6]; 6] {
         let mut rows = [[0.0; 6]; 6];
         for (row, axis) in self.axes.iter().enumerate() {
@@ -60,7 +64,9 @@ impl<const N: usize> Frame<N> {
         rows
     }
 
-    /// Adds the stiffness of membrane and bending, M = 3N, to the `matrix` of all six directions of the nodes.
+    /// Adds the stiffness of membrane and bending (M = 3N) to the element's `matrix`.
+    ///
+    /// The matrix has all six directions of the nodes.
     pub(super) fn add_stiffness<const M: usize>(
         &self,
         membrane: &[[f64; M]; M],
@@ -103,7 +109,7 @@ pub(super) struct LocalDisplacements<const M: usize> {
     pub(super) bending: [f64; M],
 }
 
-/// Places of u, v, θn of the membrane and of w, θ1, θ2 of bending among the six directions of a node.
+/// Places of membrane's u, v, θn and bending's w, θ1, θ2 among a node's six directions.
 const DIRECTION_PLACES: [[usize; 3]; 2] = [[0, 1, 5], [2, 3, 4]];
 
 /// Local stiffness between the nodes i and j times the transformation of node j.

@@ -29,7 +29,9 @@ impl QuadBending<'_> {
         })
     }
 
-    /// Columns `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` of all degrees of freedom, and the determinant of the Jacobian.
+    /// Strains at a point due to each degree of freedom, and the determinant of the Jacobian.
+    ///
+    /// Columns `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
     fn strains(&self, point: [f64; 2]) -> ([[f64; 5]; DOF_COUNT], f64) {
         let jacobian = Jacobian::at(point, self.points);
         let mut columns = [[0.0; 5]; DOF_COUNT];
@@ -58,7 +60,9 @@ impl QuadBending<'_> {
         std::array::from_fn(|k| 0.5 * ((1.0 - place) * low[k] + (1.0 + place) * high[k]))
     }
 
-    /// Covariant shear strain w,ξ + x,ξ θ2 − y,ξ θ1 along an axis (0 for ξ, 1 for η) by each degree of freedom.
+    /// Covariant shear strain along an axis (0 for ξ, 1 for η) due to each degree of freedom.
+    ///
+    /// Along ξ it is w,ξ + x,ξ θ2 − y,ξ θ1.
     fn shear(&self, axis: usize, point: [f64; 2]) -> [f64; DOF_COUNT] {
         let natural = natural_slopes(point);
         let tangents = tangents(&natural, self.points);

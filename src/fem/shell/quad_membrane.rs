@@ -22,7 +22,9 @@ pub(super) struct QuadMembrane<'a> {
 }
 
 impl QuadMembrane<'_> {
-    /// Stiffness by u, v, ω of the nodes in its first 12 rows, condensed; then the equations of the bending modes.
+    /// Condensed stiffness in the first 12 rows, then the equations of the bending modes.
+    ///
+    /// The degrees of freedom are u, v, ω of the nodes.
     ///
     /// The energy of the strains has a second part (Hughes & Brezzi 1989): shear stiffness ties the rotation ω
     /// to the rotation ½(v,x − u,y) of the displacements. `Quad4` has the same bending modes (QM6).
@@ -71,7 +73,9 @@ impl QuadMembrane<'_> {
         })
     }
 
-    /// Columns `[ε_xx, ε_yy, γ_xy, ω − ½(v,x − u,y)]` of all degrees of freedom, and the determinant of the Jacobian.
+    /// Strains at a point due to each degree of freedom, and the determinant of the Jacobian.
+    ///
+    /// Columns `[ε_xx, ε_yy, γ_xy, ω − ½(v,x − u,y)]`.
     fn strains(&self, point: [f64; 2], centre: &Jacobian) -> ([[f64; 4]; FULL_DOF_COUNT], f64) {
         let jacobian = Jacobian::at(point, self.points);
         let mut columns = [[0.0; 4]; FULL_DOF_COUNT];

@@ -42,7 +42,7 @@ impl ShellResultants {
         values
     }
 
-    /// Axes in the middle between axes of elements that meet, from the sums of their unit vectors.
+    /// Mean axes of elements that meet, from the sums of their unit vectors.
     pub(crate) fn mean_axes([first, _, normal]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         let normal = unit(normal);
         let first = unit(add(first, -dot(first, normal), normal));
@@ -82,7 +82,9 @@ impl ShellResultants {
     }
 }
 
-/// Symmetric tensor [11, 22, 12] in new axes, whose components in the old axes are the rows of `rotation`.
+/// Symmetric tensor [11, 22, 12] in new axes.
+///
+/// The rows of `rotation` are the new axes in the old ones.
 fn rotated([xx, yy, xy]: [f64; 3], rotation: &[[f64; 2]; 2]) -> [f64; 3] {
     [[0, 0], [1, 1], [0, 1]].map(|[i, j]| {
         let a = rotation[i];

@@ -22,7 +22,7 @@ pub(super) fn check_triangle(nodes: &[[f64; 3]; 3]) -> Result<()> {
     Ok(())
 }
 
-/// Checks that four nodes, seen along their normal, are the corners of a convex quadrilateral with little warp.
+/// Checks that four nodes span a convex quadrilateral with little warp.
 pub(super) fn check_quadrilateral(nodes: &[[f64; 3]; 4]) -> Result<()> {
     check_sides(nodes)?;
     let first_diagonal = unit(add(nodes[2], -1.0, nodes[0]));

@@ -34,7 +34,9 @@ pub(super) struct TriangleBending<'a> {
 }
 
 impl TriangleBending<'_> {
-    /// Stiffness by w, θ1, θ2 of the nodes in its first 9 rows, condensed; then the equations of the bubble.
+    /// Condensed stiffness in the first 9 rows, then the equations of the bubble.
+    ///
+    /// The degrees of freedom are w, θ1, θ2 of the nodes.
     pub(super) fn stiffness(&self) -> [[f64; FULL_DOF_COUNT]; FULL_DOF_COUNT] {
         let shears = self.shears();
         let moduli = self.section.bending_and_shear();
@@ -56,7 +58,9 @@ impl TriangleBending<'_> {
         })
     }
 
-    /// Columns `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` of all degrees of freedom, and the determinant of the Jacobian.
+    /// Strains at a point due to each degree of freedom, and the determinant of the Jacobian.
+    ///
+    /// Columns `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]`.
     fn strains(
         &self,
         [r, s]: [f64; 2],
@@ -106,7 +110,9 @@ impl TriangleBending<'_> {
         })
     }
 
-    /// Covariant shear strains w,r + x,r θ2 − y,r θ1 and w,s + x,s θ2 − y,s θ1 of the displacements.
+    /// Covariant shear strains of the displacements due to each degree of freedom.
+    ///
+    /// They are w,r + x,r θ2 − y,r θ1 and w,s + x,s θ2 − y,s θ1.
     fn displacement_shears(&self, [r, s]: [f64; 2]) -> [[f64; 2]; FULL_DOF_COUNT] {
         let tangents = self.tangents();
         let mut columns = [[0.0; 2]; FULL_DOF_COUNT];
@@ -154,7 +160,9 @@ fn rotation_dofs(pattern: usize) -> [usize; 2] {
     }
 }
 
-/// Shape functions of the rotations of the nodes, L_i less a third of the bubble, and the bubble 27 L_1 L_2 L_3.
+/// Shape functions of the rotations: of the three nodes, and the bubble.
+///
+/// Of the nodes L_i less a third of the bubble 27 L_1 L_2 L_3.
 fn rotation_shapes([r, s]: [f64; 2]) -> [f64; 4] {
     let bubble = 27.0 * r * s * (1.0 - r - s);
     [1.0 - r - s - bubble / 3.0, r - bubble / 3.0, s - bubble / 3.0, bubble]

@@ -6,10 +6,12 @@ use crate::fem::quad4::add_energy;
 /// Degrees of freedom: u, v, ω of each node.
 const DOF_COUNT: usize = 9;
 
-/// Bulge of a side by the rotations of its ends, relative to the bulge of a quadrilateral's side: α_b.
+/// Bulge of a side relative to the bulge of a quadrilateral's side: α_b.
 const SIDE_BULGE_RATIO: f64 = 1.5;
 
-/// Parameters β₁ to β₉ of the strains by the rotations, in rows: at node 1, 2 and 3.
+/// Parameters β₁ to β₉ of the strains due to the rotations.
+///
+/// In rows: at node 1, 2 and 3.
 const ROTATION_STRAIN_PARAMETERS: [[[f64; 3]; 3]; 3] = [
     [[1.0, 2.0, 1.0], [0.0, 1.0, -1.0], [-1.0, -1.0, -2.0]],
     [[-2.0, -1.0, -1.0], [1.0, 1.0, 2.0], [-1.0, 0.0, 1.0]],

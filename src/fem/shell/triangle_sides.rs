@@ -31,7 +31,9 @@ struct NodeSurroundings {
     volume: f64,
 }
 
-/// Mean side of the triangles of doubly curved shells and √(R t), m; `None` without such triangles.
+/// Mean side of doubly curved shells' triangles, and √(R t), m.
+///
+/// `None` without such triangles.
 ///
 /// A side counts if both of its ends are surrounded by triangles: at the pole of a dome no side counts.
 pub(crate) fn triangle_sides(mesh: &Mesh) -> Option<[f64; 2]> {

@@ -19,7 +19,9 @@ use crate::error::{
     CheckpointError, Error, MemoryError, Observer, Result, Watch, require, same_length,
 };
 
-/// Longest window, lags: with a longer one the step is so short that the window may cover the whole run.
+/// Longest window, lags.
+///
+/// With a longer one the step is so short that the window may cover the whole run.
 const MAX_WINDOW_LAGS: usize = 1_000_000;
 /// Tolerances that a fit can reach.
 const TOLERANCE_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
@@ -105,7 +107,9 @@ impl ExponentialHistory {
     pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-10;
     /// Default horizon: steps over which the tolerance holds.
     pub(crate) const DEFAULT_HORIZON: usize = 1 << 20;
-    /// Longest horizon, steps: far below the limit of 64 bits, or as many as a shorter word can hold.
+    /// Longest horizon, steps.
+    ///
+    /// It is far below the limit of 64 bits, or of a shorter word.
     pub(crate) const MAX_HORIZON: usize = match 1_usize.checked_shl(40) {
         Some(steps) => steps,
         None => usize::MAX >> 4,
@@ -275,7 +279,9 @@ fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
     Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
 }
 
-/// Number of lags in the window: a whole block of the transforms, since any part of it takes as much time.
+/// Number of lags in the window, a whole block of the transforms.
+///
+/// Part of a block would take as much time.
 fn window(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";

@@ -50,7 +50,9 @@ impl MeasuredErrors {
     }
 }
 
-/// Pairs of elements on which errors are measured: places in the list of pairs, at most one for each class.
+/// Pairs of elements on which errors are measured.
+///
+/// They are places in the list of pairs, at most one for each class.
 struct SampledPairs(Vec<usize>);
 
 impl SampledPairs {

@@ -28,8 +28,9 @@ pub(super) struct Tail {
     data: ExponentialSum,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
-    /// States of normal and tangential components, for each function: Σ decay^age · moment, for the poles that have
-    /// this function.
+    /// States of normal and tangential components, for each function and its poles.
+    ///
+    /// A state is Σ decay^age · moment.
     states: [Vec<Vec<f64>>; PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
@@ -151,7 +152,9 @@ impl Tail {
         self.sum(|pole| (-self.data.rates[pole] * age).exp())
     }
 
-    /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
+    /// The sums at a frequency.
+    ///
+    /// They are Re Σ (1−ζ) ζ^W z^n ζ^n over all ages n, with ζ = e^(iω) and the decay z.
     pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; PLANE] {
         let half = 0.5 * omega;
         let sine = omega.sin();

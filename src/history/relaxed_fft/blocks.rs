@@ -38,7 +38,9 @@ pub(crate) trait HistoryBlocks: Send {
         watch: &mut Watch,
     ) -> Result<()>;
 
-    /// Adds the effect of the input of step `now` − 1, so that the output of `now` is complete.
+    /// Adds the effect of the last input, so that the output of `now` is complete.
+    ///
+    /// The last input is of step `now` − 1.
     fn add_effects(&mut self, now: usize);
 
     /// Accepts the input of step `now`.

@@ -72,7 +72,9 @@ enum Offsets {
 }
 
 impl ElementGrid {
-    /// The lattice of the elements; `None` if they are not on a lattice, or most of its cells are empty.
+    /// The lattice of the elements.
+    ///
+    /// `None` if they are not on a lattice, or most of its cells are empty.
     pub(super) fn from_pairs(pairs: &PairClasses) -> Option<Self> {
         if let Some((lattice, cells)) = pairs.plan() {
             let lengths = lattice.counts.map(|count| next_smooth_even(2 * count - 1));

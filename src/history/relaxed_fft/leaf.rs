@@ -47,16 +47,21 @@ fn add(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 2]) {
     }
 }
 
-/// Adds products of all three kinds; the coupling is i times a real number, with opposite signs for the two components.
+/// Adds products of all three kinds.
+///
+/// The coupling is i times a real number, with opposite signs for the two components.
 #[inline(always)]
 fn add_coupled(sum: &mut [f64], input: &[f64], coefficients: [&[f64]; 3]) {
     let waves = coefficients[0].len();
     let [normal, tangential, coupling] = coefficients.map(|values| &values[..waves]);
-    let mut outputs = sum.chunks_exact_mut(waves);
-    let [down_re, down_im, along_re, along_im]: [&mut [f64]; 4] =
-        std::array::from_fn(|_| &mut outputs.next().unwrap_or_default()[..waves]);
-    let [p_re, p_im, s_re, s_im]: [&[f64]; 4] =
-        std::array::from_fn(|part| &input[part * waves..][..waves]);
+    let (down, along) = sum.split_at_mut(2 * waves);
+    let (down_re, down_im) = down.split_at_mut(waves);
+    let (along_re, along_im) = along.split_at_mut(waves);
+    let along_im = &mut along_im[..waves];
+    let p_re = &input[..waves];
+    let p_im = &input[waves..][..waves];
+    let s_re = &input[2 * waves..][..waves];
+    let s_im = &input[3 * waves..][..waves];
     for k in 0..waves {
         let g = normal[k];
         let h = tangential[k];
@@ -189,7 +194,9 @@ fn times<S: Simd>(
     ]
 }
 
-/// A component along the surface of ĝ x, for its coefficients of both shears and of the pressure.
+/// A component of ĝ x along the surface.
+///
+/// Coefficients: of both shears and of the pressure.
 #[inline(always)]
 fn shear<S: Simd>(
     simd: S,

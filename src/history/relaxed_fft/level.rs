@@ -20,8 +20,9 @@ pub(super) struct PairLevel {
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Spectra over 2b of each kind and class: b + 1 real parts, then as many imaginary parts. The coupling has none if
-    /// it ends within smaller blocks.
+    /// Spectra over 2b of each kind and class: real parts, then imaginary parts.
+    ///
+    /// There are b + 1 of each. The coupling has none if it ends within smaller blocks.
     spectra: [Vec<f64>; MAX_KINDS],
 }
 
@@ -90,7 +91,9 @@ impl PairLevel {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 
-    /// Blocks of `size`, without spectra yet, with memory for `classes` spectra of each of the first `kinds`.
+    /// Blocks of `size`, without spectra yet.
+    ///
+    /// Allocates for `classes` spectra of each of the first `kinds`.
     pub(super) fn new(
         size: usize,
         classes: usize,

@@ -27,7 +27,9 @@ pub(crate) fn bytes_of_blocks(kernel: &dyn ConvolutionWeights, steps: usize) -> 
     })
 }
 
-/// Largest power of two of steps whose blocks fit into `memory` bytes; zero if the smallest blocks do not.
+/// Largest power of two of steps whose blocks fit into `memory` bytes.
+///
+/// Zero if the smallest blocks do not.
 pub(super) fn max_steps(kernel: &dyn ConvolutionWeights, memory: f64) -> Result<usize> {
     let mut largest = 0;
     for power in LEAF_STEPS.ilog2() + 1..usize::BITS {

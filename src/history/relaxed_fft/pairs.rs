@@ -22,7 +22,9 @@ use crate::linalg::vectorized;
 /// Up to this length the time of a step depends little on the choice.
 const MAX_DIRECT_COUPLING: usize = 64;
 
-/// Numbers in a memory page: rows of whole pages would map equal places of all rows to one cache set.
+/// Numbers in a memory page.
+///
+/// Rows of whole pages would map equal places of all rows to one cache set.
 const NUMBERS_PER_PAGE: usize = 512;
 /// Numbers in a cache line: rows are longer than whole pages by this.
 const NUMBERS_PER_CACHE_LINE: usize = 8;
@@ -48,7 +50,9 @@ impl PairBlocks {
         Self::with_coupling(kernel, MAX_DIRECT_COUPLING)
     }
 
-    /// Makes empty blocks for rows whose places are reused: no coupling beyond a leaf is summed directly.
+    /// Makes empty blocks for rows whose places are reused.
+    ///
+    /// No coupling beyond a leaf is summed directly.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(kernel, 0)
     }
@@ -71,7 +75,9 @@ impl PairBlocks {
         self.coefficients.classes.elements().len()
     }
 
-    /// Whether blocks of `size` have spectra of the coupling: up to the first size that covers its reach.
+    /// Whether blocks of `size` have spectra of the coupling.
+    ///
+    /// They do up to the first size that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
         coefficients.couples_far && (size == LEAF_STEPS || size / 2 < coefficients.coupling_reach)

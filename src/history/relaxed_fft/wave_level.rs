@@ -37,9 +37,11 @@ pub(super) struct WaveLevel {
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     waves: WaveNumbers,
-    /// Spectra of each kind: for each wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real numbers
-    /// in time, so that the upper frequencies are conjugates. The coupling of pressure and shear is i times the stored
-    /// coefficients. A strip's coupling has no spectra if it ends within smaller blocks.
+    /// Spectra of each kind: for each wavenumber, the b + 1 lower frequencies of 2b.
+    ///
+    /// The coefficients are real numbers in time, so that the upper frequencies are conjugates. The coupling of
+    /// pressure and shear is i times the stored coefficients. A strip's coupling has no spectra if it ends within
+    /// smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
@@ -114,7 +116,7 @@ impl WaveLevel {
         debug_assert!(done.is_ok());
     }
 
-    /// Adds the effect of the b inputs before `now` to the b outputs from `now` on, in all rows.
+    /// Adds the effect of the b inputs before `now` to the next b outputs, in all rows.
     ///
     /// There is one row per wavenumber for the first component, then as many for each other component.
     pub(super) fn apply(

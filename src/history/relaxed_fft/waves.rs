@@ -18,7 +18,9 @@ use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
-/// Unused numbers at the end of each row, so that equal places of all rows do not fall into one cache set.
+/// Unused numbers at the end of each row.
+///
+/// Without them equal places of all rows would fall into one cache set.
 const ROW_PADDING: usize = 4;
 
 /// Blocks over wavenumbers: the current leaf, all levels, inputs and outputs so far.
@@ -72,7 +74,9 @@ impl WaveBlocks {
         })
     }
 
-    /// Whether blocks of `size` have spectra of the coupling: up to the first size that covers its reach.
+    /// Whether blocks of `size` have spectra of the coupling.
+    ///
+    /// They do up to the first size that covers its reach.
     fn couples(&self, size: usize) -> bool {
         self.reach > 0 && (size == LEAF_STEPS || size / 2 < self.reach)
     }

@@ -61,6 +61,8 @@ impl<'a> GraphHalves<'a> {
         halves
     }
 
+    /// Cost of these halves, compared entry by entry.
+    ///
     /// Excess of a half over its limit, then the weight of the cut, then the difference of the halves.
     pub(super) fn cost(&self) -> [i64; 3] {
         let first = self.weights[0];
