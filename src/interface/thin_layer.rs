@@ -133,8 +133,7 @@ validated! {
         slip_stiffness_ratio: f64,
     }
     => {
-        let [normal, shear] = reference_stiffness;
-        let layer = ThinLayer::from_stiffness(normal, shear, friction)?
+        let layer = ThinLayer::from_stiffness(reference_stiffness[0], reference_stiffness[1], friction)?
             .with_thickness_ratio(thickness_ratio)?
             .with_debonded_ratio(debonded_ratio)?
             .with_slip_stiffness_ratio(slip_stiffness_ratio)?;

@@ -187,8 +187,10 @@ impl LatticeProduct {
             }
         }
         self.across[0].process_with_scratch(waves, scratch);
-        let (p, rest) = waves.split_at_mut(wave_count);
-        let (x, y) = rest.split_at_mut(wave_count);
+        let mut components = waves.chunks_exact_mut(wave_count);
+        let p = components.next().unwrap_or_default();
+        let x = components.next().unwrap_or_default();
+        let y = components.next().unwrap_or_default();
         for (((p, x), y), (diagonal, [a, b, c])) in p.iter_mut().zip(x).zip(y).zip(&self.spectra) {
             let sums = [
                 *p * diagonal[0] + a * *x + b * *y,

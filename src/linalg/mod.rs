@@ -42,9 +42,9 @@ pub(crate) use matrix::SparseMatrix;
 pub(crate) use number::ComplexArithmetic;
 pub(crate) use partition::Partition;
 pub(crate) use product::{
-    Dot, Scalar, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot,
-    largest, magnitude, mixed, mixing_weight, row_products, symmetric_products,
-    transposed_multiply_add, vectorized, weighted_dot,
+    Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
+    dense_multiply_add, dot, largest, magnitude, mixed, mixing_weight, row_products,
+    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
 };
 pub(crate) use sparse::{SparseFactor, indefinite_row};
 pub(crate) use thinned::CompressedMatrix;

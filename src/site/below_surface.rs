@@ -194,9 +194,10 @@ mod tests {
         for (kind, wave) in waves.into_iter().enumerate() {
             let wave = wave.unwrap();
             let p = 1.0 / wave.apparent_velocity();
-            let [right, up] = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
+            let motion = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
             let s = Complex::new(0.0, 0.8 * std::f64::consts::TAU);
-            let mut field = WaveField { right, down: -up, ..WaveField::default() };
+            let mut field =
+                WaveField { right: motion[0], down: -motion[1], ..WaveField::default() };
             for ((soil, _), layer) in profile.soils().zip(profile.layers()) {
                 let medium = FieldMedium::new(soil, Complex::real(soil.shear_modulus()), p);
                 field = medium.below(s, layer.thickness, field);

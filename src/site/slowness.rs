@@ -59,7 +59,8 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
     /// Slownesses of a finite layer.
     #[inline(always)]
     pub(super) fn layer(soil: Soil, modulus: C, s: C, p: f64) -> Self {
-        let [shear, pressure] = squared_slownesses(soil, modulus);
+        let shear = squared_shear_slowness(soil, modulus);
+        let pressure = shear.scale(soil.speed_ratio_squared());
         let horizontal = modulus.like_real(p * p);
         let pressure = (pressure - horizontal).at_least(pressure.scale(GRAZING_SLOWNESS_RATIO));
         let shear = (shear - horizontal).at_least(shear.scale(GRAZING_SLOWNESS_RATIO));
@@ -103,7 +104,8 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
     /// Frequency zero is the limit from above, s = i.
     #[inline(always)]
     fn new(soil: Soil, modulus: C, s: C, p: f64, vertical_squares: [C; 2]) -> Self {
-        let [shear, pressure] = squared_slownesses(soil, modulus);
+        let shear = squared_shear_slowness(soil, modulus);
+        let pressure = shear.scale(soil.speed_ratio_squared());
         let a = vertical_squares[0].sqrt();
         let b = vertical_squares[1].sqrt();
         let a = a.negated_where_negative(s * a, SIGN_ROUNDING);
@@ -167,11 +169,10 @@ impl<C: ComplexArithmetic> WaveMedium<C> {
     }
 }
 
-/// 1/c₂² and 1/c₁².
+/// 1/c₂².
 #[inline(always)]
-fn squared_slownesses<C: ComplexArithmetic>(soil: Soil, modulus: C) -> [C; 2] {
-    let shear = modulus.inverse().scale(soil.density());
-    [shear, shear.scale(soil.speed_ratio_squared())]
+fn squared_shear_slowness<C: ComplexArithmetic>(soil: Soil, modulus: C) -> C {
+    modulus.inverse().scale(soil.density())
 }
 
 #[inline(always)]

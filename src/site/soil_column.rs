@@ -106,9 +106,7 @@ impl SoilColumn {
                 .collect();
             let mut values = vec![Complex::default(); 2 * block.len()];
             evaluate(&functions, &places, &mut moduli, &mut values)?;
-            let (values, travels) = values.split_at(block.len());
-            found
-                .extend(values.iter().zip(travels).map(|(value, travel)| upwards(*value, *travel)));
+            found.extend((0..block.len()).map(|k| upwards(values[k], values[block.len() + k])));
             watch.reach(found.len())?;
         }
         Ok(found)
@@ -278,9 +276,8 @@ impl SoilColumn {
         let [found] = contour.filtered(motion, progress, |places, found| {
             values.resize(2 * places.len(), Complex::default());
             evaluate(&functions, places, &mut moduli, &mut values)?;
-            let (values, travels) = values.split_at(places.len());
-            for (found, (value, travel)) in found.iter_mut().zip(values.iter().zip(travels)) {
-                *found = filter(*value, *travel);
+            for (k, found) in found.iter_mut().enumerate() {
+                *found = filter(values[k], values[places.len() + k]);
             }
             Ok(())
         })?;

@@ -14,8 +14,7 @@ pub(super) fn check_triangle(nodes: &[[f64; 3]; 3]) -> Result<()> {
     check_sides(nodes)?;
     let mut sine = f64::INFINITY;
     for node in 0..3 {
-        let [next, previous] = sides(nodes, node);
-        sine = sine.min(length(cross(unit(next), unit(previous))));
+        sine = sine.min(length(corner_cross(nodes, node)));
     }
     let quantity = "sine of the smallest angle of a triangular shell";
     require(quantity, sine, sine > MIN_CORNER_SINE, "above 1e-6: nodes on no common line")?;
@@ -34,8 +33,7 @@ pub(super) fn check_quadrilateral(nodes: &[[f64; 3]; 4]) -> Result<()> {
     let needed = "above 1e-6: nodes on no common line, listed around the shell";
     require(quantity, sine, sine > MIN_CORNER_SINE, needed)?;
     for node in 0..4 {
-        let [next, previous] = sides(nodes, node);
-        let across = cross(unit(next), unit(previous));
+        let across = corner_cross(nodes, node);
         let quantity = "sine of the angle at a corner of a shell";
         let needed = "above 1e-6: corners convex, listed around the shell";
         let sine = dot(across, normal);
@@ -57,6 +55,12 @@ fn check_sides<const N: usize>(nodes: &[[f64; 3]; N]) -> Result<()> {
         positive("length of a side of a shell", length)?;
     }
     Ok(())
+}
+
+/// Vector product of the unit vectors from a node to the next and to the previous one.
+fn corner_cross<const N: usize>(nodes: &[[f64; 3]; N], node: usize) -> [f64; 3] {
+    let [next, previous] = sides(nodes, node);
+    cross(unit(next), unit(previous))
 }
 
 /// Vectors from a node to the next and to the previous one.

@@ -129,8 +129,8 @@ impl TriangleBending<'_> {
 
     /// ∂(x, y)/∂r and ∂(x, y)/∂s.
     fn tangents(&self) -> [[f64; 2]; 2] {
-        let [x, y] = self.points[0];
-        [1, 2].map(|node| [self.points[node][0] - x, self.points[node][1] - y])
+        let origin = self.points[0];
+        [1, 2].map(|node| [0, 1].map(|axis| self.points[node][axis] - origin[axis]))
     }
 
     fn longest_side(&self) -> f64 {

@@ -7,7 +7,7 @@
 use crate::error::{Result, same_length};
 use crate::geometry::{ContactElement, ContactLayout, PLANE};
 use crate::history::exponential_sum::{ExponentialSum, TailProduct};
-use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
+use crate::linalg::{Dot, Simd, SimdSlice, SimdSliceMut, WithSimd, dot, vectorized};
 
 /// Measured errors of exponentials.
 #[derive(Debug, Clone, Copy, Default)]
@@ -203,13 +203,13 @@ impl WithSimd for AdvanceStates<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         for (state, moment) in self.states.iter_mut().zip(self.moments) {
-            let wide = simd.splat_f64s(*moment);
-            let (decay, decay_tail) = S::as_simd_f64s(&self.decay[..state.len()]);
-            let (state, state_tail) = S::as_mut_simd_f64s(state);
-            for (state, decay) in state.iter_mut().zip(decay) {
-                *state = simd.mul_add_e_f64s(*state, *decay, wide);
+            let splat_moment = simd.splat_f64s(*moment);
+            let decay = SimdSlice::<S>::new(&self.decay[..state.len()]);
+            let state = SimdSliceMut::<S>::new(state);
+            for (state, decay) in state.vectors.iter_mut().zip(decay.vectors) {
+                *state = simd.mul_add_e_f64s(*state, *decay, splat_moment);
             }
-            for (state, decay) in state_tail.iter_mut().zip(decay_tail) {
+            for (state, decay) in state.tail.iter_mut().zip(decay.tail) {
                 *state = *state * decay + moment;
             }
         }

@@ -5,7 +5,7 @@
 use super::wave_numbers::WaveNumbers;
 use crate::geometry::{SERIES, SPACE};
 use crate::history::pair_classes::STRIP_KINDS;
-use crate::linalg::{Scalar, Simd, WithSimd};
+use crate::linalg::{Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd};
 
 /// Sum over the inputs of a strip's leaf so far, for its next output.
 pub(super) struct StripLeaf<'a> {
@@ -112,50 +112,49 @@ impl PlanLeaf<'_> {
             let length = range.len();
             let mut parts = sum.chunks_exact_mut(waves.count);
             let sums: [_; COMPLEX_PARTS] = std::array::from_fn(|_| {
-                S::as_mut_simd_f64s(&mut parts.next().unwrap_or_default()[range.clone()])
+                SimdSliceMut::<S>::new(&mut parts.next().unwrap_or_default()[range.clone()])
             });
             let inputs: [[_; COMPLEX_PARTS]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|part| {
                     let begin = (m + n) * size + part * waves.count + range.start;
-                    S::as_simd_f64s(&inputs[begin..begin + length])
+                    SimdSlice::<S>::new(&inputs[begin..begin + length])
                 })
             });
             let coefficients: [[_; SERIES]; M] = std::array::from_fn(|n| {
                 std::array::from_fn(|kind| {
                     let begin = (place - m - n) * waves.with_spectra + first_spectrum;
-                    S::as_simd_f64s(&coefficients[kind][begin..begin + length])
+                    SimdSlice::<S>::new(&coefficients[kind][begin..begin + length])
                 })
             });
-            let [a, b, c, d, e, f] = sums;
-            let wide = [a.0, b.0, c.0, d.0, e.0, f.0];
-            let mut tails = [a.1, b.1, c.1, d.1, e.1, f.1];
-            for k in 0..wide[0].len() {
-                let mut total = [wide[0][k]; COMPLEX_PARTS];
+            for k in 0..sums[0].vectors.len() {
+                let mut total = [sums[0].vectors[k]; COMPLEX_PARTS];
                 for part in 1..COMPLEX_PARTS {
-                    total[part] = wide[part][k];
+                    total[part] = sums[part].vectors[k];
                 }
                 for n in 0..M {
                     let mut x = [total[0]; COMPLEX_PARTS];
                     let mut g = [total[0]; SERIES];
                     for part in 0..COMPLEX_PARTS {
-                        x[part] = inputs[n][part].0[k];
+                        x[part] = inputs[n][part].vectors[k];
                     }
                     for kind in 0..SERIES {
-                        g[kind] = coefficients[n][kind].0[k];
+                        g[kind] = coefficients[n][kind].vectors[k];
                     }
                     total = times(simd, total, g, x);
                 }
                 for part in 0..COMPLEX_PARTS {
-                    wide[part][k] = total[part];
+                    sums[part].vectors[k] = total[part];
                 }
             }
-            for k in 0..tails[0].len() {
+            for k in 0..sums[0].tail.len() {
                 for n in 0..M {
-                    let total = std::array::from_fn(|part| tails[part][k]);
-                    let x = std::array::from_fn(|part| inputs[n][part].1[k]);
-                    let g = std::array::from_fn(|kind| coefficients[n][kind].1[k]);
+                    let total = std::array::from_fn(|part| sums[part].tail[k]);
+                    let x = std::array::from_fn(|part| inputs[n][part].tail[k]);
+                    let g = std::array::from_fn(|kind| coefficients[n][kind].tail[k]);
                     let total = times(Scalar::new(), total, g, x);
-                    tails.iter_mut().zip(total).for_each(|(tail, total)| tail[k] = total);
+                    for part in 0..COMPLEX_PARTS {
+                        sums[part].tail[k] = total[part];
+                    }
                 }
             }
         }

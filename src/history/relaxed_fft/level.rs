@@ -7,7 +7,7 @@ use super::ring::Ring;
 use super::tables::ClassCoefficients;
 use crate::geometry::PLANE;
 use crate::history::pair_classes::{MAX_KINDS, Pair, PairClasses};
-use crate::linalg::{Simd, WithSimd, vectorized};
+use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
@@ -285,24 +285,27 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
         let width = self.output.len() / 2;
         let (out_re, out_im) = self.output.split_at_mut(width);
         let (in_re, in_im) = self.input.split_at(width);
-        let [re, im] = self.factor.map(|values| &values[..width]);
-        let (wide_re, tail_re) = S::as_mut_simd_f64s(out_re);
-        let (wide_im, tail_im) = S::as_mut_simd_f64s(out_im);
-        let [(a_re, a_re_tail), (a_im, a_im_tail)] = [re, im].map(S::as_simd_f64s);
-        let [(b_re, b_re_tail), (b_im, b_im_tail)] = [in_re, &in_im[..width]].map(S::as_simd_f64s);
-        let factors = a_re.iter().zip(a_im).zip(b_re.iter().zip(b_im));
-        for ((x, y), ((a, b), (c, d))) in wide_re.iter_mut().zip(wide_im).zip(factors) {
+        let sum_re = SimdSliceMut::<S>::new(out_re);
+        let sum_im = SimdSliceMut::<S>::new(out_im);
+        let a_re = SimdSlice::<S>::new(&self.factor[0][..width]);
+        let a_im = SimdSlice::<S>::new(&self.factor[1][..width]);
+        let b_re = SimdSlice::<S>::new(in_re);
+        let b_im = SimdSlice::<S>::new(&in_im[..width]);
+        let a_vectors = a_re.vectors.iter().zip(a_im.vectors);
+        let factors = a_vectors.zip(b_re.vectors.iter().zip(b_im.vectors));
+        let sums = sum_re.vectors.iter_mut().zip(sum_im.vectors);
+        for ((x, y), ((a, b), (c, d))) in sums.zip(factors) {
             let a = if PLUS { *a } else { simd.neg_f64s(*a) };
             let b = if PLUS { *b } else { simd.neg_f64s(*b) };
             *x = simd.mul_add_e_f64s(a, *c, simd.mul_add_e_f64s(simd.neg_f64s(b), *d, *x));
             *y = simd.mul_add_e_f64s(a, *d, simd.mul_add_e_f64s(b, *c, *y));
         }
         let sign = if PLUS { 1.0 } else { -1.0 };
-        for k in 0..tail_re.len() {
-            let a = sign * a_re_tail[k];
-            let b = sign * a_im_tail[k];
-            tail_re[k] += a * b_re_tail[k] - b * b_im_tail[k];
-            tail_im[k] += a * b_im_tail[k] + b * b_re_tail[k];
+        for k in 0..sum_re.tail.len() {
+            let a = sign * a_re.tail[k];
+            let b = sign * a_im.tail[k];
+            sum_re.tail[k] += a * b_re.tail[k] - b * b_im.tail[k];
+            sum_im.tail[k] += a * b_im.tail[k] + b * b_re.tail[k];
         }
     }
 }

@@ -23,9 +23,11 @@ impl RandomWeights {
 
     fn lag(&self, class: usize, lag: usize) -> [f64; SERIES] {
         let mut random = Random((class * 100_003 + lag) as u64);
-        let [i, j] = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
-        let zeros = [1.0, 1.0, 1.0, i * j, i, j];
-        zeros.map(|zero| zero * random.within(-1.0, 1.0) / lag as f64)
+        // Factors that are zero where symmetry requires it.
+        let is_off_axis = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
+        let factors =
+            [1.0, 1.0, 1.0, is_off_axis[0] * is_off_axis[1], is_off_axis[0], is_off_axis[1]];
+        factors.map(|factor| factor * random.within(-1.0, 1.0) / lag as f64)
     }
 }
 
