@@ -138,7 +138,7 @@ impl ChosenHistory {
         let identities =
             [Self::SUPPLIED_IDENTITY, Self::DIRECT_IDENTITY, Self::TRANSFORMS_IDENTITY];
         let is_known = is_horizon || identities.iter().any(|known| *known as f64 == *identity);
-        let other = CheckpointError::OtherScene { quantity: "kind of history" };
-        Err(if is_known { other } else { corrupt }.into())
+        let other_scene = CheckpointError::OtherScene { quantity: "kind of history" };
+        Err(if is_known { other_scene } else { corrupt }.into())
     }
 }

@@ -54,10 +54,10 @@ impl DirectHistory {
 
     /// Stores the coefficients of the lags up to `lags`.
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let old = self.capacity;
-        let new = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
+        let old_capacity = self.capacity;
+        let capacity = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
         let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
-        let needed = 8.0 * numbers as f64 * new as f64;
+        let needed = 8.0 * numbers as f64 * capacity as f64;
         if needed > self.memory {
             return Err(Error::Memory(MemoryError {
                 quantity: "steps of the convolution history",
@@ -68,22 +68,23 @@ impl DirectHistory {
             }));
         }
         let diagonal_kinds = self.kernel.classes().layout().components();
-        let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
-        self.kernel.prepare(new, observer)?;
+        let mut lags = vec![vec![0.0; capacity - old_capacity]; self.kinds.len()];
+        self.kernel.prepare(capacity, observer)?;
         for class in 0..self.kernel.classes().count() {
-            let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
+            let last_lag = self.kernel.last_coupling_lag(class)?;
+            let last = last_lag.unwrap_or(capacity).min(capacity);
             let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
-            read_coefficients(&*self.kernel, class, old + 1, &mut values)?;
+            read_coefficients(&*self.kernel, class, old_capacity + 1, &mut values)?;
             for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
                 if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);
                 } else if last > stored[class].len() {
-                    let coupled = last - old.min(last);
+                    let coupled = last - old_capacity.min(last);
                     prepend_reversed(&mut stored[class], &lags[..coupled]);
                 }
             }
         }
-        self.capacity = new;
+        self.capacity = capacity;
         Ok(())
     }
 }

@@ -255,8 +255,8 @@ impl PairClasses {
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
     pub fn representative(&self, class: usize) -> Result<[ContactElement; 2]> {
-        let all = &self.representatives;
-        Ok(all[in_bounds("class of element pairs", class, all.len())?])
+        let count = self.representatives.len();
+        Ok(self.representatives[in_bounds("class of element pairs", class, count)?])
     }
 
     /// Order of the numbers of a contact vector.

@@ -45,9 +45,9 @@ impl SharedSpectra {
         if let Some(stored) = stored.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
             return stored;
         }
-        let new = Shared::<T>::default();
-        tables.push((TypeId::of::<T>(), new.clone()));
-        new
+        let added = Shared::<T>::default();
+        tables.push((TypeId::of::<T>(), added.clone()));
+        added
     }
 }
 

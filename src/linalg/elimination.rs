@@ -250,10 +250,12 @@ mod tests {
         let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
         let condensed = factor.condensed(&last).unwrap();
         let force: Vec<f64> = (0..400).map(|i| f64::from(i).cos()).collect();
-        let mut moved = vec![0.0; 8000];
-        last.iter().zip(&force).for_each(|(row, force)| moved[*row] = *force);
-        SparseFactor::of("cube", &matrix, &Elimination::default()).unwrap().solve(&mut moved);
-        let on_last: Vec<f64> = last.iter().map(|row| moved[*row]).collect();
+        let mut displacement = vec![0.0; 8000];
+        last.iter().zip(&force).for_each(|(row, force)| displacement[*row] = *force);
+        SparseFactor::of("cube", &matrix, &Elimination::default())
+            .unwrap()
+            .solve(&mut displacement);
+        let on_last: Vec<f64> = last.iter().map(|row| displacement[*row]).collect();
         let found = SparseMatrix::full(400, condensed.clone()).times(&on_last);
         assert!(found.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
         // With another matrix on the last rows, which couples all.
@@ -261,13 +263,13 @@ mod tests {
         let shifted = condensed.iter().enumerate().map(|(k, value)| value + shift(k));
         let shifted: Vec<f64> = shifted.collect();
         let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
-        let mut moved = matrix.times(&x);
+        let mut solution = matrix.times(&x);
         for (k, row) in last.iter().enumerate() {
-            let beside = last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
-            moved[*row] += beside.sum::<f64>();
+            let added = last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
+            solution[*row] += added.sum::<f64>();
         }
-        factor.with_condensed(&last, &shifted).unwrap().solve(&mut moved);
-        assert!(moved.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
+        factor.with_condensed(&last, &shifted).unwrap().solve(&mut solution);
+        assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
         let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
         // Other rows are not the last ones, and for too many rows condensation costs more than a solve.
         assert!(factor.condensed(&last[1..]).is_none_or(|matrix| matrix.len() == 399 * 399));
@@ -280,30 +282,30 @@ mod tests {
     /// Three uncoupled cubes, numbered in turns: an order for coupled cubes gives the factors of each.
     #[test]
     fn separate_parts_are_eliminated_one_after_the_other() {
-        let one = cube(13, 2.0);
-        let mut apart = Triplets::new(3 * one.order());
-        let mut coupled = Triplets::new(3 * one.order());
-        for (row, column, value) in one.entries() {
-            (0..3).for_each(|k| apart.add(3 * row + k, 3 * column + k, value));
+        let single_cube = cube(13, 2.0);
+        let mut uncoupled = Triplets::new(3 * single_cube.order());
+        let mut coupled = Triplets::new(3 * single_cube.order());
+        for (row, column, value) in single_cube.entries() {
+            (0..3).for_each(|k| uncoupled.add(3 * row + k, 3 * column + k, value));
             for (k, l) in (0..9).map(|k| (k / 3, k % 3)) {
                 let value = if k == l { 3.0 * value } else { 0.1 * value };
                 coupled.add(3 * row + k, 3 * column + l, value);
             }
         }
-        let apart = SparseMatrix::new("", &apart).unwrap();
+        let uncoupled = SparseMatrix::new("", &uncoupled).unwrap();
         let coupled = SparseMatrix::new("", &coupled).unwrap();
         let elimination = Elimination::of(&coupled);
         let order = elimination.0.get().unwrap();
-        let columns = by_columns(&apart);
+        let columns = by_columns(&uncoupled);
         let parts = order.by_parts(columns.symbolic());
-        for (k, rows) in parts.rows.chunks(one.order()).enumerate() {
+        for (k, rows) in parts.rows.chunks(single_cube.order()).enumerate() {
             assert!(rows.iter().all(|row| row % 3 == k));
             assert!(rows.is_sorted_by_key(|row| order.places[*row]));
         }
         assert_eq!(order.by_parts(by_columns(&coupled).symbolic()).rows, order.rows);
-        let x: Vec<f64> = (0..apart.order()).map(|i| (i as f64).sin()).collect();
-        let mut found = apart.times(&x);
-        SparseFactor::of("apart", &apart, &elimination).unwrap().solve(&mut found);
+        let x: Vec<f64> = (0..uncoupled.order()).map(|i| (i as f64).sin()).collect();
+        let mut found = uncoupled.times(&x);
+        SparseFactor::of("apart", &uncoupled, &elimination).unwrap().solve(&mut found);
         assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
     }
 }

@@ -263,13 +263,13 @@ mod tests {
             .collect();
         let count = cells.len();
         // B(o) = A(o) + A(−o)ᵀ.
-        let both = |r: usize, s: usize| {
+        let symmetric_block = |r: usize, s: usize| {
             let forward = block(cells[r], cells[s]);
             let backward = block(cells[s], cells[r]);
             [0, 1, 2].map(|i| [0, 1, 2].map(|j| forward[i][j] + backward[j][i]))
         };
         let factors: Vec<f64> = (0..count).map(|_| random.within(0.5, 1.5)).collect();
-        let product = LatticeProduct::new(&cells, &factors, both).unwrap();
+        let product = LatticeProduct::new(&cells, &factors, symmetric_block).unwrap();
         let mut scratch = product.scratch();
         for _ in 0..2 {
             let x: Vec<f64> = (0..3 * count).map(|_| random.within(-1.0, 1.0)).collect();
@@ -278,7 +278,7 @@ mod tests {
             for (i, found) in found.iter().enumerate() {
                 let mut sum = 0.0;
                 for (j, x) in x.iter().enumerate() {
-                    let block = both(i % count, j % count);
+                    let block = symmetric_block(i % count, j % count);
                     sum += block[i / count][j / count] * factors[j % count] * x;
                 }
                 assert!((found - sum).abs() < 1e-12, "{i}: {found} {sum}");
@@ -289,23 +289,23 @@ mod tests {
     #[test]
     fn other_matrices_are_none() {
         let cells: Vec<[usize; 2]> = (0..9).map(|e| [e % 3, e / 3]).collect();
-        let even = |r: usize, s: usize| {
+        let isotropic_block = |r: usize, s: usize| {
             let far =
                 (cells[r][0].abs_diff(cells[s][0]) + cells[r][1].abs_diff(cells[s][1])) as f64;
             [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { 1.0 / (1.0 + far) } else { 0.0 }))
         };
         let factors = [1.0; 9];
-        assert!(LatticeProduct::new(&cells, &factors, even).is_some());
+        assert!(LatticeProduct::new(&cells, &factors, isotropic_block).is_some());
         // One block differs; or the matrix is not symmetric.
-        let odd = |r: usize, s: usize| {
-            even(r, s).map(|row| row.map(|v| if r == 4 { 1.001 * v } else { v }))
+        let with_other_row = |r: usize, s: usize| {
+            isotropic_block(r, s).map(|row| row.map(|v| if r == 4 { 1.001 * v } else { v }))
         };
-        assert!(LatticeProduct::new(&cells, &factors, odd).is_none());
-        let turned = |r: usize, s: usize| {
-            let mut block = even(r, s);
+        assert!(LatticeProduct::new(&cells, &factors, with_other_row).is_none());
+        let unsymmetric = |r: usize, s: usize| {
+            let mut block = isotropic_block(r, s);
             block[0][1] = 0.1;
             block
         };
-        assert!(LatticeProduct::new(&cells, &factors, turned).is_none());
+        assert!(LatticeProduct::new(&cells, &factors, unsymmetric).is_none());
     }
 }

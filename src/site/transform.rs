@@ -156,9 +156,12 @@ pub(super) struct Transform {
     /// Weight of the modified layers at each frequency of the band.
     transition: Vec<f64>,
     inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Windowed samples of the motion that was transformed last.
     values: Vec<f64>,
     scratch: Vec<Complex64>,
+    /// Spectrum of the product with each function.
     filtered: Vec<Vec<Complex64>>,
+    /// Sums over the spectrum of each product.
     sums: Vec<SpectrumSums>,
 }
 
@@ -285,6 +288,7 @@ impl Transform {
         let mut found = SiteMotion::default();
         let length = self.contour.length;
         let below = self.spectrum.len() - self.transition.len();
+        // The part of the motion in the band alone.
         let mut band = self.filtered[k].clone();
         band[..below].fill(Complex64::default());
         for (value, nearness) in band[below..].iter_mut().zip(&self.transition) {
@@ -295,6 +299,7 @@ impl Transform {
         for (i, value) in self.values[..self.samples].iter().enumerate() {
             found.near_nyquist = found.near_nyquist.max(self.unwindowed(*value, i as f64)?.abs());
         }
+        // The whole motion.
         self.filtered[k] = band;
         self.invert(k)?;
         let first_half = self.values[..length / 2].iter().enumerate();

@@ -33,15 +33,15 @@ impl Bending {
     pub(super) fn stiffness(&self, length: f64) -> EndMatrix {
         let ratio = self.shear_ratio(length);
         let k = self.stiffness / (length.powi(3) * (1.0 + ratio));
-        let side = 12.0 * k;
-        let turn = 6.0 * k * length;
+        let shear = 12.0 * k;
+        let coupling = 6.0 * k * length;
         let near_end = (4.0 + ratio) * k * length * length;
         let far_end = (2.0 - ratio) * k * length * length;
         [
-            [side, turn, -side, turn],
-            [turn, near_end, -turn, far_end],
-            [-side, -turn, side, -turn],
-            [turn, far_end, -turn, near_end],
+            [shear, coupling, -shear, coupling],
+            [coupling, near_end, -coupling, far_end],
+            [-shear, -coupling, shear, -coupling],
+            [coupling, far_end, -coupling, near_end],
         ]
     }
 

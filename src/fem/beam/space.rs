@@ -252,9 +252,9 @@ impl Element for SpaceBeam {
         let Some(axes) = self.axes(coordinates).filter(|_| !self.force.is_zero()) else {
             return;
         };
-        let none = [[0.0; 2]; 2];
+        let zero = [[0.0; 2]; 2];
         let bending = self.bending.map(|plane| plane.geometric_stiffness(&self.force, axes.length));
-        let local = local(&none, &none, &bending);
+        let local = local(&zero, &zero, &bending);
         add_transformed(&local, &self.to_local(&axes), matrix);
         self.add_arms(&axes, matrix);
     }

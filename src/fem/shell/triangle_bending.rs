@@ -171,11 +171,11 @@ fn rotation_shapes([r, s]: [f64; 2]) -> [f64; 4] {
 /// Slopes (∂/∂r, ∂/∂s) of the shape functions of the rotations.
 fn rotation_slopes([r, s]: [f64; 2]) -> [[f64; 2]; 4] {
     let bubble = [27.0 * s * (1.0 - 2.0 * r - s), 27.0 * r * (1.0 - r - 2.0 * s)];
-    let mut all = [bubble; 4];
-    for (slopes, linear) in all.iter_mut().zip(SHAPE_SLOPES) {
-        *slopes = [linear[0] - bubble[0] / 3.0, linear[1] - bubble[1] / 3.0];
+    let mut slopes = [bubble; 4];
+    for (nodal, linear) in slopes.iter_mut().zip(SHAPE_SLOPES) {
+        *nodal = [linear[0] - bubble[0] / 3.0, linear[1] - bubble[1] / 3.0];
     }
-    all
+    slopes
 }
 
 /// Radon's rule of seven points in (r, s), exact to degree 5; the weights sum to 1/2.

@@ -95,7 +95,7 @@ pub(super) fn store_fit(stored: &mut Vec<StoredFit>, fit: Arc<TailFit>) -> Store
     let same_window = stored.iter().find(|earlier| earlier.fit.request.lags == fit.request.lags);
     let spectra =
         same_window.map_or_else(SharedSpectra::default, |earlier| earlier.spectra.clone());
-    let new = StoredFit { fit, spectra };
-    stored.push(new.clone());
-    new
+    let added = StoredFit { fit, spectra };
+    stored.push(added.clone());
+    added
 }

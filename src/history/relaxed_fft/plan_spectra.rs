@@ -38,8 +38,8 @@ pub(super) fn coefficients_in_plan(
     let mut tables = [(); SERIES].map(|()| vec![0.0; columns * rows * max_width]);
     let mut lags = [(); SERIES].map(|()| vec![0.0; max_width]);
     let mut values = vec![0.0; spectrum_counts[0] * spectrum_counts[1]];
-    let mut along = vec![0.0; spectrum_counts[0] * rows * max_width];
-    let mut both = vec![0.0; spectrum_counts[0] * spectrum_counts[1] * max_width];
+    let mut transformed_along_x = vec![0.0; spectrum_counts[0] * rows * max_width];
+    let mut transformed = vec![0.0; spectrum_counts[0] * spectrum_counts[1] * max_width];
     for begin in (0..count).step_by(LAGS_PER_CHUNK) {
         let width = LAGS_PER_CHUNK.min(count - begin);
         let skip = usize::from(begin == 0);
@@ -57,22 +57,29 @@ pub(super) fn coefficients_in_plan(
             let is_odd = [matches!(kind, 3 | 4), matches!(kind, 3 | 5)];
             let x_waves = &waves[0][usize::from(is_odd[0])];
             let y_waves = &waves[1][usize::from(is_odd[1])];
-            let along = &mut along[..spectrum_counts[0] * rows * width];
-            let both = &mut both[..spectrum_counts[0] * spectrum_counts[1] * width];
-            along.fill(0.0);
-            both.fill(0.0);
-            add_combined_rows(x_waves, &table[..columns * rows * width], rows * width, 1.0, along);
+            let transformed_along_x = &mut transformed_along_x[..spectrum_counts[0] * rows * width];
+            let transformed = &mut transformed[..spectrum_counts[0] * spectrum_counts[1] * width];
+            transformed_along_x.fill(0.0);
+            transformed.fill(0.0);
+            add_combined_rows(
+                x_waves,
+                &table[..columns * rows * width],
+                rows * width,
+                1.0,
+                transformed_along_x,
+            );
             // A kind that is odd along both axes has the factor i².
             let sign = if is_odd == [true; 2] { -1.0 } else { 1.0 };
-            let parts = along.chunks_exact(rows * width);
-            for (part, sums) in parts.zip(both.chunks_exact_mut(spectrum_counts[1] * width)) {
+            let parts = transformed_along_x.chunks_exact(rows * width);
+            for (part, sums) in parts.zip(transformed.chunks_exact_mut(spectrum_counts[1] * width))
+            {
                 add_combined_rows(y_waves, part, width, sign, sums);
             }
             for d in skip..width {
                 for (wave, value) in values.iter_mut().enumerate() {
                     let row = wave / spectrum_counts[0];
                     let column = wave % spectrum_counts[0];
-                    *value = both[(column * spectrum_counts[1] + row) * width + d];
+                    *value = transformed[(column * spectrum_counts[1] + row) * width + d];
                 }
                 accept(kind, begin + d, &values)?;
             }

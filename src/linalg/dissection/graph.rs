@@ -49,21 +49,21 @@ impl PatternGraph {
         let mut rows: Vec<Vec<usize>> = Vec::new();
         let mut vertex = vec![0; order];
         for i in 0..order {
-            let at = *vertex_of_columns.entry(columns_of_row(i)).or_insert(rows.len());
-            if at == rows.len() {
+            let vertex_index = *vertex_of_columns.entry(columns_of_row(i)).or_insert(rows.len());
+            if vertex_index == rows.len() {
                 rows.push(Vec::new());
             }
-            rows[at].push(i);
-            vertex[i] = at;
+            rows[vertex_index].push(i);
+            vertex[i] = vertex_index;
         }
         let mut graph = Graph::new();
         let mut last = vec![NO_VERTEX; rows.len()];
         for (v, members) in rows.iter().enumerate() {
             last[v] = v;
             for &column in columns_of_row(members[0]) {
-                let other = vertex[column];
-                if std::mem::replace(&mut last[other], v) != v {
-                    graph.edges.push((other, 1));
+                let neighbour = vertex[column];
+                if std::mem::replace(&mut last[neighbour], v) != v {
+                    graph.edges.push((neighbour, 1));
                 }
             }
             graph.start.push(graph.edges.len());
@@ -115,7 +115,7 @@ impl Graph {
     pub(super) fn coarser(&self) -> CoarseGraph {
         let n = self.len();
         let total: i64 = self.weight.iter().sum();
-        let heaviest = (total / MIN_COARSE_VERTICES).max(2);
+        let max_weight = (total / MIN_COARSE_VERTICES).max(2);
         // An order without relation to the numbering, the same in every run.
         let mut visits: Vec<usize> = (0..n).collect();
         visits.sort_by_key(|v| v.wrapping_mul(2_654_435_761) & 0xffff_ffff);
@@ -124,13 +124,15 @@ impl Graph {
             if mate[v] != NO_VERTEX {
                 continue;
             }
-            let free = self.neighbours(v).iter().filter(|(other, _)| {
-                mate[*other] == NO_VERTEX && self.weight[*other] + self.weight[v] <= heaviest
+            let free = self.neighbours(v).iter().filter(|(neighbour, _)| {
+                mate[*neighbour] == NO_VERTEX
+                    && self.weight[*neighbour] + self.weight[v] <= max_weight
             });
             let best = free.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
-            let other = best.map_or(v, |(other, _)| *other);
-            mate[v] = other;
-            mate[other] = v;
+            // A vertex without a partner is its own mate.
+            let partner = best.map_or(v, |(neighbour, _)| *neighbour);
+            mate[v] = partner;
+            mate[partner] = v;
         }
         let mut coarse_vertex = vec![NO_VERTEX; n];
         let mut representatives = Vec::new();
@@ -149,19 +151,18 @@ impl Graph {
             let pair = [v, mate[v]];
             let members = if pair[0] == pair[1] { &pair[..1] } else { &pair };
             for &(u, weight) in members.iter().flat_map(|member| self.neighbours(*member)) {
-                let at = edge_to[coarse_vertex[u]];
-                if coarse_vertex[u] == new_vertex {
+                let neighbour = coarse_vertex[u];
+                if neighbour == new_vertex {
                     continue;
                 }
-                if coarse
-                    .edges
-                    .get(at)
-                    .is_some_and(|edge| at >= first_edge && edge.0 == coarse_vertex[u])
-                {
-                    coarse.edges[at].1 += weight;
-                } else {
-                    edge_to[coarse_vertex[u]] = coarse.edges.len();
-                    coarse.edges.push((coarse_vertex[u], weight));
+                let place = edge_to[neighbour];
+                let edge = coarse.edges.get_mut(place).filter(|_| place >= first_edge);
+                match edge.filter(|edge| edge.0 == neighbour) {
+                    Some(edge) => edge.1 += weight,
+                    None => {
+                        edge_to[neighbour] = coarse.edges.len();
+                        coarse.edges.push((neighbour, weight));
+                    }
                 }
             }
             coarse.start.push(coarse.edges.len());
