@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::SiteWarning;
-use super::iteration::{Converged, EquivalentLinearOptions, Iteration};
+use super::iteration::{
+    ColumnAccelerations, Converged, EquivalentLinearOptions, Iteration, LayerProperties,
+};
 use super::part_progress::PartProgress;
 use super::soil_column::SoilColumn;
 use crate::error::{Observer, Result, Watch};
@@ -115,18 +117,19 @@ impl SoilColumn {
         let Converged { properties, strains, iterations, last_change } =
             iteration.converged(&mut watch)?;
         let mut progress = PartProgress::part(&mut watch, iterations);
-        let (surface, accelerations) = iteration.accelerations(&properties, &mut progress)?;
-        let peak_accelerations = accelerations.iter().map(|series| largest(series)).collect();
+        let ColumnAccelerations { surface, tops } =
+            iteration.accelerations(&properties, &mut progress)?;
+        let peak_accelerations = tops.iter().map(|series| largest(series)).collect();
         let cut_off = surface.before.max(surface.after) / surface.peak();
         let mut depth = 0.0;
         let mut layers = Vec::with_capacity(strains.len());
         let converged_layers = self.profile.layers().iter().zip(&properties).zip(&strains);
-        for ((layer, [modulus_ratio, damping]), strain) in converged_layers {
+        for ((layer, properties), strain) in converged_layers {
             layers.push(LayerResponse {
                 depth,
-                shear_modulus: modulus_ratio * layer.soil.shear_modulus(),
-                modulus_ratio: *modulus_ratio,
-                damping: *damping,
+                shear_modulus: properties.modulus_ratio * layer.soil.shear_modulus(),
+                modulus_ratio: properties.modulus_ratio,
+                damping: properties.damping_ratio,
                 largest_strain: *strain,
                 effective_strain: options.strain_ratio * strain,
             });
@@ -136,7 +139,7 @@ impl SoilColumn {
             layers,
             profile: self.causal(&properties, options)?,
             surface: Record::new(motion.time_step(), surface.samples)?,
-            accelerations,
+            accelerations: tops,
             peak_accelerations,
             iterations,
             last_change,
@@ -150,7 +153,7 @@ impl SoilColumn {
     /// Profile with these properties by causal damping laws, with the same moduli at its first frequency.
     fn causal(
         &self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         options: &EquivalentLinearOptions,
     ) -> Result<SoilProfile> {
         let EquivalentLinearOptions { band, complex_modulus, .. } = *options;

@@ -57,22 +57,35 @@ pub enum ComplexModulus {
     Magnitude,
 }
 
+/// Properties of a layer at one effective strain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LayerProperties {
+    /// Ratio of the shear modulus to that at small strain.
+    pub(super) modulus_ratio: f64,
+    pub(super) damping_ratio: f64,
+}
+
 impl ComplexModulus {
-    /// Modulus G' and damping ratio ξ' of the complex modulus G'(1 + 2iξ').
+    /// The G' and ξ' for which G'(1 + 2iξ') is the complex modulus of a layer.
     ///
     /// `index`: of the layer, from 0.
-    fn real_part_and_ratio(self, index: usize, [modulus, damping]: [f64; 2]) -> Result<[f64; 2]> {
+    fn equivalent(self, index: usize, properties: LayerProperties) -> Result<LayerProperties> {
         if self == Self::RealPart {
-            return Ok([modulus, damping]);
+            return Ok(properties);
         }
-        if damping >= MAX_MAGNITUDE_DAMPING {
+        let LayerProperties { modulus_ratio, damping_ratio } = properties;
+        if damping_ratio >= MAX_MAGNITUDE_DAMPING {
             let quantity = "strain-compatible damping ratio";
             let needed = "below 0.52 for a complex modulus by its magnitude";
-            return Err(Error::Input { quantity, value: damping, needed }.within(layer_name(index)));
+            let error = Error::Input { quantity, value: damping_ratio, needed };
+            return Err(error.within(layer_name(index)));
         }
-        let square = damping * damping;
+        let square = damping_ratio * damping_ratio;
         let real = 1.0 - 2.0 * square;
-        Ok([modulus * real, damping * (1.0 - square).sqrt() / real])
+        Ok(LayerProperties {
+            modulus_ratio: modulus_ratio * real,
+            damping_ratio: damping_ratio * (1.0 - square).sqrt() / real,
+        })
     }
 }
 
@@ -110,20 +123,21 @@ impl EquivalentLinearOptions {
 }
 
 impl SoilColumn {
-    /// Profile with the given modulus and damping ratios; `law` makes a damping law from a ratio.
+    /// Profile with the given properties of the layers; `law` makes a damping law from a ratio.
     pub(super) fn compatible<L: Relaxation + 'static>(
         &self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         complex_modulus: ComplexModulus,
         law: impl Fn(f64) -> Result<L>,
     ) -> Result<SoilProfile> {
         let mut layers = Vec::with_capacity(properties.len());
         for (k, (layer, properties)) in self.profile.layers().iter().zip(properties).enumerate() {
-            let [modulus, damping] = complex_modulus.real_part_and_ratio(k, *properties)?;
-            let shear_modulus = modulus * layer.soil.shear_modulus();
+            let LayerProperties { modulus_ratio, damping_ratio } =
+                complex_modulus.equivalent(k, *properties)?;
+            let shear_modulus = modulus_ratio * layer.soil.shear_modulus();
             let soil = Soil::new(shear_modulus, layer.soil.poisson(), layer.soil.density());
-            let soil = soil.map_err(|error| layer_error(k, damping, error))?;
-            let law = law(damping).map_err(|error| layer_error(k, damping, error))?;
+            let soil = soil.map_err(|error| layer_error(k, damping_ratio, error))?;
+            let law = law(damping_ratio).map_err(|error| layer_error(k, damping_ratio, error))?;
             let thickness = layer.thickness;
             layers.push(SoilLayer { soil, thickness, damping: Arc::new(law) });
         }
@@ -141,12 +155,19 @@ pub(super) struct Iteration<'a> {
     transform: Option<Transform>,
 }
 
-/// Result of an iteration: modulus ratio and damping ratio of each layer, and its largest strain.
+/// Result of an iteration: properties of each layer, and its largest strain.
 pub(super) struct Converged {
-    pub(super) properties: Vec<[f64; 2]>,
+    pub(super) properties: Vec<LayerProperties>,
     pub(super) strains: Vec<f64>,
     pub(super) iterations: usize,
     pub(super) last_change: f64,
+}
+
+/// Accelerations in a column, over the length of its input.
+pub(super) struct ColumnAccelerations {
+    pub(super) surface: SiteMotion,
+    /// At the tops of the layers and of the base.
+    pub(super) tops: Vec<Vec<f64>>,
 }
 
 impl<'a> Iteration<'a> {
@@ -178,15 +199,20 @@ impl<'a> Iteration<'a> {
         Ok(Self { column, motion, curves: layer_curves, options, transform: None })
     }
 
-    /// Modulus ratios and damping ratios at the logarithms of effective strains.
-    fn properties_at(&self, logs: &[f64]) -> Vec<[f64; 2]> {
-        self.curves.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
+    /// Properties of the layers at the logarithms of effective strains.
+    fn properties_at(&self, logs: &[f64]) -> Vec<LayerProperties> {
+        let mut properties = Vec::with_capacity(logs.len());
+        for (curves, log) in self.curves.iter().zip(logs) {
+            let [modulus_ratio, damping_ratio] = curves.at(log.exp());
+            properties.push(LayerProperties { modulus_ratio, damping_ratio });
+        }
+        properties
     }
 
     /// Spectra of a quantity in the linear column with these properties.
     fn response(
         &mut self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         quantity: ColumnQuantity,
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<&mut Transform> {
@@ -207,7 +233,7 @@ impl<'a> Iteration<'a> {
     /// Largest strains of the layers with these properties.
     fn strains(
         &mut self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<Vec<f64>> {
         let count = properties.len();
@@ -220,24 +246,22 @@ impl<'a> Iteration<'a> {
         Ok(strains)
     }
 
-    /// Motion of the surface, and accelerations at the tops of layers and base.
-    ///
-    /// They have the length of the column's input.
+    /// Accelerations of the column with these properties.
     pub(super) fn accelerations(
         &mut self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         progress: &mut PartProgress<'_, '_>,
-    ) -> Result<(SiteMotion, Vec<Vec<f64>>)> {
+    ) -> Result<ColumnAccelerations> {
         let samples = self.motion.len();
         let transform = self.response(properties, ColumnQuantity::Accelerations, progress)?;
         let mut surface = transform.motion(0)?;
         surface.cut(samples);
-        let mut accelerations = vec![surface.samples.clone()];
+        let mut tops = vec![surface.samples.clone()];
         for k in 1..=properties.len() {
-            accelerations.push(transform.samples(k)?);
+            tops.push(transform.samples(k)?);
             progress.reach(0.5 + 0.5 * k as f64 / properties.len() as f64)?;
         }
-        Ok((surface, accelerations))
+        Ok(ColumnAccelerations { surface, tops })
     }
 
     /// Iterates moduli and damping ratios, starting at small strain.
@@ -301,10 +325,19 @@ impl Aitken {
 }
 
 /// Largest change of a modulus or damping ratio, relative to the new one.
-fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
-    let pairs = old.as_flattened().iter().zip(new.as_flattened());
-    let changes = pairs.map(|(old, new)| if old == new { 0.0 } else { (new - old).abs() / new });
-    changes.fold(0.0, f64::max)
+fn largest_change(old: &[LayerProperties], new: &[LayerProperties]) -> f64 {
+    let mut largest = 0.0;
+    for (old, new) in old.iter().zip(new) {
+        let modulus_change = relative_change(old.modulus_ratio, new.modulus_ratio);
+        let damping_change = relative_change(old.damping_ratio, new.damping_ratio);
+        largest = modulus_change.max(damping_change).max(largest);
+    }
+    largest
+}
+
+/// Change of a value relative to the new one; 0 for equal values, also if they are 0.
+fn relative_change(old: f64, new: f64) -> f64 {
+    if old == new { 0.0 } else { (new - old).abs() / new }
 }
 
 /// Adds the layer (`index` from 0) to an error.
