@@ -72,31 +72,31 @@ impl Quad4 {
         Self { nodes, material, formulation }
     }
 
-    fn integrated<const N: usize>(
+    fn integrated_stiffness<const N: usize>(
         &self,
         points: [[f64; 2]; N],
         weight: f64,
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
         let points = points.into_iter().map(|point| (point, weight));
-        integrate(&self.material.elasticity(), points, |point| {
+        integrate_stiffness(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             (node_strains(point, &jacobian), jacobian.determinant)
         })
     }
 
-    fn with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
+    fn stiffness_with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut full = integrate(&self.material.elasticity(), points, |point| {
+        let mut full = integrate_stiffness(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             let mut strain = [[0.0; 3]; 12];
             strain[..8].copy_from_slice(&node_strains(point, &jacobian));
             // Slopes of 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that their
             // integral over the element vanishes, and a constant stress does no work on them.
             let scale = -2.0 * centre.determinant / jacobian.determinant;
-            let bend_xi = strains(centre.global([scale * point[0], 0.0]));
-            let bend_eta = strains(centre.global([0.0, scale * point[1]]));
+            let bend_xi = strains(centre.global_slopes([scale * point[0], 0.0]));
+            let bend_eta = strains(centre.global_slopes([0.0, scale * point[1]]));
             strain[8..10].copy_from_slice(&bend_xi);
             strain[10..].copy_from_slice(&bend_eta);
             (strain, jacobian.determinant)
@@ -109,7 +109,7 @@ impl Quad4 {
 /// ∫ Sᵀ D S over points with their weights, for the matrix D of the strains.
 ///
 /// `strains` returns the strains S of N patterns at a point, and the determinant of the Jacobian there.
-pub(super) fn integrate<const N: usize, const S: usize>(
+pub(super) fn integrate_stiffness<const N: usize, const S: usize>(
     elasticity: &[[f64; S]; S],
     points: impl Iterator<Item = ([f64; 2], f64)>,
     strains: impl Fn([f64; 2]) -> ([[f64; S]; N], f64),
@@ -166,13 +166,13 @@ impl Element for Quad4 {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let block = match self.formulation {
-            QuadFormulation::Full => self.integrated(gauss_points(), 1.0, coordinates),
-            QuadFormulation::OnePoint => self.integrated([[0.0; 2]], 4.0, coordinates),
-            QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
+            QuadFormulation::Full => self.integrated_stiffness(gauss_points(), 1.0, coordinates),
+            QuadFormulation::OnePoint => self.integrated_stiffness([[0.0; 2]], 4.0, coordinates),
+            QuadFormulation::IncompatibleModes => self.stiffness_with_bending_modes(coordinates),
             QuadFormulation::Hourglass { percent } => {
                 let fraction = f64::from(percent) / 100.0;
-                let full = self.integrated(gauss_points(), 1.0, coordinates);
-                let mut mixed = self.integrated([[0.0; 2]], 4.0, coordinates);
+                let full = self.integrated_stiffness(gauss_points(), 1.0, coordinates);
+                let mut mixed = self.integrated_stiffness([[0.0; 2]], 4.0, coordinates);
                 for (mixed, full) in mixed.iter_mut().flatten().zip(full.as_flattened()) {
                     *mixed += fraction * (full - *mixed);
                 }
@@ -252,13 +252,13 @@ impl Jacobian {
     }
 
     /// Slopes (∂/∂x, ∂/∂y) from slopes (∂/∂ξ, ∂/∂η).
-    pub(super) fn global(&self, natural: [f64; 2]) -> [f64; 2] {
+    pub(super) fn global_slopes(&self, natural: [f64; 2]) -> [f64; 2] {
         self.inverse.map(|row| row[0] * natural[0] + row[1] * natural[1])
     }
 
     /// Slopes (∂/∂x, ∂/∂y) of the four shape functions at `point`.
     pub(super) fn slopes(&self, point: [f64; 2]) -> [[f64; 2]; 4] {
-        natural_slopes(point).map(|slope| self.global(slope))
+        natural_slopes(point).map(|slope| self.global_slopes(slope))
     }
 }
 

@@ -3,7 +3,7 @@
 use super::element::{Element, MassKind, add_square};
 use super::element_face::ElementFace;
 use super::material::Material;
-use super::quad4::{determinant, integrate, strains, tangents};
+use super::quad4::{determinant, integrate_stiffness, strains, tangents};
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, TRANSLATIONS};
 use crate::linalg::gauss;
@@ -147,7 +147,7 @@ impl Element for Quad8 {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let points = gauss::square(self.integration.order());
-        let block = integrate(&self.material.elasticity(), points, |point| {
+        let block = integrate_stiffness(&self.material.elasticity(), points, |point| {
             let (slopes, determinant) = slopes(point, coordinates);
             let strains = slopes.map(strains);
             (std::array::from_fn::<_, 16, _>(|i| strains[i / 2][i % 2]), determinant)

@@ -131,6 +131,6 @@ impl HistoryOptions {
     ) -> Result<ExponentialHistory> {
         let tolerance = self.tolerance.unwrap_or(default_tolerance);
         let horizon = steps.unwrap_or(0).max(ExponentialHistory::DEFAULT_HORIZON);
-        ExponentialHistory::within(Arc::clone(weights), tolerance, horizon, self.memory)
+        ExponentialHistory::within_memory(Arc::clone(weights), tolerance, horizon, self.memory)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::section::ShellSection;
 use crate::fem::quad4::{
-    Jacobian, NODE_COORDINATES, gauss_points, integrate, natural_slopes, shape, tangents,
+    Jacobian, NODE_COORDINATES, gauss_points, integrate_stiffness, natural_slopes, shape, tangents,
 };
 
 /// Degrees of freedom: w, θ1, θ2 of each node.
@@ -18,7 +18,7 @@ impl QuadBending<'_> {
     /// Stiffness by w, θ1, θ2 of the nodes.
     pub(super) fn stiffness(&self) -> [[f64; DOF_COUNT]; DOF_COUNT] {
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        integrate(&self.section.bending_and_shear(), points, |point| self.strains(point))
+        integrate_stiffness(&self.section.bending_and_shear(), points, |point| self.strains(point))
     }
 
     /// Strains `[κ_xx, κ_yy, 2κ_xy, γ_x, γ_y]` at the corners by w, θ1, θ2 of the nodes.
@@ -43,7 +43,7 @@ impl QuadBending<'_> {
         let shear_xi = self.interpolated_shear(0, point[1], [[0.0, -1.0], [0.0, 1.0]]);
         let shear_eta = self.interpolated_shear(1, point[0], [[-1.0, 0.0], [1.0, 0.0]]);
         for (column, shears) in columns.iter_mut().zip(shear_xi.into_iter().zip(shear_eta)) {
-            column[3..].copy_from_slice(&jacobian.global([shears.0, shears.1]));
+            column[3..].copy_from_slice(&jacobian.global_slopes([shears.0, shears.1]));
         }
         (columns, jacobian.determinant)
     }

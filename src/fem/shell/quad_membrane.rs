@@ -2,7 +2,7 @@
 
 use super::section::ShellSection;
 use crate::fem::condensation::{complete, condense};
-use crate::fem::quad4::{Jacobian, NODE_COORDINATES, gauss_points, integrate, shape};
+use crate::fem::quad4::{Jacobian, NODE_COORDINATES, gauss_points, integrate_stiffness, shape};
 
 /// Degrees of freedom of the nodes: u, v, ω each.
 const NODAL_DOF_COUNT: usize = 12;
@@ -37,7 +37,7 @@ impl QuadMembrane<'_> {
         }
         moduli[3][3] = shear_modulus * thickness;
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut matrix = integrate(&moduli, points, |point| self.strains(point, &centre));
+        let mut matrix = integrate_stiffness(&moduli, points, |point| self.strains(point, &centre));
         let area = self.area();
         let pattern = self.hourglass(&centre);
         for i in 0..4 {
@@ -89,7 +89,7 @@ impl QuadMembrane<'_> {
             let from = self.points[first];
             let to = self.points[second];
             let across = [(to[1] - from[1]) / 8.0, (from[0] - to[0]) / 8.0];
-            let bulge_strains = strains_of_slopes(jacobian.global(bulge));
+            let bulge_strains = strains_of_slopes(jacobian.global_slopes(bulge));
             for k in 0..4 {
                 let strain = across[0] * bulge_strains[0][k] + across[1] * bulge_strains[1][k];
                 columns[3 * second + 2][k] += strain;
@@ -98,8 +98,8 @@ impl QuadMembrane<'_> {
         }
         // Slopes of 1 − ξ² and 1 − η² by the Jacobian at the centre, scaled so that their integrals vanish.
         let scale = -2.0 * centre.determinant / jacobian.determinant;
-        let mode_xi = strains_of_slopes(centre.global([scale * point[0], 0.0]));
-        let mode_eta = strains_of_slopes(centre.global([0.0, scale * point[1]]));
+        let mode_xi = strains_of_slopes(centre.global_slopes([scale * point[0], 0.0]));
+        let mode_eta = strains_of_slopes(centre.global_slopes([0.0, scale * point[1]]));
         columns[NODAL_DOF_COUNT..NODAL_DOF_COUNT + 2].copy_from_slice(&mode_xi);
         columns[NODAL_DOF_COUNT + 2..].copy_from_slice(&mode_eta);
         (columns, jacobian.determinant)

@@ -2,7 +2,7 @@
 
 use super::section::ShellSection;
 use crate::fem::condensation::{complete, condense};
-use crate::fem::quad4::integrate;
+use crate::fem::quad4::integrate_stiffness;
 
 /// Degrees of freedom of the nodes: w, θ1, θ2 each.
 const NODAL_DOF_COUNT: usize = 9;
@@ -41,7 +41,7 @@ impl TriangleBending<'_> {
         let shears = self.shears();
         let moduli = self.section.bending_and_shear();
         let mut matrix =
-            integrate(&moduli, rule().into_iter(), |point| self.strains(point, &shears));
+            integrate_stiffness(&moduli, rule().into_iter(), |point| self.strains(point, &shears));
         condense(&mut matrix, NODAL_DOF_COUNT);
         matrix
     }

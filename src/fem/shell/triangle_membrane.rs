@@ -23,7 +23,7 @@ pub(super) struct TriangleMembrane<'a> {
     pub(super) points: &'a [[f64; 2]; 3],
     pub(super) section: &'a ShellSection,
     /// Whether the sides 1–2, 2–3 and 3–1 bulge as quadrilaterals do.
-    pub(super) shared: [bool; 3],
+    pub(super) shared_sides: [bool; 3],
 }
 
 impl TriangleMembrane<'_> {
@@ -77,7 +77,9 @@ impl TriangleMembrane<'_> {
     /// Mean strains, constant over the element, by each degree of freedom: Lᵀ/A.
     fn mean_strains(&self) -> [[f64; 3]; DOF_COUNT] {
         let area = self.area();
-        let bulges = self.shared.map(|shared| if shared { 1.0 } else { SIDE_BULGE_RATIO } / 12.0);
+        let bulges = self
+            .shared_sides
+            .map(|is_shared| if is_shared { 1.0 } else { SIDE_BULGE_RATIO } / 12.0);
         let mut columns = [[0.0; 3]; DOF_COUNT];
         for i in 0..3 {
             let j = (i + 1) % 3;

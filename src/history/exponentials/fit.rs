@@ -28,9 +28,9 @@ pub(super) struct FitRequest {
 pub(super) struct TailFit {
     pub(super) request: FitRequest,
     pub(super) tail: Tail,
-    pub(super) accuracy: MeasuredErrors,
-    /// Smallest eigenvalue of the operator's Hermitian part.
-    pub(super) margin: f64,
+    pub(super) errors: MeasuredErrors,
+    /// Smallest eigenvalue of the Hermitian part of the operator; see [`ExponentialFit`](super::ExponentialFit).
+    pub(super) passivity_margin: f64,
 }
 
 impl TailFit {
@@ -47,11 +47,10 @@ impl TailFit {
         for _ in 0..MAX_FIT_ATTEMPTS {
             let elements = kernel.classes().elements();
             let tail = Tail::new(late.exponentials(lags, horizon, target)?, elements)?;
-            let accuracy = MeasuredErrors::over(kernel, &tail, lags, horizon)?;
+            let errors = MeasuredErrors::over(kernel, &tail, lags, horizon)?;
             target *= TOLERANCE_REDUCTION;
-            if accuracy.relative > tolerance {
-                let reached = accuracy.relative;
-                failure.get_or_insert_with(|| inaccurate(tolerance, reached));
+            if errors.largest_relative > tolerance {
+                failure.get_or_insert_with(|| inaccurate(tolerance, errors.largest_relative));
                 continue;
             }
             let PassivityMargin { smallest, frequency } =
@@ -67,7 +66,7 @@ impl TailFit {
                 });
                 continue;
             }
-            return Ok(Self { request, tail, accuracy, margin: smallest });
+            return Ok(Self { request, tail, errors, passivity_margin: smallest });
         }
         Err(failure.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
     }

@@ -66,9 +66,9 @@ pub struct ExponentialHistory {
     recent: Vec<f64>,
     steps: usize,
     /// Whether the effect of the last input is still to be added.
-    pending: bool,
+    input_is_pending: bool,
     /// Largest Σ|τ| in any step so far, Pa.
-    largest: f64,
+    largest_traction: f64,
 }
 
 /// Size, accuracy and passivity of the fit of an [`ExponentialHistory`].
@@ -137,11 +137,11 @@ impl ExponentialHistory {
         tolerance: f64,
         horizon: usize,
     ) -> Result<Self> {
-        Self::within(kernel, tolerance, horizon, DEFAULT_MEMORY)
+        Self::within_memory(kernel, tolerance, horizon, DEFAULT_MEMORY)
     }
 
     /// [`ExponentialHistory::with_horizon`] within `memory` bytes, including the fit.
-    pub(crate) fn within(
+    pub(crate) fn within_memory(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
         horizon: usize,
@@ -150,8 +150,8 @@ impl ExponentialHistory {
         Self::check_tolerance(tolerance)?;
         let Some(late) = kernel.late_weights() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
-        let lags = window(late)?;
-        let needed = bytes(&*kernel, lags)?;
+        let lags = window_lags(late)?;
+        let needed = window_bytes(&*kernel, lags)?;
         if needed > memory as f64 {
             return Err(Error::Memory(MemoryError {
                 quantity: "lags before a history by exponentials",
@@ -186,8 +186,8 @@ impl ExponentialHistory {
             tail: fit.tail.clone(),
             fit,
             steps: 0,
-            pending: false,
-            largest: 0.0,
+            input_is_pending: false,
+            largest_traction: 0.0,
             kernel,
         })
     }
@@ -199,12 +199,12 @@ impl ExponentialHistory {
             poles: self.tail.poles(),
             functions: self.tail.functions(),
             error_bound: self.error_bound(),
-            passivity_margin: self.fit.margin,
+            passivity_margin: self.fit.passivity_margin,
         }
     }
 
     pub(crate) fn error_bound(&self) -> f64 {
-        self.fit.accuracy.relative
+        self.fit.errors.largest_relative
     }
 
     pub(crate) fn horizon(&self) -> usize {
@@ -221,6 +221,7 @@ impl ExponentialHistory {
         require("tolerance of the history", tolerance, is_in_range, "from 1e-12 to 1e-2")
     }
 
+    /// Number of tractions in one step.
     fn size(&self) -> usize {
         self.kernel.classes().layout().len()
     }
@@ -240,24 +241,24 @@ impl ExponentialHistory {
 
     /// Adds the effect of the last input, so that the next output is complete.
     fn complete_output(&mut self) {
-        if std::mem::take(&mut self.pending) {
+        if std::mem::take(&mut self.input_is_pending) {
             self.window.add_effects(self.steps);
         }
     }
 
-    /// Accepts the input of one step, without the window.
-    fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
+    /// Stores the input of one step, and adds to the exponentials the one that leaves the window.
+    fn store_input(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
         let stored = &mut self.recent[slot];
         input(stored);
-        self.largest = self.largest.max(stored.iter().map(|t| t.abs()).sum());
+        self.largest_traction = self.largest_traction.max(stored.iter().map(|t| t.abs()).sum());
         self.steps += 1;
         let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
         self.tail.advance(leaving.map(|slot| &self.recent[slot]));
     }
 
     /// Writes the last inputs into the window.
-    fn refill(&mut self) {
+    fn refill_window(&mut self) {
         self.window.clear();
         let window_inputs = self.window_inputs(self.steps);
         let first = window_inputs.start;
@@ -268,12 +269,12 @@ impl ExponentialHistory {
             let slot = self.slot(m);
             self.window.write(m, &self.recent[slot]);
         }
-        self.pending = self.steps > 0;
+        self.input_is_pending = self.steps > 0;
     }
 }
 
 /// Bytes of a window of `lags` with its inputs, and of the coefficients during the fit.
-fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
+fn window_bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
     let classes = kernel.classes();
     let numbers = 4 * classes.elements().len() + 2 * classes.count();
     Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
@@ -282,20 +283,18 @@ fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
 /// Number of lags in the window, a whole block of the transforms.
 ///
 /// Part of a block would take as much time.
-fn window(late: &dyn LateWeights) -> Result<usize> {
+fn window_lags(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";
     require("lags before the exponentials", lags as f64, lags <= MAX_WINDOW_LAGS, needed)?;
     Ok(lags.next_power_of_two().max(LEAF_STEPS))
 }
 
-const NO_LATE_LAGS: Error =
-    no_exponentials("they need a kernel that knows its late lags as exponentials");
-
-/// Error for a kernel that does not allow exponentials.
-const fn no_exponentials(needed: &'static str) -> Error {
-    Error::Scene { quantity: "history by exponentials", needed }
-}
+/// Error for convolution weights without late lags.
+const NO_LATE_LAGS: Error = Error::Scene {
+    quantity: "history by exponentials",
+    needed: "convolution weights that are sums of exponentials at late lags",
+};
 
 impl ConvolutionHistory for ExponentialHistory {
     fn steps(&self) -> usize {
@@ -322,26 +321,26 @@ impl ConvolutionHistory for ExponentialHistory {
     fn push(&mut self, traction: &[f64]) {
         self.complete_output();
         let now = self.steps;
-        self.accept(|stored| {
+        self.store_input(|stored| {
             for (i, value) in stored.iter_mut().enumerate() {
                 *value = traction.get(i).copied().unwrap_or(0.0);
             }
         });
         let slot = self.slot(now);
         self.window.write(now, &self.recent[slot]);
-        self.pending = true;
+        self.input_is_pending = true;
     }
 
     fn increment_error_bound(&self) -> f64 {
         // Beyond the horizon the error may be as large as the remaining coefficients.
-        let TailFit { request, accuracy, .. } = &*self.fit;
-        let beyond = if self.steps > request.horizon { 2.0 * accuracy.last } else { 0.0 };
-        (accuracy.increments + beyond) * self.largest
+        let TailFit { request, errors, .. } = &*self.fit;
+        let beyond = if self.steps > request.horizon { 2.0 * errors.last_coefficient } else { 0.0 };
+        (errors.increment_sum + beyond) * self.largest_traction
     }
 
     /// Returns the largest traction, the exponentials' state, and the last inputs.
     fn save(&self) -> Result<Vec<f64>> {
-        let mut values = vec![self.largest];
+        let mut values = vec![self.largest_traction];
         values.extend(self.tail.state());
         for m in self.window_inputs(self.steps) {
             values.extend_from_slice(&self.recent[self.slot(m)]);
@@ -356,14 +355,14 @@ impl ConvolutionHistory for ExponentialHistory {
             return Err(CheckpointError::Corrupt { quantity: "history by exponentials" }.into());
         }
         self.steps = steps;
-        self.largest = values[0];
+        self.largest_traction = values[0];
         self.tail.set_state(&values[1..=state]);
         let size = self.size();
         for (m, input) in window_inputs.zip(values[state + 1..].chunks_exact(size)) {
             let slot = self.slot(m);
             self.recent[slot].copy_from_slice(input);
         }
-        self.refill();
+        self.refill_window();
         Ok(())
     }
 }

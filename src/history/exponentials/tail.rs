@@ -13,11 +13,11 @@ use crate::linalg::{Dot, Simd, SimdSlice, SimdSliceMut, WithSimd, dot, vectorize
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct MeasuredErrors {
     /// Largest error of any coefficient, relative to the largest coefficient of the same lag.
-    pub(super) relative: f64,
+    pub(super) largest_relative: f64,
     /// Σ over lags of the largest change of an error from lag to lag, m/Pa.
-    pub(super) increments: f64,
+    pub(super) increment_sum: f64,
     /// Largest coefficient at the end of the horizon, m/Pa.
-    pub(super) last: f64,
+    pub(super) last_coefficient: f64,
 }
 
 /// An [`ExponentialSum`] and its state.
