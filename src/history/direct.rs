@@ -24,12 +24,12 @@ pub struct DirectHistory {
     /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end.
     ///
     /// The coupling is stored only while it is not zero.
-    kinds: Vec<Vec<Vec<f64>>>,
+    coefficients: Vec<Vec<Vec<f64>>>,
     /// Tractions of all steps, for each contact component.
     traction: Vec<Vec<f64>>,
     steps: usize,
-    /// Memory allowed, bytes.
-    memory: f64,
+    /// Bytes.
+    memory_limit: f64,
 }
 
 short_debug! {
@@ -40,15 +40,15 @@ impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
-        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
+        let coefficients = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
         let traction = vec![Vec::new(); classes.layout().len()];
-        let memory = memory_limit() as f64;
-        Self { kernel, capacity: 0, kinds, traction, steps: 0, memory }
+        let memory_limit = memory_limit() as f64;
+        Self { kernel, capacity: 0, coefficients, traction, steps: 0, memory_limit }
     }
 
     /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
-    pub(super) fn within(mut self, bytes: usize) -> Self {
-        self.memory = self.memory.min(bytes as f64);
+    pub(super) fn within_memory(mut self, bytes: usize) -> Self {
+        self.memory_limit = self.memory_limit.min(bytes as f64);
         self
     }
 
@@ -56,31 +56,31 @@ impl DirectHistory {
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
         let old_capacity = self.capacity;
         let capacity = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
-        let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
+        let numbers = self.coefficients.len() * self.kernel.classes().count() + self.traction.len();
         let needed = 8.0 * numbers as f64 * capacity as f64;
-        if needed > self.memory {
+        if needed > self.memory_limit {
             return Err(Error::Memory(MemoryError {
                 quantity: "steps of the convolution history",
                 asked: lags as f64,
                 needed,
-                limit: self.memory,
+                limit: self.memory_limit,
                 remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
             }));
         }
         let diagonal_kinds = self.kernel.classes().layout().components();
-        let mut lags = vec![vec![0.0; capacity - old_capacity]; self.kinds.len()];
+        let mut new_lags = vec![vec![0.0; capacity - old_capacity]; self.coefficients.len()];
         self.kernel.prepare(capacity, observer)?;
         for class in 0..self.kernel.classes().count() {
             let last_lag = self.kernel.last_coupling_lag(class)?;
             let last = last_lag.unwrap_or(capacity).min(capacity);
-            let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
+            let mut values: Vec<_> = new_lags.iter_mut().map(Vec::as_mut_slice).collect();
             read_coefficients(&*self.kernel, class, old_capacity + 1, &mut values)?;
-            for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
+            for (kind, (stored, lags)) in self.coefficients.iter_mut().zip(&new_lags).enumerate() {
                 if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);
                 } else if last > stored[class].len() {
-                    let coupled = last - old_capacity.min(last);
-                    prepend_reversed(&mut stored[class], &lags[..coupled]);
+                    let coupled_lags = last - old_capacity.min(last);
+                    prepend_reversed(&mut stored[class], &lags[..coupled_lags]);
                 }
             }
         }
@@ -103,7 +103,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn memory(&self) -> usize {
-        let coefficients: usize = self.kinds.iter().flatten().map(Vec::capacity).sum();
+        let coefficients: usize = self.coefficients.iter().flatten().map(Vec::capacity).sum();
         let traction: usize = self.traction.iter().map(Vec::capacity).sum();
         (coefficients + traction) * size_of::<f64>()
     }
@@ -136,7 +136,7 @@ impl ConvolutionHistory for DirectHistory {
             self.kernel.classes().each(|[receiver, source], pair, terms| {
                 for term in terms {
                     let factor = term.factor * pair.scale;
-                    let lags = &self.kinds[term.kind][pair.class];
+                    let lags = &self.coefficients[term.kind][pair.class];
                     let first = (past + 1).saturating_sub(lags.len()).max(begin);
                     if first < end && factor != 0.0 {
                         let range = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);

@@ -84,7 +84,7 @@ impl HistoryOptions {
         memory::check("contact elements", count, bytes_of_blocks(&**weights, LEAF_STEPS)?)?;
         Ok(match self.method {
             HistoryMethod::Direct => {
-                let history = DirectHistory::new(Arc::clone(weights)).within(self.memory);
+                let history = DirectHistory::new(Arc::clone(weights)).within_memory(self.memory);
                 ChosenHistory::direct(history, steps)
             }
             HistoryMethod::RelaxedFft => {
@@ -119,7 +119,7 @@ impl HistoryOptions {
     }
 
     fn transforms(self, weights: &Arc<dyn ConvolutionWeights>) -> RelaxedFftHistory {
-        RelaxedFftHistory::new(Arc::clone(weights)).within(self.memory)
+        RelaxedFftHistory::new(Arc::clone(weights)).within_memory(self.memory)
     }
 
     /// History by exponentials within the option's tolerance, or else `default_tolerance`.

@@ -116,7 +116,7 @@ impl<S: Simd> Lanes<S> {
 
     /// Σ x^k/(first + step k)!, up to 1/last!.
     #[inline(always)]
-    fn series(simd: S, [first, step, last]: [usize; 3], x: S::f64s) -> S::f64s {
+    fn series(simd: S, first: usize, step: usize, last: usize, x: S::f64s) -> S::f64s {
         let mut sum = simd.splat_f64s(INVERSE_FACTORIALS[last]);
         let mut k = last;
         while k > first {
@@ -137,7 +137,7 @@ impl<S: Simd> Lanes<S> {
         for part in LN_2_PARTS {
             remainder = simd.mul_add_e_f64s(n, simd.splat_f64s(-part), remainder);
         }
-        let value = Self::series(simd, [0, 1, 13], remainder);
+        let value = Self::series(simd, 0, 1, 13, remainder);
         let value = simd.mul_f64s(value, Self::power_of_two(simd, n));
         Self::select(simd, simd.less_than_f64s(highest, x), simd.splat_f64s(f64::NAN), value)
     }
@@ -180,8 +180,8 @@ impl<S: Simd> Lanes<S> {
         let half = simd.mul_f64s(n, simd.splat_f64s(0.5));
         let odd = Self::absolute(simd, simd.sub_f64s(half, Self::rounded(simd, half)));
         let sign = simd.sub_f64s(simd.splat_f64s(1.0), simd.mul_f64s(odd, simd.splat_f64s(4.0)));
-        let cosine = Self::series(simd, [0, 2, 20], square);
-        let sine = simd.mul_f64s(angle, Self::series(simd, [1, 2, 21], square));
+        let cosine = Self::series(simd, 0, 2, 20, square);
+        let sine = simd.mul_f64s(angle, Self::series(simd, 1, 2, 21, square));
         [simd.mul_f64s(cosine, sign), simd.mul_f64s(sine, sign)]
     }
 }
@@ -253,8 +253,8 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     fn sqrt(self) -> Self {
         let simd = self.simd;
         let half = simd.splat_f64s(0.5);
-        let size = simd.add_f64s(simd.sqrt_f64s(self.square()), Self::absolute(simd, self.re));
-        let large = simd.sqrt_f64s(simd.mul_f64s(half, size));
+        let sum = simd.add_f64s(simd.sqrt_f64s(self.square()), Self::absolute(simd, self.re));
+        let large = simd.sqrt_f64s(simd.mul_f64s(half, sum));
         // NaN at zero.
         let small = simd.div_f64s(simd.mul_f64s(half, self.im), large);
         let is_negative = simd.less_than_f64s(self.re, simd.splat_f64s(0.0));
@@ -267,9 +267,9 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn exp(self) -> Self {
         let simd = self.simd;
-        let size = Self::real_exp(simd, self.re);
+        let magnitude = Self::real_exp(simd, self.re);
         let [cosine, sine] = Self::cosine_and_sine(simd, self.im);
-        self.with(simd.mul_f64s(size, cosine), simd.mul_f64s(size, sine))
+        self.with(simd.mul_f64s(magnitude, cosine), simd.mul_f64s(magnitude, sine))
     }
 
     #[inline(always)]
@@ -285,8 +285,8 @@ impl<S: Simd> ComplexArithmetic for Lanes<S> {
     #[inline(always)]
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self {
         let simd = self.simd;
-        let size = simd.sqrt_f64s(other.square());
-        let limit = simd.mul_f64s(size, simd.splat_f64s(-fraction));
+        let magnitude = simd.sqrt_f64s(other.square());
+        let limit = simd.mul_f64s(magnitude, simd.splat_f64s(-fraction));
         let is_negative = simd.less_than_f64s(other.re, limit);
         self.with(
             Self::select(simd, is_negative, Self::negative(simd, self.re), self.re),

@@ -140,7 +140,7 @@ impl InclinedWave {
         self.check(control)?;
         let mut found = [Complex::default(); 2];
         let place = ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency));
-        self.functions(control).at(&place, &mut found)?;
+        self.functions(control).evaluate_at(&place, &mut found)?;
         check_motion(&found)?;
         Ok(found)
     }

@@ -3,7 +3,9 @@
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
-use super::slowness::{IncidentWave, WaveMedium, surface_motion, surface_motion_across};
+use super::slowness::{
+    IncidentWave, LayerWaves, WaveMedium, surface_motion, surface_motion_across,
+};
 use crate::error::Result;
 use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
@@ -75,8 +77,7 @@ impl<'a> SurfaceFunctions<'a> {
 }
 
 impl SiteFunctions for SurfaceFunctions<'_> {
-    /// A layer and its travels.
-    type LayerValues<C: ComplexArithmetic> = (WaveMedium<C>, [C; 2]);
+    type LayerValues<C: ComplexArithmetic> = LayerWaves<C>;
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -89,28 +90,29 @@ impl SiteFunctions for SurfaceFunctions<'_> {
     #[inline(always)]
     fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         moduli: &[C],
-        layer_values: &mut Vec<(WaveMedium<C>, [C; 2])>,
+        layer_values: &mut Vec<LayerWaves<C>>,
         results: &mut [C],
     ) {
         let Self { profile, base, kind, control, slowness, incident, nyquist } = self;
-        let s = at.direction;
+        let s = contour.direction;
         let p = *slowness;
         let last = moduli.len() - 1;
         let base =
-            WaveMedium::base(*base, nyquist.modulus(last, at, moduli[last]), s, p, *incident);
+            WaveMedium::base(*base, nyquist.modulus(last, contour, moduli[last]), s, p, *incident);
         layer_values.clear();
         for (index, (layer, modulus)) in profile.layers().iter().zip(moduli).enumerate() {
-            let time = at.s.scale(layer.thickness);
+            let time = contour.s.scale(layer.thickness);
             let mut medium = WaveMedium::layer(layer.soil, *modulus, s, p);
             let slownesses = medium.slownesses();
             let mut travels = [time * slownesses[0], time * slownesses[1]];
-            if at.is_in_band() {
-                travels = nyquist.travels(index, at, travels);
-                medium = WaveMedium::layer(layer.soil, nyquist.modulus(index, at, *modulus), s, p);
+            if contour.is_in_band() {
+                travels = nyquist.travels(index, contour, travels);
+                medium =
+                    WaveMedium::layer(layer.soil, nyquist.modulus(index, contour, *modulus), s, p);
             }
-            layer_values.push((medium, travels));
+            layer_values.push(LayerWaves { medium, travels });
         }
         // Motions of surface and outcrop due to unit amplitudes.
         let response = match kind {
@@ -138,7 +140,7 @@ struct UnitResponse<C> {
 
 #[inline(always)]
 fn across_response<C: ComplexArithmetic>(
-    layers: &[(WaveMedium<C>, [C; 2])],
+    layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> UnitResponse<C> {
     let zero = base.shear.like_real(0.0);
@@ -155,7 +157,7 @@ fn across_response<C: ComplexArithmetic>(
 /// Their amplitudes belong to the vectors (p, a) and (b, p), whose length is 1/c.
 #[inline(always)]
 fn in_plane_response<C: ComplexArithmetic>(
-    layers: &[(WaveMedium<C>, [C; 2])],
+    layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
     wave: usize,
 ) -> UnitResponse<C> {

@@ -94,10 +94,10 @@ impl<const WAVES: usize> NyquistLayers<WAVES> {
     pub(super) fn modulus<C: ComplexArithmetic>(
         &self,
         index: usize,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         modulus: C,
     ) -> C {
-        let Some([nearness, _]) = at.band else { return modulus };
+        let Some([nearness, _]) = contour.band else { return modulus };
         modulus + (modulus.like_real(self.moduli[index]) - modulus) * nearness
     }
 
@@ -106,10 +106,10 @@ impl<const WAVES: usize> NyquistLayers<WAVES> {
     pub(super) fn travels<C: ComplexArithmetic>(
         &self,
         index: usize,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         mut travels: [C; WAVES],
     ) -> [C; WAVES] {
-        let Some([nearness, ratio]) = at.band else { return travels };
+        let Some([nearness, ratio]) = contour.band else { return travels };
         for (travel, highest) in travels.iter_mut().zip(&self.travels[index]) {
             let turns = ratio * ratio.like(Complex::new(0.0, highest.im));
             *travel = *travel + (ratio.like_real(highest.re) + turns - *travel) * nearness;
@@ -128,19 +128,19 @@ pub(super) trait SiteFunctions {
     /// Number of functions.
     fn count(&self) -> usize;
 
-    /// Overwrites `found` with one number for each function, at one place.
+    /// Overwrites `results` with one number for each function, at one place.
     ///
     /// `moduli`: of the soils from the surface down. Implementations must be `#[inline(always)]`.
     fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         moduli: &[C],
         layer_values: &mut Vec<Self::LayerValues<C>>,
         results: &mut [C],
     );
 
-    /// The functions at one place.
-    fn at(&self, place: &ContourPoint, results: &mut [Complex]) -> Result<()> {
+    /// Overwrites `results` with the functions at one place, each a single number.
+    fn evaluate_at(&self, place: &ContourPoint, results: &mut [Complex]) -> Result<()> {
         let mut moduli = vec![];
         self.profile().moduli(place.s, &mut moduli)?;
         self.evaluate(&ContourLanes::single(place), &moduli, &mut vec![], results);
@@ -203,14 +203,14 @@ impl<F: SiteFunctions> WithSimd for Evaluation<'_, F> {
             let directions = Lanes::load(simd, &directions[begin..end]);
             let repeats = begin > 0 && band.is_none() && is_constant;
             let s = Lanes::load(simd, &s[begin..end]);
-            let at = ContourLanes { s, direction: directions, repeats, band };
+            let contour = ContourLanes { s, direction: directions, repeats, band };
             if !repeats {
                 lanes.clear();
                 for moduli in moduli.chunks_exact(length) {
                     lanes.push(Lanes::load(simd, &moduli[begin..end]));
                 }
             }
-            functions.evaluate(&at, &lanes, &mut layer_values, &mut values);
+            functions.evaluate(&contour, &lanes, &mut layer_values, &mut values);
             let mut is_finite = true;
             for (value, results) in values.iter().zip(results.chunks_exact_mut(length)) {
                 value.store(&mut results[begin..end]);

@@ -191,7 +191,14 @@ fn inverse<C: ComplexArithmetic>([a, b, c, d]: Square<C>) -> Square<C> {
     scaled([d, -b, -c, a], scale)
 }
 
-/// Surface motion due to the waves A at the bottom of a medium, and R there.
+/// A layer, and the exponents s h a and s h b of the waves through it.
+#[derive(Clone, Copy)]
+pub(super) struct LayerWaves<C> {
+    pub(super) medium: WaveMedium<C>,
+    pub(super) travels: [C; 2],
+}
+
+/// Surface motion due to the waves A at one depth of a medium, and R there.
 struct SurfaceTransfer<C> {
     medium: WaveMedium<C>,
     surface: Square<C>,
@@ -199,12 +206,13 @@ struct SurfaceTransfer<C> {
 }
 
 impl<C: ComplexArithmetic> SurfaceTransfer<C> {
-    /// Surface motion and R at the top of the next medium down; without `above`, at the free surface.
+    /// At the top of `medium`, from the bottom of the one `above`; without one, at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
-    fn at_next_medium(above: Option<Self>, medium: &WaveMedium<C>) -> [Square<C>; 2] {
+    fn at_next_medium(above: Option<Self>, medium: WaveMedium<C>) -> Self {
         let Some(Self { medium: upper, surface, reflection }) = above else {
-            return [medium.free_surface(), medium.surface_reflection()];
+            let surface = medium.free_surface();
+            return Self { medium, surface, reflection: medium.surface_reflection() };
         };
         let one = medium.a.like_real(1.0);
         let zero = medium.a.like_real(0.0);
@@ -218,42 +226,53 @@ impl<C: ComplexArithmetic> SurfaceTransfer<C> {
         let ratio = medium.a * medium.b.inverse();
         let reflection = [pp, ps * ratio.inverse(), sp * ratio, ss];
         let [xp, xs, zp, zs] = times(surface, up_inverse);
-        [[xp * medium.a, xs * medium.b, zp * medium.a, zs * medium.b], reflection]
+        let surface = [xp * medium.a, xs * medium.b, zp * medium.a, zs * medium.b];
+        Self { medium, surface, reflection }
+    }
+
+    /// From the top to the bottom of a layer.
+    #[inline(always)]
+    fn through_layer(self, travels: [C; 2]) -> Self {
+        let p_decay = (-travels[0]).exp();
+        let s_decay = (-travels[1]).exp();
+        let [xp, xs, zp, zs] = self.surface;
+        let [pp, ps, sp, ss] = self.reflection;
+        Self {
+            medium: self.medium,
+            surface: [xp * p_decay, xs * s_decay, zp * p_decay, zs * s_decay],
+            reflection: [
+                pp * p_decay * p_decay,
+                ps * p_decay * s_decay,
+                sp * p_decay * s_decay,
+                ss * s_decay * s_decay,
+            ],
+        }
     }
 }
 
 /// Motion of the surface, to the right and up, due to the waves A in `base`.
 ///
-/// `layers` from the surface down, each with s h a and s h b.
+/// `layers` from the surface down.
 #[inline(always)]
 pub(super) fn surface_motion<C: ComplexArithmetic>(
-    layers: &[(WaveMedium<C>, [C; 2])],
+    layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> Square<C> {
     let mut above = None;
-    for &(medium, travels) in layers {
-        let [[xp, xs, zp, zs], [pp, ps, sp, ss]] = SurfaceTransfer::at_next_medium(above, &medium);
-        let p_decay = (-travels[0]).exp();
-        let s_decay = (-travels[1]).exp();
-        let surface = [xp * p_decay, xs * s_decay, zp * p_decay, zs * s_decay];
-        let reflection = [
-            pp * p_decay * p_decay,
-            ps * p_decay * s_decay,
-            sp * p_decay * s_decay,
-            ss * s_decay * s_decay,
-        ];
-        above = Some(SurfaceTransfer { medium, surface, reflection });
+    for layer in layers {
+        let top = SurfaceTransfer::at_next_medium(above, layer.medium);
+        above = Some(top.through_layer(layer.travels));
     }
-    SurfaceTransfer::at_next_medium(above, base)[0]
+    SurfaceTransfer::at_next_medium(above, *base).surface
 }
 
 /// Motion of the surface across p by an SH wave of unit displacement in `base`.
 ///
-/// `layers` from the surface down, each with s h a and s h b. Displacement u = (1 + R) A and stress μ b (1 − R) A
+/// `layers` from the surface down. Displacement u = (1 + R) A and stress μ b (1 − R) A
 /// are continuous between layers.
 #[inline(always)]
 pub(super) fn surface_motion_across<C: ComplexArithmetic>(
-    layers: &[(WaveMedium<C>, [C; 2])],
+    layers: &[LayerWaves<C>],
     base: &WaveMedium<C>,
 ) -> C {
     let zero = base.a.like_real(0.0);
@@ -261,7 +280,8 @@ pub(super) fn surface_motion_across<C: ComplexArithmetic>(
     let mut surface = one + one;
     let mut reflection = one;
     let mut above: Option<WaveMedium<C>> = None;
-    for &(medium, [_, travel]) in layers.iter().chain(&[(*base, [zero; 2])]) {
+    let at_base = LayerWaves { medium: *base, travels: [zero; 2] };
+    for &LayerWaves { medium, travels: [_, travel] } in layers.iter().chain(&[at_base]) {
         if let Some(upper) = above.replace(medium) {
             let displacement = one + reflection;
             let stress = (one - reflection) * upper.impedance() * medium.impedance().inverse();

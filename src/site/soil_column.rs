@@ -60,8 +60,10 @@ impl SoilColumn {
         let functions =
             ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
         let mut found = [Complex::default(); 2];
-        functions
-            .at(&ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)), &mut found)?;
+        functions.evaluate_at(
+            &ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)),
+            &mut found,
+        )?;
         Ok(upwards(found[0], found[1]))
     }
 

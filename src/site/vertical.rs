@@ -159,7 +159,7 @@ impl<'a> ColumnFunctions<'a> {
     #[inline(always)]
     fn quantities<C: ComplexArithmetic>(
         &self,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         bottom: WavePair<C>,
         total: C,
         layer_values: &[ColumnLayer<C>],
@@ -185,7 +185,7 @@ impl<'a> ColumnFunctions<'a> {
                 }
             }
             ColumnQuantity::Strains => {
-                let square = (at.s * at.s).inverse();
+                let square = (contour.s * contour.s).inverse();
                 let layer_data = self.profile.layers().iter().zip(&layer_values[..layers]);
                 for (result, (layer, values)) in results[..layers].iter_mut().zip(layer_data).rev()
                 {
@@ -220,13 +220,13 @@ impl SiteFunctions for ColumnFunctions<'_> {
     #[inline(always)]
     fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &ContourLanes<C>,
+        contour: &ContourLanes<C>,
         moduli: &[C],
         layer_values: &mut Vec<ColumnLayer<C>>,
         results: &mut [C],
     ) {
-        let zero = at.s.like_real(0.0);
-        let one = at.s.like_real(1.0);
+        let zero = contour.s.like_real(0.0);
+        let one = contour.s.like_real(1.0);
         let mut waves = WavePair { up: one, down: one };
         let mut total = zero;
         let mut impedance_above: Option<C> = None;
@@ -236,7 +236,7 @@ impl SiteFunctions for ColumnFunctions<'_> {
         }
         let layers = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
-            if !at.repeats {
+            if !contour.repeats {
                 layer_values[index] = ColumnLayer::filled(zero);
                 layer_values[index].exact = self.speed(index, *modulus);
             }
@@ -245,12 +245,12 @@ impl SiteFunctions for ColumnFunctions<'_> {
             let is_layer = index < layers;
             let mut travel = zero;
             if is_layer {
-                travel = self.travel(index, at.s, exact.slowness);
+                travel = self.travel(index, contour.s, exact.slowness);
             }
-            if at.is_in_band() {
-                modified = self.speed(index, self.nyquist.modulus(index, at, *modulus));
+            if contour.is_in_band() {
+                modified = self.speed(index, self.nyquist.modulus(index, contour, *modulus));
                 if is_layer {
-                    [travel] = self.nyquist.travels(index, at, [travel]);
+                    [travel] = self.nyquist.travels(index, contour, [travel]);
                 }
             }
             let density = self.soils[index][0];
@@ -272,6 +272,6 @@ impl SiteFunctions for ColumnFunctions<'_> {
             };
             waves.down = waves.down * round_trip;
         }
-        self.quantities(at, waves, total, layer_values, results);
+        self.quantities(contour, waves, total, layer_values, results);
     }
 }

@@ -132,7 +132,7 @@ impl RelaxedFftHistory {
     }
 
     /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
-    pub(super) fn within(mut self, bytes: usize) -> Self {
+    pub(super) fn within_memory(mut self, bytes: usize) -> Self {
         self.memory = self.memory.min(bytes as f64);
         self
     }
