@@ -23,7 +23,7 @@ use crate::fundamental::Surface;
 use crate::fundamental::branch::{Branch, Branches, KernelWeight};
 use crate::fundamental::rayleigh::{LATE_SERIES_TERMS, Rayleigh, late_coefficients};
 use crate::geometry::ContactElement;
-use crate::history::KINDS;
+use crate::history::STRIP_KINDS;
 use crate::linalg::gauss;
 use crate::soil::Soil;
 
@@ -152,7 +152,7 @@ impl PairInfluence<'_> {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input)
     /// if `first` is 0.
-    pub(super) fn fill(&self, first: usize, values: [&mut [f64]; KINDS]) -> Result<()> {
+    pub(super) fn fill(&self, first: usize, values: [&mut [f64]; STRIP_KINDS]) -> Result<()> {
         let [zz, xx, zx] = values;
         require("first lag", first as f64, first > 0, "at least 1")?;
         same_length("xx coefficients", xx.len(), zz.len())?;

@@ -3,7 +3,7 @@
 use super::InfluenceKernel;
 use crate::error::Result;
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, KINDS, LateWeights, PairClasses, SharedSpectra};
+use crate::history::{ConvolutionWeights, LateWeights, PairClasses, STRIP_KINDS, SharedSpectra};
 use crate::soil::Soil;
 
 /// [`ConvolutionWeights`] of the half-plane for a patch of surface elements, in closed form.
@@ -37,7 +37,7 @@ impl ConvolutionWeights for PatchKernel {
         &self,
         class: usize,
         first_lag: usize,
-        mut values: [&mut [f64]; KINDS],
+        mut values: [&mut [f64]; STRIP_KINDS],
     ) -> Result<()> {
         let [source, receiver] = self.classes.representative(class)?;
         let pair = self.kernel.pair(receiver, source)?;

@@ -201,7 +201,7 @@ impl WeightsGround {
         steps: Option<usize>,
     ) -> Result<ChosenHistory> {
         match &self.custom_history {
-            Some(make) => Ok(ChosenHistory::own(make(Arc::clone(weights)))),
+            Some(make) => Ok(ChosenHistory::supplied(make(Arc::clone(weights)))),
             None => self.options.history(weights, steps),
         }
     }

@@ -4,7 +4,9 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use super::on_bed::OnBed;
-use crate::linalg::{Thinned, dense_condition, dense_multiply_add, transposed_multiply_add};
+use crate::linalg::{
+    CompressedMatrix, dense_condition, dense_multiply_add, transposed_multiply_add,
+};
 
 /// Largest rank of the structure's part for which it is multiplied separately from the soil's part.
 pub(crate) const MAX_STRUCTURE_RANK: usize = 64;
@@ -16,7 +18,7 @@ pub(crate) const MAX_STRUCTURE_RANK: usize = 64;
 pub(crate) struct Delassus {
     values: Vec<f64>,
     /// G¹, if the values are its sum with another part.
-    soil: Option<Arc<Thinned>>,
+    soil: Option<Arc<CompressedMatrix>>,
     split: Option<Split>,
     on_bed: Option<OnBed>,
 }
@@ -55,7 +57,7 @@ impl Delassus {
     /// `columns` holds C column by column; `means` multiplies a vector by B.
     pub(crate) fn with_parts(
         self,
-        soil: &Arc<Thinned>,
+        soil: &Arc<CompressedMatrix>,
         columns: &[f64],
         means: impl Fn(&[f64], &mut [f64]),
     ) -> Self {
@@ -90,7 +92,7 @@ impl Delassus {
     }
 
     /// The soil's step compliance G¹; `None` if it is not known.
-    pub(crate) fn soil(&self) -> Option<&Thinned> {
+    pub(crate) fn soil(&self) -> Option<&CompressedMatrix> {
         self.soil.as_deref()
     }
 
@@ -154,7 +156,7 @@ mod tests {
             }
         }
         let whole = Delassus::from(values.clone());
-        let soil = Arc::new(Thinned::new(soil, size));
+        let soil = Arc::new(CompressedMatrix::new(soil, size));
         let split = Delassus::from(values).with_parts(&soil, &columns, |x, out| {
             out.fill(0.0);
             dense_multiply_add(&means, 1.0, x, out);

@@ -21,7 +21,7 @@ use crate::geometry::{Patch, check_count, lattice_cells};
 use crate::interface::{
     Bonded, ContactScene, ContactState, InterfaceLaw, LawForm, Mode, PreviousContact, check_list,
 };
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
@@ -139,7 +139,7 @@ pub(crate) struct Parts {
     pub(crate) elements: Patch,
     pub(crate) coefficients: SchemeCoefficients,
     /// Step compliance of the ground, 2Q × 2Q, or 3Q × 3Q in plan.
-    pub(crate) soil: Arc<Thinned>,
+    pub(crate) soil: Arc<CompressedMatrix>,
     /// Whether the ground damps at first order in the time step.
     pub(crate) first_order_ground: bool,
     /// Free field at t = 0, 2Q or 3Q.
@@ -206,7 +206,7 @@ impl Parts {
         ground.prepare(time_step, steps, &mut given.observer)?;
         let of_bed = bed_compliance::of_bed(ground.as_ref(), structure.as_ref(), &elements)?;
         let soil = if let Some(diagonal) = of_bed {
-            Thinned::of_diagonal(diagonal)
+            CompressedMatrix::of_diagonal(diagonal)
         } else {
             check_count(elements.len(), components)?;
             instantaneous_operator(ground.as_ref(), &elements)?
@@ -279,7 +279,7 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
 /// Step compliance of the ground; an error if it could generate energy.
 ///
 /// With rows weighted by the elements' areas, its symmetric part must not be negative.
-fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinned> {
+fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<CompressedMatrix> {
     let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
@@ -301,8 +301,8 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Thinn
     }
     match indefinite_pivot(&symmetric, size) {
         None => Ok(match lattice_cells(elements) {
-            Some(cells) => Thinned::on_lattice(operator, &cells, areas),
-            None => Thinned::new(operator, size),
+            Some(cells) => CompressedMatrix::on_lattice(operator, &cells, areas),
+            None => CompressedMatrix::new(operator, size),
         }),
         Some(row) => {
             let diagonal = operator[row * (size + 1)];

@@ -17,7 +17,7 @@ use crate::error::LawError;
 use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::spread;
-use crate::linalg::{Thinned, mixed};
+use crate::linalg::{CompressedMatrix, mixed};
 use crate::structure::probe::Probe;
 
 /// Structure, base, laws and static state for steps; read-only once built.
@@ -41,7 +41,7 @@ pub(crate) struct Scene {
     /// Parts that the nonlinear force joins with others.
     pub(crate) joined: Vec<bool>,
     /// Step compliance of the ground, 2Q × 2Q.
-    pub(crate) soil: Arc<Thinned>,
+    pub(crate) soil: Arc<CompressedMatrix>,
     /// Free field at t = 0, which is subtracted from it later, 2Q.
     pub(crate) start_motion: Vec<f64>,
     /// Displacement, velocity and acceleration of each probe.

@@ -1,7 +1,7 @@
 //! Assembly of element matrices into the matrices of the whole mesh.
 
 use super::element::MassKind;
-use super::force_rotation::{StaticState, force_rotation};
+use super::force_rotation::{ElementStaticState, force_rotation};
 use super::mesh::Mesh;
 use super::numbering::Numbering;
 use crate::error::Result;
@@ -18,7 +18,9 @@ pub(crate) enum MatrixKind {
     Damping,
 }
 
-/// Adds `factor` times the matrices of the elements that `keep` selects by their coordinates.
+/// Adds `factor` times the matrices of the selected elements.
+///
+/// `is_included` selects elements by the coordinates of their nodes.
 ///
 /// `numbering` must belong to `mesh`; otherwise `matrix` gets indices out of range.
 pub(crate) fn assemble(
@@ -26,14 +28,14 @@ pub(crate) fn assemble(
     numbering: &Numbering,
     quantity: MatrixKind,
     factor: f64,
-    keep: impl Fn(&[[f64; 3]]) -> bool,
+    is_included: impl Fn(&[[f64; 3]]) -> bool,
     matrix: &mut Triplets,
 ) {
     let mut indices = Vec::new();
     let mut block = Vec::new();
     for (index, element) in mesh.elements().enumerate() {
         let coordinates = mesh.coordinates(element.nodes());
-        if !keep(&coordinates) {
+        if !is_included(&coordinates) {
             continue;
         }
         block.clear();
@@ -66,7 +68,7 @@ pub(crate) fn assemble(
     }
 }
 
-/// Replaces elements of `mesh` by their versions in the static state, and lets its forces turn with the elements.
+/// Replaces elements of `mesh` by their versions in the static state, whose forces rotate with them.
 ///
 /// `displacements` (m, rad): degrees of freedom of each element; `gravity` is in m/s². Returns whether the
 /// user gave the axial force of an element, which does not change.
@@ -79,21 +81,23 @@ pub(crate) fn set_static_state(
     gravity: f64,
     mass_kind: MassKind,
 ) -> Result<bool> {
-    let mut is_given = Vec::with_capacity(displacements.len());
+    let mut is_prescribed = Vec::with_capacity(displacements.len());
     mesh.replace_elements(|element, points| {
-        let displacement = displacements.get(is_given.len())?;
+        let displacement = displacements.get(is_prescribed.len())?;
         let replaced = element.in_static_state(points, displacement, gravity);
-        is_given.push(replaced.is_none() && element.compression().is_some());
+        is_prescribed.push(replaced.is_none() && element.compression().is_some());
         replaced
     })?;
     let has_depth = mesh.has_depth();
     let mut rotations = Vec::with_capacity(displacements.len());
-    for ((element, displacement), is_given) in mesh.elements().zip(displacements).zip(&is_given) {
-        let state = StaticState { displacement, gravity, mass_kind, has_depth };
+    for ((element, displacement), is_prescribed) in
+        mesh.elements().zip(displacements).zip(&is_prescribed)
+    {
+        let state = ElementStaticState { displacement, gravity, mass_kind, has_depth };
         let points = mesh.coordinates(element.nodes());
-        let rotation = force_rotation(element, &points, &state).filter(|_| !is_given);
+        let rotation = force_rotation(element, &points, &state).filter(|_| !is_prescribed);
         rotations.push(rotation);
     }
     mesh.set_force_rotations(rotations);
-    Ok(is_given.contains(&true))
+    Ok(is_prescribed.contains(&true))
 }

@@ -4,55 +4,70 @@ use std::collections::HashMap;
 
 use crate::error::{Error, Result, not_negative};
 
-/// Cells on each side of a point's cell in which a point within the tolerance may lie.
-const NEIGHBOURS: [f64; 3] = [0.0, -1.0, 1.0];
+/// Offsets of the cells in which a point within the tolerance may lie.
+const NEIGHBOUR_OFFSETS: [f64; 3] = [0.0, -1.0, 1.0];
 
-/// For each point the first one at its place: itself, or an earlier point within `tolerance` (m).
+/// For each point the first one at its place: itself, or an earlier point.
+///
+/// `tolerance`: largest distance of points at one place, m.
 ///
 /// # Errors
 /// [`Error::Input`] unless the tolerance is finite and not negative; [`Error::Part`] for points in a row of which
 /// neighbours are within the tolerance and others are not, so that places are not separate.
 pub(crate) fn first_at_place(points: &[[f64; 3]], tolerance: f64) -> Result<Vec<usize>> {
     not_negative("tolerance of coincident nodes", tolerance)?;
-    // Cells as wide as the tolerance. Without one, a cell is a value of the coordinates; −0 + 0 is 0.
-    let cell = |value: f64| if tolerance > 0.0 { (value / tolerance).floor() } else { value + 0.0 };
-    let key = |cell: [f64; 3]| cell.map(|value| (value + 0.0).to_bits());
+
     let mut firsts: Vec<usize> = Vec::with_capacity(points.len());
     // Points in each cell that are the first at their place.
     let mut cells: HashMap<[u64; 3], Vec<usize>> = HashMap::new();
     // All points of each place, by its first.
     let mut places: HashMap<usize, Vec<usize>> = HashMap::new();
     for (index, point) in points.iter().enumerate() {
-        let home = point.map(cell);
-        let mut near = Vec::new();
-        for x in NEIGHBOURS {
-            for y in NEIGHBOURS {
-                for z in NEIGHBOURS {
-                    let around = [home[0] + x, home[1] + y, home[2] + z];
-                    for &other in cells.get(&key(around)).into_iter().flatten() {
-                        if distance(points[other], *point) <= tolerance && !near.contains(&other) {
-                            near.push(other);
+        let cell_of_point = point.map(|value| cell_index(value, tolerance));
+        let mut within_tolerance = Vec::new();
+        for x in NEIGHBOUR_OFFSETS {
+            for y in NEIGHBOUR_OFFSETS {
+                for z in NEIGHBOUR_OFFSETS {
+                    let neighbour =
+                        [cell_of_point[0] + x, cell_of_point[1] + y, cell_of_point[2] + z];
+                    for &other in cells.get(&cell_key(neighbour)).into_iter().flatten() {
+                        if distance(points[other], *point) <= tolerance
+                            && !within_tolerance.contains(&other)
+                        {
+                            within_tolerance.push(other);
                         }
                     }
                 }
             }
         }
-        let first = near.iter().map(|&other| firsts[other]).min().unwrap_or(index);
+        let first = within_tolerance.iter().map(|&other| firsts[other]).min().unwrap_or(index);
         // All points at the place must be within the tolerance, and no point of another place.
         let same_place = places.entry(first).or_default();
-        let far = |other: &&usize| distance(points[**other], *point) > tolerance;
-        let other_place = near.iter().find(|other| firsts[**other] != first);
-        if let Some(&other) = same_place.iter().find(far).or(other_place) {
+        let too_far = same_place.iter().find(|other| distance(points[**other], *point) > tolerance);
+        let other_place = within_tolerance.iter().find(|other| firsts[**other] != first);
+        if let Some(&other) = too_far.or(other_place) {
             return Err(in_a_row(other, index, tolerance));
         }
         same_place.push(index);
         firsts.push(first);
-        cells.entry(key(home)).or_default().push(index);
+        cells.entry(cell_key(cell_of_point)).or_default().push(index);
     }
     Ok(firsts)
 }
 
-/// Error for nodes of which some are within the tolerance of others, and some are not.
+/// Index of the cell of a coordinate; cells are as wide as the tolerance.
+///
+/// Without a tolerance the index is the coordinate itself.
+fn cell_index(value: f64, tolerance: f64) -> f64 {
+    if tolerance > 0.0 { (value / tolerance).floor() } else { value + 0.0 }
+}
+
+/// Hash key of a cell; adding zero turns −0 into 0.
+fn cell_key(cell: [f64; 3]) -> [u64; 3] {
+    cell.map(|index| (index + 0.0).to_bits())
+}
+
+/// Error for nodes in a row: neighbours within the tolerance, ends beyond it.
 fn in_a_row(one: usize, other: usize, tolerance: f64) -> Error {
     let reason = format!(
         "they are within the tolerance of {tolerance} m, as others beside them, which are farther apart: take a \

@@ -1,11 +1,11 @@
 //! Elimination of inner degrees of freedom of an element.
 
-/// Eliminates the degrees of freedom from `outer` on, the last one first.
+/// Eliminates the degrees of freedom from `kept` on, the last one first.
 ///
 /// Afterwards the leading block is the condensed matrix. The other rows are the equations of the inner degrees of
 /// freedom, for [`complete`].
-pub(super) fn condense<const N: usize>(matrix: &mut [[f64; N]; N], outer: usize) {
-    for pivot in (outer..N).rev() {
+pub(super) fn condense<const N: usize>(matrix: &mut [[f64; N]; N], kept: usize) {
+    for pivot in (kept..N).rev() {
         let row = matrix[pivot];
         for i in 0..pivot {
             let factor = matrix[i][pivot] / row[pivot];
@@ -16,13 +16,13 @@ pub(super) fn condense<const N: usize>(matrix: &mut [[f64; N]; N], outer: usize)
     }
 }
 
-/// Overwrites the values from `outer` on with the inner displacements of a condensed matrix.
+/// Overwrites the values from `kept` on with the inner displacements of a condensed matrix.
 pub(super) fn complete<const N: usize>(
     condensed: &[[f64; N]; N],
-    outer: usize,
+    kept: usize,
     values: &mut [f64; N],
 ) {
-    for pivot in outer..N {
+    for pivot in kept..N {
         let row = &condensed[pivot];
         let force: f64 = row[..pivot].iter().zip(&values[..pivot]).map(|(k, u)| k * u).sum();
         values[pivot] = -force / row[pivot];

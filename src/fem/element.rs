@@ -15,7 +15,7 @@ pub enum MassKind {
     /// Mass distributed by the shape functions of the stiffness: a full matrix.
     #[default]
     Consistent,
-    /// Mass at the nodes: a matrix of the same total mass, diagonal in the element's own axes.
+    /// Mass at the nodes: a matrix of the same total mass, diagonal in the element's axes.
     ///
     /// Inclined beams in space couple the rotations of a node, and offsets couple rotations with displacements.
     Lumped,
@@ -26,7 +26,7 @@ words! { pub(crate) MassKind, "kind of mass", {
     Lumped = "lumped",
 } }
 
-/// A finite element: implement this to bring your own.
+/// A finite element: implement this for your elements.
 ///
 /// Its matrices are dense, row-major and square, of order [`order`](Element::order). The degrees of freedom
 /// run through the nodes in the element's order and, within a node, through
@@ -34,7 +34,7 @@ words! { pub(crate) MassKind, "kind of mass", {
 /// nodes; in the plane y points up and z is zero.
 /// Every matrix is **added to** the buffer; for the matrix alone the caller passes a zeroed buffer.
 ///
-/// Every element is [`Any`], so that an element of a mesh leads back to its own type.
+/// Every element is [`Any`], so that an element of a mesh can be downcast to its type.
 ///
 /// ```
 /// use basemat::fem::{Direction, Element, MassKind, Mesh};
@@ -80,7 +80,9 @@ pub trait Element: Any + Send + Sync {
     /// It is symmetric; a rigid motion of all nodes must give no force.
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]);
 
-    /// Adds the geometric stiffness (P–Δ) of the axial force in the static state, N/m, in the plane per metre.
+    /// Adds the geometric stiffness (P–Δ) of the static axial force, N/m.
+    ///
+    /// In the plane it is per metre.
     ///
     /// Symmetric. A translation of all nodes must give no force; a rotation gives the moment of the offset
     /// force. The matrix is part of the structure's stiffness, but not of its stiffness-proportional damping.
@@ -140,8 +142,10 @@ pub trait Element: Any + Send + Sync {
     /// Default: yes, if it has the directions X and Y, but not Z. An element in space that moves horizontally only,
     /// such as a rubber bearing, returns `false`.
     fn is_plane(&self) -> bool {
-        let has = |direction| self.directions().contains(&direction);
-        has(Direction::X) && has(Direction::Y) && !has(Direction::Z)
+        let directions = self.directions();
+        directions.contains(&Direction::X)
+            && directions.contains(&Direction::Y)
+            && !directions.contains(&Direction::Z)
     }
 
     /// Checks the shape when the element is added to a mesh. Default: any shape is accepted.
@@ -165,22 +169,24 @@ pub(crate) fn add_square<const N: usize>(matrix: &mut [f64], block: &[[f64; N]; 
     }
 }
 
-/// Adds Tᵀ k T of a `local` matrix k, where T = `to_local` takes global to local displacements.
+/// Adds Tᵀ k T of a `local` matrix k.
+///
+/// T = `to_local` transforms global to local displacements.
 pub(crate) fn add_transformed<const N: usize>(
     local: &[[f64; N]; N],
     to_local: &[[f64; N]; N],
     matrix: &mut [f64],
 ) {
-    let mut half = [[0.0; N]; N];
+    let mut local_times_transformation = [[0.0; N]; N];
     let mut global = [[0.0; N]; N];
     for i in 0..N {
         for j in 0..N {
-            half[i][j] = (0..N).map(|k| local[i][k] * to_local[k][j]).sum();
+            local_times_transformation[i][j] = (0..N).map(|k| local[i][k] * to_local[k][j]).sum();
         }
     }
     for i in 0..N {
         for j in 0..N {
-            global[i][j] = (0..N).map(|k| to_local[k][i] * half[k][j]).sum();
+            global[i][j] = (0..N).map(|k| to_local[k][i] * local_times_transformation[k][j]).sum();
         }
     }
     add_square(matrix, &global);

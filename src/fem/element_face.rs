@@ -36,7 +36,9 @@ impl ElementFace {
         &self.corners
     }
 
-    /// Thickness of a shell, m; its surfaces lie half of it above and below the nodes. Zero for a side of a solid.
+    /// Thickness of a shell, m; zero for a side of a solid.
+    ///
+    /// The surfaces of a shell lie half of it above and below the nodes.
     pub fn thickness(&self) -> f64 {
         self.thickness
     }

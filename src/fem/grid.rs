@@ -31,7 +31,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Nodes of the row `index`, from its first column on; a pole is a row of one node.
+    /// Nodes of the row `index`, column by column; a pole is one node.
     ///
     /// Empty for a row that does not exist.
     pub fn row(&self, index: usize) -> &[usize] {
@@ -52,24 +52,26 @@ impl Grid {
         pairs.flat_map(move |(row, pair)| {
             let columns = pair[0].len().max(pair[1].len());
             let count = if self.is_closed { columns } else { columns - 1 };
-            let at = |own: &[usize], column: usize| own[column % own.len()];
-            let corners = move |column: usize| {
-                let next = column + 1;
-                let ([lower, upper], mut cell) = ([&pair[0], &pair[1]], Vec::with_capacity(4));
-                cell.extend([
-                    at(lower, column),
-                    at(lower, next),
-                    at(upper, next),
-                    at(upper, column),
-                ]);
-                cell.dedup();
-                (row, cell)
-            };
-            (0..count).map(corners)
+            (0..count).map(move |column| (row, Self::cell(&pair[0], &pair[1], column)))
         })
     }
 
-    /// Shells of all cells, in the order of [`cells`](Grid::cells); `thickness` of each row of cells in m.
+    /// Corners of the cell between two rows at a column; a pole counts as one corner.
+    fn cell(lower: &[usize], upper: &[usize], column: usize) -> Vec<usize> {
+        let next = column + 1;
+        let mut corners = vec![
+            lower[column % lower.len()],
+            lower[next % lower.len()],
+            upper[next % upper.len()],
+            upper[column % upper.len()],
+        ];
+        corners.dedup();
+        corners
+    }
+
+    /// Shells of all cells, in the order of [`cells`](Grid::cells).
+    ///
+    /// `thickness`: of each row of cells, m.
     ///
     /// Triangles at a pole are matched to the quadrilaterals beside them ([`Shell::match_sides`]).
     ///
@@ -103,35 +105,44 @@ impl Grid {
         for &node in &nodes {
             in_bounds("node of the grid", node, mesh.nodes().len())?;
         }
-        let (mut bricks, mut last) = (Vec::with_capacity(quads.len() * heights.len()), 0.0);
-        let (mut below, mut place) = (nodes.clone(), vec![0; mesh.nodes().len()]);
+        let mut bricks = Vec::with_capacity(quads.len() * heights.len());
+        let mut height_below = 0.0;
+        let mut below = nodes.clone();
+        let mut place = vec![0; mesh.nodes().len()];
         nodes.iter().enumerate().for_each(|(index, &node)| place[node] = index);
         for &height in heights {
             finite("height of a layer", height)?;
             require(
                 "height of a layer",
                 height,
-                height > last,
+                height > height_below,
                 "more than that of the layer below",
             )?;
             let mut above = Vec::with_capacity(nodes.len());
             for &node in &nodes {
-                let [x, y, z] = mesh.nodes()[node];
-                above.push(mesh.add_node_at([x, y, z + height])?);
+                let mut point = mesh.nodes()[node];
+                point[2] += height;
+                above.push(mesh.add_node_at(point)?);
             }
-            bricks.extend(quads.iter().map(|quad| {
-                let [a, b, c, d] = quad.map(|node| below[place[node]]);
-                let [e, f, g, h] = quad.map(|node| above[place[node]]);
-                [a, b, c, d, e, f, g, h]
-            }));
-            (below, last) = (above, height);
+            for quad in &quads {
+                let mut brick = [0; 8];
+                for (k, &node) in quad.iter().enumerate() {
+                    brick[k] = below[place[node]];
+                    brick[4 + k] = above[place[node]];
+                }
+                bricks.push(brick);
+            }
+            below = above;
+            height_below = height;
         }
         Ok(bricks)
     }
 }
 
 impl Mesh {
-    /// Adds the nodes of a surface: `point(row, column)` is the place of each, [x, y, z] in m.
+    /// Adds the nodes of a surface, row by row.
+    ///
+    /// `point(row, column)` is the place of each node, [x, y, z] in m.
     ///
     /// ```
     /// use basemat::fem::{Hex8, Material, Mesh};
@@ -157,13 +168,18 @@ impl Mesh {
     ) -> Result<Grid> {
         at_least("rows of the grid", rows, 2)?;
         at_least("columns of the grid", columns, 2)?;
-        let mut row =
-            |row| (0..columns).map(|column| self.add_node_at(point(row, column))).collect();
-        let rows = (0..rows).map(&mut row).collect::<Result<Vec<Vec<_>>>>()?;
-        Ok(Grid { rows, is_closed: false })
+        let mut nodes = Vec::with_capacity(rows);
+        for row in 0..rows {
+            let row: Result<Vec<usize>> =
+                (0..columns).map(|column| self.add_node_at(point(row, column))).collect();
+            nodes.push(row?);
+        }
+        Ok(Grid { rows: nodes, is_closed: false })
     }
 
-    /// Adds the nodes of a surface of revolution about the vertical axis through `axis` ([x, y], m).
+    /// Adds the nodes of a surface of revolution about a vertical axis.
+    ///
+    /// `axis`: [x, y] of the axis, m.
     ///
     /// `meridian`: [radius, height] of each row of nodes, m. A row on the axis is one node, a pole. `sectors`: number
     /// of columns round the axis, from the direction of x towards y. [`Grid`] has an example.
@@ -179,24 +195,25 @@ impl Mesh {
     ) -> Result<Grid> {
         at_least("rows of the meridian", meridian.len(), 2)?;
         at_least("sectors of the surface", sectors, 3)?;
-        let has_depth = self.has_depth();
-        let fault = |needed| Err(Error::Scene { quantity: "surface of revolution", needed });
-        if !has_depth {
-            return fault("needs a mesh in space");
+        let quantity = "surface of revolution";
+        if !self.has_depth() {
+            return Err(Error::Scene { quantity, needed: "needs a mesh in space" });
         }
         if meridian.windows(2).any(|pair| pair[0][0] == 0.0 && pair[1][0] == 0.0) {
-            return fault("must not run along its axis");
+            return Err(Error::Scene { quantity, needed: "must not run along its axis" });
         }
         let mut rows = Vec::with_capacity(meridian.len());
         for &[radius, height] in meridian {
             not_negative("radius of the meridian", radius)?;
             let count = if radius == 0.0 { 1 } else { sectors };
-            let mut node = |column: usize| {
+            let mut row = Vec::with_capacity(count);
+            for column in 0..count {
                 let angle = std::f64::consts::TAU * column as f64 / sectors as f64;
-                let [x, y] = [axis[0] + radius * angle.cos(), axis[1] + radius * angle.sin()];
-                self.add_node_at([x, y, height])
-            };
-            rows.push((0..count).map(&mut node).collect::<Result<Vec<_>>>()?);
+                let x = axis[0] + radius * angle.cos();
+                let y = axis[1] + radius * angle.sin();
+                row.push(self.add_node_at([x, y, height])?);
+            }
+            rows.push(row);
         }
         Ok(Grid { rows, is_closed: true })
     }

@@ -9,11 +9,12 @@ use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, SPACE_DIRECTIONS};
 use crate::linalg::gauss;
 
-/// Shape functions and inner modes.
-const PATTERNS: usize = 11;
-/// Displacements of the nodes, and these with the inner modes.
-const ORDER: usize = 24;
-const FULL: usize = 3 * PATTERNS;
+/// Number of displacement patterns: eight shape functions and three inner modes.
+const PATTERN_COUNT: usize = 11;
+/// Number of displacements of the nodes.
+const NODAL_ORDER: usize = 24;
+/// Number of displacements of the nodes and the inner modes.
+const FULL_ORDER: usize = 3 * PATTERN_COUNT;
 
 /// Brick between eight nodes, with inner bending modes.
 ///
@@ -46,7 +47,7 @@ pub struct Hex8 {
 
 impl Hex8 {
     /// Corners of the six faces, counter-clockwise seen from outside.
-    pub(crate) const FACES: [[usize; 4]; 6] =
+    pub(crate) const FACE_CORNERS: [[usize; 4]; 6] =
         [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
 
     /// Brick between `nodes`: four around the lower face, counter-clockwise from above, and four over them.
@@ -74,58 +75,75 @@ impl Hex8 {
         displacement: &[f64],
     ) -> Result<[[f64; 6]; 8]> {
         self.check(coordinates)?;
-        same_length("displacements of a brick", displacement.len(), ORDER)?;
+        same_length("displacements of a brick", displacement.len(), NODAL_ORDER)?;
         let full = self.full_stiffness(coordinates);
-        let mut all = [0.0; FULL];
-        all[..ORDER].copy_from_slice(displacement);
-        complete(&full, ORDER, &mut all);
+        let mut full_displacement = [0.0; FULL_ORDER];
+        full_displacement[..NODAL_ORDER].copy_from_slice(displacement);
+        complete(&full, NODAL_ORDER, &mut full_displacement);
         let centre = Slopes::at([0.0; 3], coordinates);
         let at_points = gauss_points().map(|point| {
             let slopes = Slopes::at(point, coordinates).patterns(point, &centre);
-            self.stress(&slopes, &all)
+            self.stress(&slopes, &full_displacement)
         });
         // The eight Gauss points are corners of a smaller brick.
-        let reach = 3.0_f64.sqrt();
-        Ok(CORNERS.map(|corner| {
-            let shape = shape(corner.map(|place| reach * place));
+        let extrapolation = 3.0_f64.sqrt();
+        Ok(NODE_COORDINATES.map(|corner| {
+            let shape = shape(corner.map(|place| extrapolation * place));
             std::array::from_fn(|k| (0..8).map(|i| shape[i] * at_points[i][k]).sum())
         }))
     }
 
     /// Stress from the slopes of the patterns and their displacements.
-    fn stress(&self, slopes: &[[f64; 3]; PATTERNS], all: &[f64; FULL]) -> [f64; 6] {
-        // Row: slopes of one displacement.
-        let [u, v, w]: [[f64; 3]; 3] = std::array::from_fn(|axis| {
-            slopes.iter().enumerate().fold([0.0; 3], |sum, (i, &s)| add(sum, all[3 * i + axis], s))
-        });
-        let [lame, shear] = [self.material.lame(), self.material.shear_modulus()];
-        let pressure = lame * (u[0] + v[1] + w[2]);
-        let [xx, yy, zz] = [u[0], v[1], w[2]].map(|strain| pressure + 2.0 * shear * strain);
-        [xx, yy, zz, shear * (u[1] + v[0]), shear * (v[2] + w[1]), shear * (w[0] + u[2])]
+    fn stress(
+        &self,
+        slopes: &[[f64; 3]; PATTERN_COUNT],
+        full_displacement: &[f64; FULL_ORDER],
+    ) -> [f64; 6] {
+        // Slopes ∂/∂x, ∂/∂y, ∂/∂z of the displacements u, v, w.
+        let mut u = [0.0; 3];
+        let mut v = [0.0; 3];
+        let mut w = [0.0; 3];
+        for (i, &slope) in slopes.iter().enumerate() {
+            u = add(u, full_displacement[3 * i], slope);
+            v = add(v, full_displacement[3 * i + 1], slope);
+            w = add(w, full_displacement[3 * i + 2], slope);
+        }
+        let lame = self.material.lame();
+        let shear = self.material.shear_modulus();
+        let volumetric = lame * (u[0] + v[1] + w[2]);
+        [
+            volumetric + 2.0 * shear * u[0],
+            volumetric + 2.0 * shear * v[1],
+            volumetric + 2.0 * shear * w[2],
+            shear * (u[1] + v[0]),
+            shear * (v[2] + w[1]),
+            shear * (w[0] + u[2]),
+        ]
     }
 
     /// Stiffness of the nodes, and the equations of the inner modes after it.
-    fn full_stiffness(&self, coordinates: &[[f64; 3]]) -> [[f64; FULL]; FULL] {
-        let [lame, shear] = [self.material.lame(), self.material.shear_modulus()];
+    fn full_stiffness(&self, coordinates: &[[f64; 3]]) -> [[f64; FULL_ORDER]; FULL_ORDER] {
+        let lame = self.material.lame();
+        let shear = self.material.shear_modulus();
         let centre = Slopes::at([0.0; 3], coordinates);
-        let mut full = [[0.0; FULL]; FULL];
+        let mut full = [[0.0; FULL_ORDER]; FULL_ORDER];
         for point in gauss_points() {
             let here = Slopes::at(point, coordinates);
             let slopes = here.patterns(point, &centre);
             for (i, a) in slopes.iter().enumerate() {
                 for (j, b) in slopes.iter().enumerate() {
-                    let both = shear * dot(*a, *b);
+                    let gradient_product = shear * dot(*a, *b);
                     for k in 0..3 {
                         for l in 0..3 {
-                            let own = if k == l { both } else { 0.0 };
-                            let value = lame * a[k] * b[l] + shear * a[l] * b[k] + own;
+                            let diagonal = if k == l { gradient_product } else { 0.0 };
+                            let value = lame * a[k] * b[l] + shear * a[l] * b[k] + diagonal;
                             full[3 * i + k][3 * j + l] += here.determinant * value;
                         }
                     }
                 }
             }
         }
-        condense(&mut full, ORDER);
+        condense(&mut full, NODAL_ORDER);
         full
     }
 }
@@ -144,23 +162,23 @@ impl Element for Hex8 {
     }
 
     fn faces(&self) -> Vec<ElementFace> {
-        Self::FACES.map(|face| ElementFace::side(&face.map(|k| self.nodes[k]))).to_vec()
+        Self::FACE_CORNERS.map(|face| ElementFace::side(&face.map(|k| self.nodes[k]))).to_vec()
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let full = self.full_stiffness(coordinates);
-        for (entries, row) in matrix.chunks_exact_mut(ORDER).zip(&full) {
+        for (entries, row) in matrix.chunks_exact_mut(NODAL_ORDER).zip(&full) {
             for (entry, value) in entries.iter_mut().zip(row) {
                 *entry += value;
             }
         }
     }
 
-    /// Lumped: row sums of the consistent mass.
     fn density(&self) -> Option<f64> {
         Some(self.material.density())
     }
 
+    /// Lumped: row sums of the consistent mass.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
         let mut block = [[0.0; 8]; 8];
         // Exact: N_i N_j det J is of fourth degree in each coordinate.
@@ -175,8 +193,9 @@ impl Element for Hex8 {
                 }
             }
         }
-        for (index, entry) in matrix.iter_mut().take(ORDER * ORDER).enumerate() {
-            let [row, column] = [index / ORDER, index % ORDER];
+        for (index, entry) in matrix.iter_mut().take(NODAL_ORDER * NODAL_ORDER).enumerate() {
+            let row = index / NODAL_ORDER;
+            let column = index % NODAL_ORDER;
             if row % 3 == column % 3 {
                 *entry += block[row / 3][column / 3];
             }
@@ -199,7 +218,7 @@ impl Element for Hex8 {
 }
 
 /// Natural coordinates (ξ, η, ζ) of the eight nodes.
-const CORNERS: [[f64; 3]; 8] = [
+const NODE_COORDINATES: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -213,12 +232,12 @@ const CORNERS: [[f64; 3]; 8] = [
 /// Gauss points of the 2 × 2 × 2 rule in the order of the nodes; all weights are 1.
 fn gauss_points() -> [[f64; 3]; 8] {
     let place = gauss::rule(2).nodes[1];
-    CORNERS.map(|corner| corner.map(|side| place * side))
+    NODE_COORDINATES.map(|corner| corner.map(|side| place * side))
 }
 
 /// Trilinear shape functions at (ξ, η, ζ).
 fn shape([xi, eta, zeta]: [f64; 3]) -> [f64; 8] {
-    CORNERS.map(|[a, b, c]| 0.125 * (1.0 + a * xi) * (1.0 + b * eta) * (1.0 + c * zeta))
+    NODE_COORDINATES.map(|[a, b, c]| 0.125 * (1.0 + a * xi) * (1.0 + b * eta) * (1.0 + c * zeta))
 }
 
 /// Slopes of the shape functions at a point, and the Jacobian there.
@@ -233,9 +252,15 @@ struct Slopes {
 
 impl Slopes {
     fn at([xi, eta, zeta]: [f64; 3], coordinates: &[[f64; 3]]) -> Self {
-        let by_natural = CORNERS.map(|[a, b, c]| {
-            let [f, g, h] = [1.0 + a * xi, 1.0 + b * eta, 1.0 + c * zeta];
-            [0.125 * a * g * h, 0.125 * b * f * h, 0.125 * c * f * g]
+        let by_natural = NODE_COORDINATES.map(|[a, b, c]| {
+            let along_xi = 1.0 + a * xi;
+            let along_eta = 1.0 + b * eta;
+            let along_zeta = 1.0 + c * zeta;
+            [
+                0.125 * a * along_eta * along_zeta,
+                0.125 * b * along_xi * along_zeta,
+                0.125 * c * along_xi * along_eta,
+            ]
         });
         let tangent: [[f64; 3]; 3] = std::array::from_fn(|k| {
             let nodes = coordinates.iter().zip(&by_natural);
@@ -253,11 +278,13 @@ impl Slopes {
         Self { shape, natural, determinant }
     }
 
-    /// Slopes of the shape functions and of the modes 1 − ξ², 1 − η² and 1 − ζ², at the `point` of these slopes.
+    /// Slopes of the shape functions and of the inner modes at the `point` of these slopes.
+    ///
+    /// The modes are 1 − ξ², 1 − η² and 1 − ζ².
     ///
     /// Slopes of the modes are those by the Jacobian at the `centre`, scaled so that their integral over the element
     /// vanishes: a constant stress does no work on them.
-    fn patterns(&self, point: [f64; 3], centre: &Self) -> [[f64; 3]; PATTERNS] {
+    fn patterns(&self, point: [f64; 3], centre: &Self) -> [[f64; 3]; PATTERN_COUNT] {
         let scale = -2.0 / self.determinant;
         std::array::from_fn(|i| match i.checked_sub(8) {
             None => self.shape[i],

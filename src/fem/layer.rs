@@ -44,10 +44,12 @@ impl Mesh {
         finite("right end of the block", x.end)?;
         positive("width of the block", x.end - x.start)?;
         check_size(columns, layers)?;
-        let fraction = |k: usize| k as f64 / columns.max(1) as f64;
-        // Weighted ends instead of start + step, so that both ends are exact.
-        let place = |k: usize| x.start * (1.0 - fraction(k)) + x.end * fraction(k);
-        let grid: Vec<f64> = (0..=columns).map(place).collect();
+        let mut grid = Vec::with_capacity(columns + 1);
+        for k in 0..=columns {
+            // Weighted ends instead of start + step, so that both ends are exact.
+            let fraction = k as f64 / columns.max(1) as f64;
+            grid.push(x.start * (1.0 - fraction) + x.end * fraction);
+        }
         Self::graded_block(&grid, layers)
     }
 
@@ -98,14 +100,14 @@ impl Mesh {
 }
 
 /// Bytes of a quadrilateral in a mesh, with the node and the map entry that it adds.
-const BYTES: f64 = 500.0;
+const BYTES_PER_QUADRILATERAL: f64 = 500.0;
 
 /// Returns an error if a block's quadrilaterals would not fit into memory.
 fn check_size(columns: usize, layers: &[Layer]) -> std::result::Result<(), MemoryError> {
     let rows: f64 = layers.iter().map(|layer| layer.rows as f64).sum();
     // There is one more row of nodes than rows of elements.
     let count = columns as f64 * (rows + 1.0);
-    memory::check("columns times rows of the block", count, BYTES * count)
+    memory::check("columns times rows of the block", count, BYTES_PER_QUADRILATERAL * count)
 }
 
 /// Adds the nodes of one height and returns the first one's index.

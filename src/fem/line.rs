@@ -1,29 +1,32 @@
 //! Line between the nodes of a two-node element.
 
 use super::element::add_transformed;
-use super::vector::{add, cross, direction};
+use super::vector::{add, cross, length, unit};
 use crate::error::{Result, positive, same_length};
 
 /// Length and direction of the straight line from the first to the second node.
-pub(super) struct Line {
+pub(super) struct ElementLine {
     pub(super) length: f64,
     along: [f64; 3],
     /// Level direction across the line.
     across: [f64; 3],
 }
 
-impl Line {
+impl ElementLine {
     /// Line between two points; `None` unless there are exactly two.
     pub(super) fn between(coordinates: &[[f64; 3]]) -> Option<Self> {
         let &[first, second] = coordinates else {
             return None;
         };
-        let way = add(second, -1.0, first);
-        let (length, along) = direction(way);
-        let level = way[0].hypot(way[1]);
-        let across =
-            if level > 0.0 { [-way[1] / level, way[0] / level, 0.0] } else { [0.0, 1.0, 0.0] };
-        Some(Self { length, along, across })
+        let difference = add(second, -1.0, first);
+        let along = unit(difference);
+        let level_length = difference[0].hypot(difference[1]);
+        let across = if level_length > 0.0 {
+            [-difference[1] / level_length, difference[0] / level_length, 0.0]
+        } else {
+            [0.0, 1.0, 0.0]
+        };
+        Some(Self { length: length(difference), along, across })
     }
 
     /// Error unless there are two points at different places.
@@ -32,7 +35,9 @@ impl Line {
         positive(quantity, Self::between(coordinates).map_or(0.0, |line| line.length)).map(drop)
     }
 
-    /// Adds the axial `stiffness` of the line; degrees of freedom along the first `axes` axes at both ends.
+    /// Adds the axial `stiffness` of the line.
+    ///
+    /// Degrees of freedom: along the first `axes` axes at both ends.
     pub(super) fn add_axial(&self, stiffness: f64, axes: usize, matrix: &mut [f64]) {
         add_relative(stiffness, self.along, axes, matrix);
     }
@@ -59,7 +64,8 @@ impl Line {
     ///
     /// Local: along the line, across it to the left, rotation; both ends. Global: x, y, rotation; both ends.
     pub(super) fn add_rotated(&self, local: &[[f64; 6]; 6], matrix: &mut [f64]) {
-        let [cosine, sine, _] = self.along;
+        let cosine = self.along[0];
+        let sine = self.along[1];
         let mut to_local = [[0.0; 6]; 6];
         for end in [0, 3] {
             to_local[end][end] = cosine;
@@ -75,10 +81,12 @@ impl Line {
 /// Adds factor · (relative displacement of two nodes along a `vector`)² as a matrix.
 fn add_relative(factor: f64, vector: [f64; 3], axes: usize, matrix: &mut [f64]) {
     let order = 2 * axes;
-    let row = |k: usize| {
-        if k < axes { -vector[k] } else { vector[k - axes] }
-    };
+    let mut weights = [0.0; 6];
+    for axis in 0..axes {
+        weights[axis] = -vector[axis];
+        weights[axes + axis] = vector[axis];
+    }
     for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
-        *entry += factor * row(index / order) * row(index % order);
+        *entry += factor * weights[index / order] * weights[index % order];
     }
 }

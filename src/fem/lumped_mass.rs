@@ -34,7 +34,9 @@ impl LumpedMass {
         Ok(Self { node: [node], mass, directions: PLANE_TRANSLATIONS, rotary_inertia: [0.0; 3] })
     }
 
-    /// Point mass of a mesh in space, kg, with the rotary inertias about x, y and z, kg m².
+    /// Point mass (kg) of a mesh in space, with three rotary inertias.
+    ///
+    /// `rotary_inertia`: about x, y and z, kg m².
     ///
     /// Without rotary inertia it adds no rotation degree of freedom. With one the node gets all three; other elements
     /// should restrain those without inertia.
@@ -56,12 +58,14 @@ impl LumpedMass {
         for inertia in rotary_inertia {
             not_negative("rotary inertia of the lumped mass", inertia)?;
         }
-        let turns = rotary_inertia.iter().any(|&inertia| inertia > 0.0);
-        let directions = if turns { SPACE_DIRECTIONS } else { &SPACE_DIRECTIONS[..3] };
+        let has_rotary_inertia = rotary_inertia.iter().any(|&inertia| inertia > 0.0);
+        let directions = if has_rotary_inertia { SPACE_DIRECTIONS } else { &SPACE_DIRECTIONS[..3] };
         Ok(Self { directions, rotary_inertia, ..Self::new(node, mass)? })
     }
 
-    /// Adds rotary inertia about the node of a mesh in the plane, kg m² per metre of thickness.
+    /// Adds rotary inertia to a mass in the plane.
+    ///
+    /// `rotary_inertia`: about the node, kg m² per metre of thickness.
     ///
     /// If the rotary inertia is above zero, the node gets a rotation degree of freedom. Other elements should
     /// restrain it.
@@ -97,9 +101,9 @@ impl Element for LumpedMass {
 
     fn mass(&self, _coordinates: &[[f64; 3]], _kind: MassKind, matrix: &mut [f64]) {
         let axes = if self.directions.contains(&Direction::Z) { 3 } else { 2 };
-        let next = self.order() + 1;
+        let diagonal_step = self.order() + 1;
         let diagonal = std::iter::repeat_n(self.mass, axes).chain(self.rotary_inertia);
-        for (entry, value) in matrix.iter_mut().step_by(next).zip(diagonal) {
+        for (entry, value) in matrix.iter_mut().step_by(diagonal_step).zip(diagonal) {
             *entry += value;
         }
     }

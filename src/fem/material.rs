@@ -77,7 +77,7 @@ impl Material {
     /// Plane-stress matrix D, Pa: `[σ_xx, σ_yy, τ_xy] = D · [ε_xx, ε_yy, γ_xy]`.
     pub(crate) fn plane_stress(&self) -> [[f64; 3]; 3] {
         let direct = self.young_modulus / (1.0 - self.poisson * self.poisson);
-        let other = self.poisson * direct;
-        [[direct, other, 0.0], [other, direct, 0.0], [0.0, 0.0, self.shear_modulus()]]
+        let lateral = self.poisson * direct;
+        [[direct, lateral, 0.0], [lateral, direct, 0.0], [0.0, 0.0, self.shear_modulus()]]
     }
 }

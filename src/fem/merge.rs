@@ -8,16 +8,18 @@ use crate::error::{Error, Result};
 /// Result of [`Mesh::merge_nodes`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MergedNodes {
-    /// Number of nodes that are gone.
+    /// Number of removed nodes.
     pub count: usize,
-    /// Index, in the merged mesh, of each node of the mesh before.
+    /// Index in the merged mesh of each node of the original mesh.
     ///
-    /// For lists of nodes that were made before, such as the nodes of a base.
+    /// For lists of nodes made before merging, such as the nodes of a base.
     pub indices: Vec<usize>,
 }
 
 impl Mesh {
-    /// Merges nodes that lie at the same place within `tolerance` (m), so that their elements act on each other.
+    /// Merges nodes at the same place, so that their elements act on each other.
+    ///
+    /// `tolerance`: largest distance of merged nodes, m.
     ///
     /// The first node of a place stays where it is; nodes are renumbered in their order, elements keep their indices.
     /// A tolerance of a thousandth of the smallest distance of nodes is far above rounding. The mesh stays as it was
@@ -28,7 +30,7 @@ impl Mesh {
     /// ```
     /// use basemat::fem::{Beam, Mesh};
     ///
-    /// // Two beams, each with nodes of its own.
+    /// // Two beams that share no node.
     /// let mut mesh = Mesh::new();
     /// for [from, to] in [[0.0, 3.0], [3.0, 6.0]] {
     ///     let ends = [mesh.add_node(from, 0.0)?, mesh.add_node(to, 0.0)?];
@@ -61,8 +63,8 @@ impl Mesh {
         for (index, element) in self.elements().enumerate() {
             let item = || format!("element {index} on nodes {:?}", element.nodes());
             let nodes: Vec<usize> = element.nodes().iter().map(|&node| indices[node]).collect();
-            let again = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k]));
-            if let Some(k) = again {
+            let repeated = (1..nodes.len()).find(|&k| nodes[..k].contains(&nodes[k]));
+            if let Some(k) = repeated {
                 let reason = format!(
                     "merging leaves it without extent: node {} is at the place of another",
                     element.nodes()[k]

@@ -3,21 +3,18 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::element::{Element, MassKind};
-use super::element_face::ElementFace;
+use super::duplicate::{element_key, is_duplicate};
+use super::element::Element;
 use super::force_rotation::ForceRotation;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, require, require_part,
 };
 use crate::geometry::{Direction, PLANE_DIRECTIONS, SPACE_DIRECTIONS};
 
-/// Largest distance of a node from a given point at which it counts as the same point, relative to the mesh's size.
+/// Largest distance at which two points count as the same, relative to the mesh's size.
 ///
 /// It is far below the size of any element and far above the rounding of a coordinate.
-const SAME_POINT: f64 = 1e-6;
-
-/// Relative difference below which matrix entries count as equal: rounding.
-const ALIKE: f64 = 1e-12;
+const COINCIDENCE_TOLERANCE: f64 = 1e-6;
 
 /// Nodes and elements, in the plane or in space.
 ///
@@ -43,10 +40,10 @@ const ALIKE: f64 = 1e-12;
 pub struct Mesh {
     nodes: Vec<[f64; 3]>,
     elements: Vec<Arc<dyn Element>>,
-    /// Indices of elements by the sorted nodes of their faces or, for elements without faces, by all their nodes.
-    places: HashMap<Vec<usize>, Vec<usize>>,
+    /// Indices of elements by their [`element_key`].
+    elements_at: HashMap<Vec<usize>, Vec<usize>>,
     has_depth: bool,
-    /// Geometric stiffness by which static forces turn with the elements, if there is a static state.
+    /// Geometric stiffness of static forces that rotate with the elements, if there is a static state.
     force_rotations: Vec<Option<ForceRotation>>,
 }
 
@@ -105,8 +102,7 @@ impl Mesh {
     /// [`Error::Input`] unless all are finite, and for z other than zero in the plane.
     pub fn add_node_at(&mut self, point: [f64; 3]) -> Result<usize> {
         finite_point(point)?;
-        let [_, _, z] = point;
-        require("z of the node", z, self.has_depth || z == 0.0, "zero in the plane")?;
+        require("z of the node", point[2], self.has_depth || point[2] == 0.0, "zero in the plane")?;
         self.nodes.push(point);
         Ok(self.nodes.len() - 1)
     }
@@ -127,81 +123,40 @@ impl Mesh {
     pub fn add(&mut self, element: impl Element + 'static) -> Result<usize> {
         let nodes = element.nodes();
         at_least("degrees of freedom of the element", element.order(), 1)?;
-        let differ = !(repeats(nodes) || repeats(element.directions()));
-        require_part("nodes and directions of the element", differ, "each only once")?;
-        let own = self.directions();
-        let fit = element.directions().iter().all(|direction| own.contains(direction));
+        let all_differ = !(repeats(nodes) || repeats(element.directions()));
+        require_part("nodes and directions of the element", all_differ, "each only once")?;
+        let mesh_directions = self.directions();
+        let directions_fit =
+            element.directions().iter().all(|direction| mesh_directions.contains(direction));
         let needed = if self.has_depth {
             "x, y, z, rotation_x, rotation_y or rotation_z in space"
         } else {
             "x, y or rotation in the plane"
         };
-        require_part("direction of the element", fit, needed)?;
-        let fits = !(self.has_depth && element.is_plane());
+        require_part("direction of the element", directions_fit, needed)?;
+        let space_fits = !(self.has_depth && element.is_plane());
         require_part(
             "element of the plane",
-            fits,
+            space_fits,
             "must be in a mesh in the plane, but this one is in space",
         )?;
         for &index in nodes {
             in_bounds("node of the element", index, self.nodes.len())?;
         }
         element.check(&self.coordinates(nodes))?;
-        let key = place(&element);
-        let others = self.places.get(&key).map_or(&[][..], Vec::as_slice);
-        if let Some(&first) = others.iter().find(|&&other| self.counts_twice(other, &element)) {
+        let key = element_key(&element);
+        let same_place = self.elements_at.get(&key).map_or(&[][..], Vec::as_slice);
+        if let Some(first) = same_place
+            .iter()
+            .find(|other| is_duplicate(&element, self.elements[**other].as_ref(), &self.nodes))
+        {
             let item = format!("element on nodes {nodes:?}");
             let reason = format!("it lies where element {first} is, and would count twice");
             return Err(Error::part(item, reason));
         }
-        self.places.entry(key).or_default().push(self.elements.len());
+        self.elements_at.entry(key).or_default().push(self.elements.len());
         self.elements.push(Arc::new(element));
         Ok(self.elements.len() - 1)
-    }
-
-    /// Whether `element` is a duplicate of the element `other` at the same nodes.
-    fn counts_twice(&self, other: usize, element: &dyn Element) -> bool {
-        let other = self.elements[other].as_ref();
-        let is_solid = |element: &dyn Element| element.faces().iter().any(ElementFace::is_side);
-        if is_solid(element) || is_solid(other) {
-            return is_solid(element) && is_solid(other);
-        }
-        let (nodes, directions) = (element.nodes(), element.directions());
-        let order = nodes.len() * directions.len();
-        let alike = other.directions() == directions;
-        if nodes.len() < 2 || !alike || [element.order(), other.order()] != [order; 2] {
-            return false;
-        }
-        let (own, mass) = self.matrices_by_node(element);
-        let (others, _) = self.matrices_by_node(other);
-        let near = |a: &f64, b: &f64| (a - b).abs() <= ALIKE * a.abs().max(b.abs());
-        mass && own.iter().zip(&others).all(|(a, b)| near(a, b))
-    }
-
-    /// Stiffness, mass and damping of an element with its nodes in ascending order, and whether it has mass.
-    fn matrices_by_node(&self, element: &dyn Element) -> (Vec<f64>, bool) {
-        let (nodes, points) = (element.nodes(), self.coordinates(element.nodes()));
-        let (order, directions) = (element.order(), element.directions().len());
-        let mut ascending: Vec<usize> = (0..nodes.len()).collect();
-        ascending.sort_by_key(|&k| nodes[k]);
-        let places: Vec<usize> =
-            ascending.into_iter().flat_map(|k| k * directions..(k + 1) * directions).collect();
-        let [mut stiffness, mut mass, mut damping] = [(); 3].map(|()| vec![0.0; order * order]);
-        element.stiffness(&points, &mut stiffness);
-        element.mass(&points, MassKind::default(), &mut mass);
-        element.damping(&points, &mut damping);
-        let has_mass = mass.iter().any(|mass| *mass != 0.0);
-        let mut all = Vec::with_capacity(3 * order * order);
-        for matrix in [stiffness, mass, damping] {
-            let largest = matrix.iter().fold(0.0_f64, |most, entry| most.max(entry.abs()));
-            for &row in &places {
-                // An entry that cancels keeps a rounding error, which depends on the order of the nodes.
-                let entry = |&column: &usize| matrix[row * order + column];
-                let clean = |entry: f64| if entry.abs() > ALIKE * largest { entry } else { 0.0 };
-                all.extend(places.iter().map(entry).map(clean));
-            }
-        }
-        (all, has_mass)
     }
 
     /// Coordinates [x, y, z] of all nodes, m; z is zero in the plane.
@@ -216,12 +171,13 @@ impl Mesh {
 
     /// Smallest and largest density of the elements with mass, kg/m³; `None` without any.
     pub(crate) fn densities(&self) -> Option<[f64; 2]> {
-        let densities = self.elements().filter_map(Element::density);
-        let massive = densities.filter(|density| *density > 0.0);
-        massive.fold(None, |range, density| {
-            let [low, high] = range.unwrap_or([density; 2]);
-            Some([density.min(low), density.max(high)])
-        })
+        let mut range: Option<[f64; 2]> = None;
+        for density in self.elements().filter_map(Element::density).filter(|value| *value > 0.0) {
+            range = Some(range.map_or([density; 2], |[smallest, largest]| {
+                [density.min(smallest), density.max(largest)]
+            }));
+        }
+        range
     }
 
     /// Index of the node at (`x`, `y`), m, within a millionth of the mesh's size.
@@ -241,13 +197,15 @@ impl Mesh {
     /// with the nearest node if there is none at this point.
     pub fn node_at_point(&self, point: [f64; 3]) -> Result<usize> {
         finite_point(point)?;
-        let needed = 1;
-        let found = self.nearest_node_to(point);
-        let found = found.ok_or(Error::Size { quantity: "nodes", found: 0, needed })?;
-        let nearest = self.nodes[found];
+        let index = self.nearest_node_to(point).ok_or(Error::Size {
+            quantity: "nodes",
+            found: 0,
+            needed: 1,
+        })?;
+        let nearest = self.nodes[index];
         let distance = distance(nearest, point);
-        if distance <= SAME_POINT * self.extent() {
-            Ok(found)
+        if distance <= COINCIDENCE_TOLERANCE * self.extent() {
+            Ok(index)
         } else {
             Err(Error::NoNode { point, nearest, distance })
         }
@@ -269,14 +227,15 @@ impl Mesh {
 
     /// Other nodes at the same point as `node`, which must exist.
     pub(crate) fn nodes_beside(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
-        let near = SAME_POINT * self.extent();
-        let beside = move |&other: &usize| {
-            other != node && distance(self.nodes[other], self.nodes[node]) <= near
-        };
-        (0..self.nodes.len()).filter(beside)
+        let tolerance = COINCIDENCE_TOLERANCE * self.extent();
+        (0..self.nodes.len()).filter(move |&other| {
+            other != node && distance(self.nodes[other], self.nodes[node]) <= tolerance
+        })
     }
 
-    /// Indices of the nodes at height `height` (y in the plane, z in space) within `tolerance` (m).
+    /// Indices of the nodes at a `height`, within `tolerance` (m).
+    ///
+    /// The height is y in the plane and z in space, m.
     ///
     /// They are listed from left to right, in space at each x from front to back.
     ///
@@ -285,13 +244,17 @@ impl Mesh {
     pub fn nodes_at_height(&self, height: f64, tolerance: f64) -> Result<Vec<usize>> {
         finite("height of the nodes", height)?;
         not_negative("tolerance of the height", tolerance)?;
-        let near = |&index: &usize| (self.nodes[index][self.up()] - height).abs() <= tolerance;
-        let mut found: Vec<usize> = (0..self.nodes.len()).filter(near).collect();
-        // The axis away is zero in the plane.
-        let away = 3 - self.up();
-        let axis =
-            |a: usize, b: usize, axis: usize| self.nodes[a][axis].total_cmp(&self.nodes[b][axis]);
-        found.sort_by(|&a, &b| axis(a, b, 0).then(axis(a, b, away)));
+        let up = self.up();
+        let mut found: Vec<usize> = (0..self.nodes.len())
+            .filter(|&index| (self.nodes[index][up] - height).abs() <= tolerance)
+            .collect();
+        // In the plane this is z, which is zero.
+        let depth_axis = 3 - up;
+        found.sort_by(|&first, &second| {
+            let a = self.nodes[first];
+            let b = self.nodes[second];
+            a[0].total_cmp(&b[0]).then(a[depth_axis].total_cmp(&b[depth_axis]))
+        });
         Ok(found)
     }
 
@@ -322,40 +285,40 @@ impl Mesh {
 
     /// Width, depth or height of the mesh, whichever is largest, m.
     fn extent(&self) -> f64 {
-        let extent = |axis: usize| {
+        let mut extent = 0.0_f64;
+        for axis in 0..3 {
             let values = self.nodes.iter().map(|node| node[axis]);
-            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |range, value| {
-                (range.0.min(value), range.1.max(value))
-            });
-            (high - low).max(0.0)
-        };
-        extent(0).max(extent(1)).max(extent(2))
+            let lowest = values.clone().fold(f64::INFINITY, f64::min);
+            let highest = values.fold(f64::NEG_INFINITY, f64::max);
+            extent = extent.max(highest - lowest);
+        }
+        extent
     }
 
-    /// Replaces every element for which `other` returns a new element.
+    /// Replaces every element for which `replacement` returns a new element.
     ///
-    /// The arguments of `other` are the element and the coordinates of its nodes.
+    /// The arguments of `replacement` are the element and the coordinates of its nodes.
     ///
     /// # Errors
     /// [`Error::Scene`] for a replacement with other nodes or directions.
     pub(crate) fn replace_elements(
         &mut self,
-        mut other: impl FnMut(&dyn Element, &[[f64; 3]]) -> Option<Box<dyn Element>>,
+        mut replacement: impl FnMut(&dyn Element, &[[f64; 3]]) -> Option<Box<dyn Element>>,
     ) -> Result<()> {
         for element in &mut self.elements {
             let points: Vec<[f64; 3]> =
                 element.nodes().iter().map(|&index| self.nodes[index]).collect();
-            let Some(changed) = other(element.as_ref(), &points) else { continue };
-            let is_like =
+            let Some(changed) = replacement(element.as_ref(), &points) else { continue };
+            let same_dofs =
                 changed.nodes() == element.nodes() && changed.directions() == element.directions();
-            let needed = "its own nodes and directions";
-            require_part("element in the static state", is_like, needed)?;
+            let needed = "the same nodes and directions";
+            require_part("element in the static state", same_dofs, needed)?;
             *element = Arc::from(changed);
         }
         Ok(())
     }
 
-    /// Geometric stiffness by which the static forces of an element turn with it.
+    /// Geometric stiffness of an element's static forces, which rotate with it.
     pub(super) fn force_rotation(&self, element: usize) -> Option<&ForceRotation> {
         self.force_rotations.get(element)?.as_ref()
     }
@@ -368,18 +331,6 @@ impl Mesh {
     pub(crate) fn coordinates(&self, nodes: &[usize]) -> Vec<[f64; 3]> {
         nodes.iter().map(|&index| self.nodes[index]).collect()
     }
-}
-
-/// Nodes of the faces of an element, or all its nodes if it has no faces, sorted.
-fn place(element: &dyn Element) -> Vec<usize> {
-    let mut key: Vec<usize> =
-        element.faces().iter().flat_map(ElementFace::corners).copied().collect();
-    if key.is_empty() {
-        key = element.nodes().to_vec();
-    }
-    key.sort_unstable();
-    key.dedup();
-    key
 }
 
 /// Error unless all coordinates of a node are finite.

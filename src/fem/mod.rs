@@ -19,6 +19,7 @@ mod assembly;
 mod beam;
 mod coincident;
 mod condensation;
+mod duplicate;
 mod element;
 mod element_face;
 mod force_rotation;

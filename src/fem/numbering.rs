@@ -4,7 +4,9 @@ use super::element::Element;
 use super::mesh::Mesh;
 use crate::geometry::Direction;
 
-/// Numbers of the degrees of freedom, node by node; only directions that some element uses.
+/// Numbers of a mesh's degrees of freedom, node by node.
+///
+/// Directions that no element uses at a node have no number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbering {
     /// Directions of the mesh.
@@ -20,8 +22,11 @@ impl Numbering {
         let directions = mesh.directions();
         let mut numbers = vec![None; directions.len() * mesh.nodes().len()];
         for element in mesh.elements() {
-            let own = element.directions().iter();
-            let places: Vec<usize> = own.filter_map(|&own| place(directions, own)).collect();
+            let places: Vec<usize> = element
+                .directions()
+                .iter()
+                .filter_map(|&direction| place(directions, direction))
+                .collect();
             for node in element.nodes() {
                 for place in &places {
                     numbers[node * directions.len() + place] = Some(0);
@@ -47,7 +52,9 @@ impl Numbering {
         *self.numbers.chunks_exact(self.directions.len()).nth(node)?.get(place)?
     }
 
-    /// Overwrites `indices` with the indices of the degrees of freedom of `element`, in the order of its matrices.
+    /// Overwrites `indices` with the degrees of freedom of `element`.
+    ///
+    /// They have the order of the element's matrices.
     pub(crate) fn of_element(&self, element: &dyn Element, indices: &mut Vec<usize>) {
         indices.clear();
         for &node in element.nodes() {
@@ -60,5 +67,5 @@ impl Numbering {
 
 /// Place of a direction among the directions of a mesh.
 fn place(directions: &[Direction], direction: Direction) -> Option<usize> {
-    directions.iter().position(|own| *own == direction)
+    directions.iter().position(|candidate| *candidate == direction)
 }

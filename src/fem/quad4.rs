@@ -72,31 +72,31 @@ impl Quad4 {
         Self { nodes, material, formulation }
     }
 
-    fn integrated<const N: usize>(
+    fn integrated_stiffness<const N: usize>(
         &self,
         points: [[f64; 2]; N],
         weight: f64,
         coordinates: &[[f64; 3]],
     ) -> [[f64; 8]; 8] {
         let points = points.into_iter().map(|point| (point, weight));
-        integrate(&self.material.elasticity(), points, |point| {
+        integrate_stiffness(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             (node_strains(point, &jacobian), jacobian.determinant)
         })
     }
 
-    fn with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
+    fn stiffness_with_bending_modes(&self, coordinates: &[[f64; 3]]) -> [[f64; 8]; 8] {
         let centre = Jacobian::at([0.0; 2], coordinates);
         let points = gauss_points().into_iter().map(|point| (point, 1.0));
-        let mut full = integrate(&self.material.elasticity(), points, |point| {
+        let mut full = integrate_stiffness(&self.material.elasticity(), points, |point| {
             let jacobian = Jacobian::at(point, coordinates);
             let mut strain = [[0.0; 3]; 12];
             strain[..8].copy_from_slice(&node_strains(point, &jacobian));
             // Slopes of 1 − ξ² and 1 − η² by the Jacobian at the centre. They are scaled so that their
             // integral over the element vanishes, and a constant stress does no work on them.
             let scale = -2.0 * centre.determinant / jacobian.determinant;
-            let bend_xi = strains(centre.global([scale * point[0], 0.0]));
-            let bend_eta = strains(centre.global([0.0, scale * point[1]]));
+            let bend_xi = strains(centre.global_slopes([scale * point[0], 0.0]));
+            let bend_eta = strains(centre.global_slopes([0.0, scale * point[1]]));
             strain[8..10].copy_from_slice(&bend_xi);
             strain[10..].copy_from_slice(&bend_eta);
             (strain, jacobian.determinant)
@@ -109,7 +109,7 @@ impl Quad4 {
 /// ∫ Sᵀ D S over points with their weights, for the matrix D of the strains.
 ///
 /// `strains` returns the strains S of N patterns at a point, and the determinant of the Jacobian there.
-pub(super) fn integrate<const N: usize, const S: usize>(
+pub(super) fn integrate_stiffness<const N: usize, const S: usize>(
     elasticity: &[[f64; S]; S],
     points: impl Iterator<Item = ([f64; 2], f64)>,
     strains: impl Fn([f64; 2]) -> ([[f64; S]; N], f64),
@@ -129,13 +129,16 @@ pub(super) fn add_energy<const N: usize, const S: usize>(
     elasticity: &[[f64; S]; S],
     area: f64,
 ) {
-    let dot = |a: &[f64; S], b: &[f64; S]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let stress = strain.map(|e| elasticity.map(|row| dot(&row, &e)));
+    let stress = strain.map(|column| elasticity.map(|row| inner_product(&row, &column)));
     for i in 0..N {
         for j in 0..N {
-            matrix[i][j] += area * dot(&strain[i], &stress[j]);
+            matrix[i][j] += area * inner_product(&strain[i], &stress[j]);
         }
     }
+}
+
+fn inner_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Strains due to unit displacements of the nodes, in x and y alternately.
@@ -163,15 +166,15 @@ impl Element for Quad4 {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let block = match self.formulation {
-            QuadFormulation::Full => self.integrated(gauss_points(), 1.0, coordinates),
-            QuadFormulation::OnePoint => self.integrated([[0.0; 2]], 4.0, coordinates),
-            QuadFormulation::IncompatibleModes => self.with_bending_modes(coordinates),
+            QuadFormulation::Full => self.integrated_stiffness(gauss_points(), 1.0, coordinates),
+            QuadFormulation::OnePoint => self.integrated_stiffness([[0.0; 2]], 4.0, coordinates),
+            QuadFormulation::IncompatibleModes => self.stiffness_with_bending_modes(coordinates),
             QuadFormulation::Hourglass { percent } => {
-                let share = f64::from(percent) / 100.0;
-                let full = self.integrated(gauss_points(), 1.0, coordinates);
-                let mut mixed = self.integrated([[0.0; 2]], 4.0, coordinates);
+                let fraction = f64::from(percent) / 100.0;
+                let full = self.integrated_stiffness(gauss_points(), 1.0, coordinates);
+                let mut mixed = self.integrated_stiffness([[0.0; 2]], 4.0, coordinates);
                 for (mixed, full) in mixed.iter_mut().flatten().zip(full.as_flattened()) {
-                    *mixed += share * (full - *mixed);
+                    *mixed += fraction * (full - *mixed);
                 }
                 mixed
             }
@@ -205,7 +208,7 @@ impl Element for Quad4 {
     /// [`Error::Input`](crate::Error::Input) unless the quadrilateral is convex and its nodes run counter-clockwise.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of a quadrilateral", coordinates.len(), 4)?;
-        for corner in CORNERS {
+        for corner in NODE_COORDINATES {
             let value = Jacobian::at(corner, coordinates).determinant;
             let quantity = "Jacobian at a corner of a quadrilateral";
             let needed = "above zero: convex, nodes counter-clockwise";
@@ -216,17 +219,18 @@ impl Element for Quad4 {
 }
 
 /// Natural coordinates (ξ, η) of the four nodes, counter-clockwise.
-pub(super) const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+pub(super) const NODE_COORDINATES: [[f64; 2]; 4] =
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// Gauss points of the 2 × 2 rule in the order of the corners; all weights are 1.
 pub(super) fn gauss_points() -> [[f64; 2]; 4] {
     let place = gauss::rule(2).nodes[1];
-    CORNERS.map(|[xi, eta]| [place * xi, place * eta])
+    NODE_COORDINATES.map(|[xi, eta]| [place * xi, place * eta])
 }
 
 /// Bilinear shape functions at (ξ, η).
 pub(super) fn shape([xi, eta]: [f64; 2]) -> [f64; 4] {
-    CORNERS.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
+    NODE_COORDINATES.map(|[a, b]| 0.25 * (1.0 + a * xi) * (1.0 + b * eta))
 }
 
 /// Inverse transpose and determinant of the Jacobian ∂(x, y)/∂(ξ, η) at a point.
@@ -238,7 +242,8 @@ pub(super) struct Jacobian {
 
 impl Jacobian {
     pub(super) fn at<const D: usize>(point: [f64; 2], coordinates: &[[f64; D]]) -> Self {
-        let (j, determinant) = derivatives(&natural_slopes(point), coordinates);
+        let j = tangents(&natural_slopes(point), coordinates);
+        let determinant = determinant(&j);
         let inverse = [
             [j[1][1] / determinant, -j[1][0] / determinant],
             [-j[0][1] / determinant, j[0][0] / determinant],
@@ -247,21 +252,21 @@ impl Jacobian {
     }
 
     /// Slopes (∂/∂x, ∂/∂y) from slopes (∂/∂ξ, ∂/∂η).
-    pub(super) fn global(&self, natural: [f64; 2]) -> [f64; 2] {
+    pub(super) fn global_slopes(&self, natural: [f64; 2]) -> [f64; 2] {
         self.inverse.map(|row| row[0] * natural[0] + row[1] * natural[1])
     }
 
     /// Slopes (∂/∂x, ∂/∂y) of the four shape functions at `point`.
     pub(super) fn slopes(&self, point: [f64; 2]) -> [[f64; 2]; 4] {
-        natural_slopes(point).map(|slope| self.global(slope))
+        natural_slopes(point).map(|slope| self.global_slopes(slope))
     }
 }
 
-/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions, and its determinant.
-pub(super) fn derivatives<const D: usize>(
+/// ∂(x, y)/∂(ξ, η) from the slopes of the shape functions.
+pub(super) fn tangents<const D: usize>(
     natural: &[[f64; 2]],
     coordinates: &[[f64; D]],
-) -> ([[f64; 2]; 2], f64) {
+) -> [[f64; 2]; 2] {
     let mut j = [[0.0; 2]; 2];
     for (slope, node) in natural.iter().zip(coordinates) {
         for axis in 0..2 {
@@ -269,10 +274,15 @@ pub(super) fn derivatives<const D: usize>(
             j[axis][1] += slope[1] * node[axis];
         }
     }
-    (j, j[0][0] * j[1][1] - j[0][1] * j[1][0])
+    j
+}
+
+/// Determinant of a matrix of order 2.
+pub(super) fn determinant(j: &[[f64; 2]; 2]) -> f64 {
+    j[0][0] * j[1][1] - j[0][1] * j[1][0]
 }
 
 /// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
 pub(super) fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 4] {
-    CORNERS.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
+    NODE_COORDINATES.map(|[a, b]| [0.25 * a * (1.0 + b * eta), 0.25 * b * (1.0 + a * xi)])
 }

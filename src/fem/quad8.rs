@@ -3,7 +3,7 @@
 use super::element::{Element, MassKind, add_square};
 use super::element_face::ElementFace;
 use super::material::Material;
-use super::quad4::{derivatives, integrate, strains};
+use super::quad4::{determinant, integrate_stiffness, strains, tangents};
 use crate::error::{Result, require, same_length};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS};
 use crate::linalg::gauss;
@@ -53,7 +53,7 @@ pub struct Quad8 {
 }
 
 /// Natural coordinates (ξ, η) of the nodes.
-const PLACES: [[f64; 2]; 8] = [
+const NODE_COORDINATES: [[f64; 2]; 8] = [
     [-1.0, -1.0],
     [1.0, -1.0],
     [1.0, 1.0],
@@ -79,8 +79,9 @@ impl Quad8 {
 
 /// Shape functions at (ξ, η) (Zienkiewicz & Taylor, The Finite Element Method, serendipity family).
 fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
-    PLACES.map(|[a, b]| {
-        let (x, y) = (a * xi, b * eta);
+    NODE_COORDINATES.map(|[a, b]| {
+        let x = a * xi;
+        let y = b * eta;
         if a == 0.0 {
             0.5 * (1.0 - xi * xi) * (1.0 + y)
         } else if b == 0.0 {
@@ -93,8 +94,9 @@ fn shape([xi, eta]: [f64; 2]) -> [f64; 8] {
 
 /// Slopes (∂/∂ξ, ∂/∂η) of the shape functions.
 fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
-    PLACES.map(|[a, b]| {
-        let (x, y) = (a * xi, b * eta);
+    NODE_COORDINATES.map(|[a, b]| {
+        let x = a * xi;
+        let y = b * eta;
         if a == 0.0 {
             [-xi * (1.0 + y), 0.5 * b * (1.0 - xi * xi)]
         } else if b == 0.0 {
@@ -108,7 +110,8 @@ fn natural_slopes([xi, eta]: [f64; 2]) -> [[f64; 2]; 8] {
 /// Slopes (∂/∂x, ∂/∂y) at a point, and the determinant of ∂(x, y)/∂(ξ, η).
 fn slopes(point: [f64; 2], coordinates: &[[f64; 3]]) -> ([[f64; 2]; 8], f64) {
     let natural = natural_slopes(point);
-    let (j, determinant) = derivatives(&natural, coordinates);
+    let j = tangents(&natural, coordinates);
+    let determinant = determinant(&j);
     let global = natural.map(|[xi, eta]| {
         [(j[1][1] * xi - j[1][0] * eta) / determinant, (j[0][0] * eta - j[0][1] * xi) / determinant]
     });
@@ -144,7 +147,7 @@ impl Element for Quad8 {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let points = gauss::square(self.integration.order());
-        let block = integrate(&self.material.elasticity(), points, |point| {
+        let block = integrate_stiffness(&self.material.elasticity(), points, |point| {
             let (slopes, determinant) = slopes(point, coordinates);
             let strains = slopes.map(strains);
             (std::array::from_fn::<_, 16, _>(|i| strains[i / 2][i % 2]), determinant)
@@ -152,14 +155,14 @@ impl Element for Quad8 {
         add_square(matrix, &block);
     }
 
-    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
-    /// Zienkiewicz 1976). Row sums would be negative at the corners.
     fn density(&self) -> Option<f64> {
         Some(self.material.density())
     }
 
+    /// Lumped: the diagonal of the consistent mass, scaled to the mass of the element (Hinton, Rock &
+    /// Zienkiewicz 1976). Row sums would be negative at the corners.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        let mut one = [[0.0; 8]; 8];
+        let mut nodal_mass = [[0.0; 8]; 8];
         let mut total = 0.0;
         for (point, weight) in gauss::square(Quad8Integration::Full.order()) {
             let shape = shape(point);
@@ -167,24 +170,24 @@ impl Element for Quad8 {
             total += weight;
             for i in 0..8 {
                 for j in 0..8 {
-                    one[i][j] += weight * shape[i] * shape[j];
+                    nodal_mass[i][j] += weight * shape[i] * shape[j];
                 }
             }
         }
         if kind == MassKind::Lumped {
-            let diagonal: f64 = (0..8).map(|i| one[i][i]).sum();
+            let diagonal: f64 = (0..8).map(|i| nodal_mass[i][i]).sum();
             let scale = if diagonal > 0.0 { total / diagonal } else { 0.0 };
-            for (i, row) in one.iter_mut().enumerate() {
-                let own = scale * row[i];
+            for (i, row) in nodal_mass.iter_mut().enumerate() {
+                let lumped = scale * row[i];
                 row.fill(0.0);
-                row[i] = own;
+                row[i] = lumped;
             }
         }
         let mut block = [[0.0; 16]; 16];
         for i in 0..8 {
             for j in 0..8 {
-                block[2 * i][2 * j] = one[i][j];
-                block[2 * i + 1][2 * j + 1] = one[i][j];
+                block[2 * i][2 * j] = nodal_mass[i][j];
+                block[2 * i + 1][2 * j + 1] = nodal_mass[i][j];
             }
         }
         add_square(matrix, &block);
@@ -194,7 +197,7 @@ impl Element for Quad8 {
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
         same_length("coordinates of an eight-node quadrilateral", coordinates.len(), 8)?;
         let points = gauss::square(Quad8Integration::Full.order()).map(|(point, _)| point);
-        for point in points.chain(PLACES) {
+        for point in points.chain(NODE_COORDINATES) {
             let value = slopes(point, coordinates).1;
             let quantity = "Jacobian of an eight-node quadrilateral";
             let needed = "above zero: nodes counter-clockwise, those of edges near the middle";

@@ -1,7 +1,7 @@
 //! Springs and dashpots.
 
 use super::element::{Element, MassKind, add_square};
-use super::line::Line;
+use super::line::ElementLine;
 use crate::error::{Result, positive};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
@@ -21,7 +21,7 @@ use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Spring(Pair);
+pub struct Spring(NodePair);
 
 impl Spring {
     /// Spring against the relative motion of two nodes in one `direction`.
@@ -32,7 +32,7 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Direction(direction), coefficient }))
+        Ok(Self(NodePair { nodes, action: Action::Direction(direction), coefficient }))
     }
 
     /// Spring against the change of distance between two nodes.
@@ -43,7 +43,7 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(PLANE_TRANSLATIONS), coefficient }))
+        Ok(Self(NodePair { nodes, action: Action::ElementLine(PLANE_TRANSLATIONS), coefficient }))
     }
 
     /// Spring of a mesh in space, against the change of distance between two nodes.
@@ -54,7 +54,11 @@ impl Spring {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the spring", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(&SPACE_DIRECTIONS[..3]), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            action: Action::ElementLine(&SPACE_DIRECTIONS[..3]),
+            coefficient,
+        }))
     }
 }
 
@@ -65,7 +69,7 @@ impl Element for Spring {
 
     fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
         let nodes = nodes.try_into().ok()?;
-        Some(Box::new(Self(Pair { nodes, ..self.0.clone() })))
+        Some(Box::new(Self(NodePair { nodes, ..self.0.clone() })))
     }
 
     fn directions(&self) -> &[Direction] {
@@ -90,22 +94,22 @@ impl Element for Spring {
 enum Action {
     Direction(Direction),
     /// Along the line between the nodes, which move in these directions.
-    Line(&'static [Direction]),
+    ElementLine(&'static [Direction]),
 }
 
 /// Two nodes, and the coefficient of the spring or dashpot between them.
 #[derive(Debug, Clone, PartialEq)]
-struct Pair {
+struct NodePair {
     nodes: [usize; 2],
     action: Action,
     coefficient: f64,
 }
 
-impl Pair {
+impl NodePair {
     fn directions(&self) -> &[Direction] {
         match &self.action {
             Action::Direction(direction) => std::slice::from_ref(direction),
-            Action::Line(directions) => directions,
+            Action::ElementLine(directions) => directions,
         }
     }
 
@@ -114,8 +118,8 @@ impl Pair {
         let c = self.coefficient;
         match self.action {
             Action::Direction(_) => add_square(matrix, &[[c, -c], [-c, c]]),
-            Action::Line(directions) => {
-                if let Some(line) = Line::between(coordinates) {
+            Action::ElementLine(directions) => {
+                if let Some(line) = ElementLine::between(coordinates) {
                     line.add_axial(c, directions.len(), matrix);
                 }
             }
@@ -126,7 +130,7 @@ impl Pair {
     fn check(&self, length: &'static str, coordinates: &[[f64; 3]]) -> Result<()> {
         match self.action {
             Action::Direction(_) => Ok(()),
-            Action::Line(_) => Line::check(length, coordinates),
+            Action::ElementLine(_) => ElementLine::check(length, coordinates),
         }
     }
 }
@@ -147,7 +151,7 @@ impl Pair {
 /// # Ok::<(), basemat::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-pub struct Dashpot(Pair);
+pub struct Dashpot(NodePair);
 
 impl Dashpot {
     /// Dashpot against the relative velocity of two nodes in one `direction`.
@@ -158,7 +162,7 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn new(nodes: [usize; 2], direction: Direction, coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Direction(direction), coefficient }))
+        Ok(Self(NodePair { nodes, action: Action::Direction(direction), coefficient }))
     }
 
     /// Dashpot against the rate of the distance between two nodes.
@@ -169,7 +173,7 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(PLANE_TRANSLATIONS), coefficient }))
+        Ok(Self(NodePair { nodes, action: Action::ElementLine(PLANE_TRANSLATIONS), coefficient }))
     }
 
     /// Dashpot of a mesh in space, against the rate of the distance between two nodes.
@@ -180,7 +184,11 @@ impl Dashpot {
     /// [`Error::Input`](crate::Error::Input) unless `coefficient` is positive.
     pub fn axial_in_space(nodes: [usize; 2], coefficient: f64) -> Result<Self> {
         positive("coefficient of the dashpot", coefficient)?;
-        Ok(Self(Pair { nodes, action: Action::Line(&SPACE_DIRECTIONS[..3]), coefficient }))
+        Ok(Self(NodePair {
+            nodes,
+            action: Action::ElementLine(&SPACE_DIRECTIONS[..3]),
+            coefficient,
+        }))
     }
 }
 
@@ -191,7 +199,7 @@ impl Element for Dashpot {
 
     fn with_nodes(&self, nodes: &[usize]) -> Option<Box<dyn Element>> {
         let nodes = nodes.try_into().ok()?;
-        Some(Box::new(Self(Pair { nodes, ..self.0.clone() })))
+        Some(Box::new(Self(NodePair { nodes, ..self.0.clone() })))
     }
 
     fn directions(&self) -> &[Direction] {

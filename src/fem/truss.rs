@@ -1,7 +1,7 @@
 //! Bar with two nodes and axial force only.
 
 use super::element::{Element, MassKind};
-use super::line::Line;
+use super::line::ElementLine;
 use crate::error::{Result, not_negative, positive};
 use crate::geometry::{Direction, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 
@@ -75,14 +75,14 @@ impl Element for Truss {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        if let Some(line) = Line::between(coordinates) {
+        if let Some(line) = ElementLine::between(coordinates) {
             let stiffness = self.young_modulus * self.area / line.length;
             line.add_axial(stiffness, self.directions.len(), matrix);
         }
     }
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        if let Some(line) = Line::between(coordinates).filter(|_| self.compression != 0.0) {
+        if let Some(line) = ElementLine::between(coordinates).filter(|_| self.compression != 0.0) {
             line.add_sway(self.compression, self.directions.len(), matrix);
         }
     }
@@ -93,7 +93,7 @@ impl Element for Truss {
         displacement: &[f64],
         _gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let line = Line::between(coordinates)?;
+        let line = ElementLine::between(coordinates)?;
         let (first, second) = displacement.split_at_checked(self.directions.len())?;
         let lengthening = line.lengthening(first, second);
         let compression = -self.young_modulus * self.area / line.length * lengthening;
@@ -105,29 +105,29 @@ impl Element for Truss {
     }
 
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        let Some(line) = Line::between(coordinates) else {
+        let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
         let mass = self.density * self.area * line.length;
         // Points of the bar move linearly between the ends, in all directions.
-        let (own, other) = match kind {
-            MassKind::Consistent => (mass / 3.0, mass / 6.0),
-            MassKind::Lumped => (mass / 2.0, 0.0),
-        };
+        let is_lumped = kind == MassKind::Lumped;
+        let diagonal = if is_lumped { mass / 2.0 } else { mass / 3.0 };
+        let coupling = if is_lumped { 0.0 } else { mass / 6.0 };
         let axes = self.directions.len();
         let order = 2 * axes;
         for (index, entry) in matrix.iter_mut().take(order * order).enumerate() {
-            let [row, column] = [index / order, index % order];
+            let row = index / order;
+            let column = index % order;
             if row == column {
-                *entry += own;
+                *entry += diagonal;
             } else if row % axes == column % axes {
-                *entry += other;
+                *entry += coupling;
             }
         }
     }
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
-        Line::check("length of the truss", coordinates)
+        ElementLine::check("length of the truss", coordinates)
     }
 }

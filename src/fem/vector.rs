@@ -15,8 +15,13 @@ pub(super) fn add(a: [f64; 3], factor: f64, b: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|axis| a[axis] + factor * b[axis])
 }
 
-/// Length of a vector, and the vector of length 1 along it.
-pub(super) fn direction(a: [f64; 3]) -> (f64, [f64; 3]) {
-    let length = a[0].hypot(a[1]).hypot(a[2]);
-    (length, a.map(|component| component / length))
+/// Length of a vector.
+pub(super) fn length(a: [f64; 3]) -> f64 {
+    a[0].hypot(a[1]).hypot(a[2])
+}
+
+/// Unit vector along a vector.
+pub(super) fn unit(a: [f64; 3]) -> [f64; 3] {
+    let length = length(a);
+    a.map(|component| component / length)
 }

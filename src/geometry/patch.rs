@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use super::{
-    COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, far_ends, middle,
-};
+use super::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout, far_ends, middle};
 use crate::error::{Error, MemoryError, Result, at_least, memory, require};
 
 /// Contact elements of a ground, checked for sizes, order and overlaps.

@@ -64,27 +64,28 @@ pub(crate) struct ChosenHistory {
 
 impl ChosenHistory {
     /// Identities of histories without a horizon; every horizon is a larger number.
-    const OWN: usize = 0;
-    const DIRECT: usize = 1;
-    const TRANSFORMS: usize = 2;
+    const SUPPLIED_IDENTITY: usize = 0;
+    const DIRECT_IDENTITY: usize = 1;
+    const TRANSFORMS_IDENTITY: usize = 2;
 
     fn new(
         history: impl ConvolutionHistory + 'static,
         kind: HistoryMethod,
         steps: Option<usize>,
-        (error_bound, identity): (f64, usize),
+        error_bound: f64,
+        identity: usize,
     ) -> Self {
         let choice = HistoryChoice { kind, steps, memory: 0, error_bound, stages: None };
         Self { history: Box::new(history), choice: Some(choice), identity }
     }
 
     /// Wraps a history that the caller supplied.
-    pub(crate) fn own(history: Box<dyn ConvolutionHistory>) -> Self {
-        Self { history, choice: None, identity: Self::OWN }
+    pub(crate) fn supplied(history: Box<dyn ConvolutionHistory>) -> Self {
+        Self { history, choice: None, identity: Self::SUPPLIED_IDENTITY }
     }
 
     pub(super) fn direct(history: DirectHistory, steps: Option<usize>) -> Self {
-        Self::new(history, HistoryMethod::Direct, steps, (0.0, Self::DIRECT))
+        Self::new(history, HistoryMethod::Direct, steps, 0.0, Self::DIRECT_IDENTITY)
     }
 
     /// Wraps transforms that leave out up to the fraction `neglected` of the coefficients' sum.
@@ -93,12 +94,13 @@ impl ChosenHistory {
         steps: Option<usize>,
         neglected: f64,
     ) -> Self {
-        Self::new(history, HistoryMethod::RelaxedFft, steps, (neglected, Self::TRANSFORMS))
+        Self::new(history, HistoryMethod::RelaxedFft, steps, neglected, Self::TRANSFORMS_IDENTITY)
     }
 
     pub(super) fn exponentials(history: ExponentialHistory, steps: Option<usize>) -> Self {
-        let of = (history.error_bound(), history.horizon());
-        Self::new(history, HistoryMethod::Exponentials, steps, of)
+        let error_bound = history.error_bound();
+        let horizon = history.horizon();
+        Self::new(history, HistoryMethod::Exponentials, steps, error_bound, horizon)
     }
 
     /// Description of the history; `None` for a history that the caller supplied.
@@ -126,15 +128,17 @@ impl ChosenHistory {
             self.history.restore(steps, values)?;
             return Ok(None);
         }
-        let horizons = ExponentialHistory::HORIZON as f64..=ExponentialHistory::LONGEST as f64;
+        let horizons =
+            ExponentialHistory::DEFAULT_HORIZON as f64..=ExponentialHistory::MAX_HORIZON as f64;
         let is_horizon = horizons.contains(identity) && identity.fract() == 0.0;
-        if is_horizon && self.identity > Self::TRANSFORMS {
+        if is_horizon && self.identity > Self::TRANSFORMS_IDENTITY {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
             return Ok(Some(*identity as usize));
         }
-        let kinds = [Self::OWN, Self::DIRECT, Self::TRANSFORMS];
-        let is_known = is_horizon || kinds.iter().any(|kind| *kind as f64 == *identity);
-        let other = CheckpointError::OtherScene { quantity: "kind of history" };
-        Err(if is_known { other } else { corrupt }.into())
+        let identities =
+            [Self::SUPPLIED_IDENTITY, Self::DIRECT_IDENTITY, Self::TRANSFORMS_IDENTITY];
+        let is_known = is_horizon || identities.iter().any(|known| *known as f64 == *identity);
+        let other_scene = CheckpointError::OtherScene { quantity: "kind of history" };
+        Err(if is_known { other_scene } else { corrupt }.into())
     }
 }

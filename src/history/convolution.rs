@@ -1,4 +1,4 @@
-//! Trait of a convolution with all past tractions.
+//! The trait for convolutions with all past tractions.
 
 use crate::error::{CheckpointError, Observer, Result};
 
@@ -26,7 +26,7 @@ pub trait ConvolutionHistory: Send {
     /// Accepts the tractions (Pa) of the step that ends now: all components of all elements.
     fn push(&mut self, traction: &[f64]);
 
-    /// Bytes held in coefficients, tractions and scratch; zero (the default) if not known.
+    /// Bytes used by coefficients, tractions and scratch; zero (the default) if not known.
     fn memory(&self) -> usize {
         0
     }

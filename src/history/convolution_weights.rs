@@ -3,7 +3,7 @@
 use super::exponential_sum::ExponentialSum;
 #[cfg(feature = "embedded")]
 use super::pair_classes::TRENCH_KINDS;
-use super::pair_classes::{KINDS, PairClasses};
+use super::pair_classes::{PairClasses, STRIP_KINDS};
 use super::shared_spectra::SharedSpectra;
 use crate::error::{Error, Observer, Result, same_length, unobserved};
 use crate::geometry::SERIES_PER_OFFSET;
@@ -12,7 +12,7 @@ use crate::geometry::SERIES_PER_OFFSET;
 ///
 /// All steps have one length.
 ///
-/// A traction of 1 Pa on element q during one step moves element p by a mean Gⁿ at the end of the n-th step from there:
+/// A traction of 1 Pa on element q during one step displaces element p by the mean Gⁿ at the end of the n-th step:
 /// n = 1 is the end of the step itself. The ground may vary with depth, but not along the surface, and must be
 /// reciprocal. Then only one pair of each [class](PairClasses) has to be computed. The coefficients of a pair are the
 /// coefficients of its class times [`Pair::scale`](super::Pair::scale), the coupling also times
@@ -25,9 +25,9 @@ use crate::geometry::SERIES_PER_OFFSET;
 /// | down | shear | sign · scale · coupling |
 /// | to the right | pressure | −sign · scale · coupling |
 ///
-/// A history stores tables of its own, made from [`ConvolutionWeights::coefficients`], so that a step calls nothing
-/// here unless memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then
-/// the division of a run into parts changes nothing.
+/// A history stores tables made from [`ConvolutionWeights::coefficients`], so that a step calls nothing here unless
+/// memory has to grow. A lag must always have the same bits, on any thread and after any other calls. Then the division
+/// of a run into parts changes nothing.
 ///
 /// The example of [`WeightsGround`](crate::bem::WeightsGround) is a kernel in twenty lines.
 pub trait ConvolutionWeights: Send + Sync {
@@ -61,7 +61,7 @@ pub trait ConvolutionWeights: Send + Sync {
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; KINDS],
+        values: [&mut [f64]; STRIP_KINDS],
     ) -> Result<()>;
 
     /// Like [`ConvolutionWeights::coefficients`], for cells of a lattice in plan.
@@ -78,7 +78,7 @@ pub trait ConvolutionWeights: Send + Sync {
         _first_lag: usize,
         _values: [&mut [f64]; SERIES_PER_OFFSET],
     ) -> Result<()> {
-        Err(OTHER_KINDS)
+        Err(UNSUPPORTED_KINDS)
     }
 
     /// Like [`ConvolutionWeights::coefficients`], for elements around a trench.
@@ -95,7 +95,7 @@ pub trait ConvolutionWeights: Send + Sync {
         _first_lag: usize,
         _values: [&mut [f64]; TRENCH_KINDS],
     ) -> Result<()> {
-        Err(OTHER_KINDS)
+        Err(UNSUPPORTED_KINDS)
     }
 
     /// Last lag at which the coupling of `class` is not zero.
@@ -126,7 +126,7 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Store of the spectra that histories of this kernel share; `None` (the default) for no store.
     ///
-    /// Without a store each history makes spectra of its own. A kernel stores it with the coefficients, and only its
+    /// Without a store each history makes its spectra anew. A kernel keeps the store with its coefficients, and only its
     /// clones share it.
     fn spectra(&self) -> Option<&SharedSpectra> {
         None
@@ -139,42 +139,48 @@ pub trait ConvolutionWeights: Send + Sync {
     /// [`ConvolutionWeights::coefficients`].
     fn step_compliance(&self, matrix: &mut [f64]) -> Result<()> {
         let classes = self.classes();
-        same_length("instantaneous operator", matrix.len(), classes.layout().square())?;
+        same_length("step compliance", matrix.len(), classes.layout().square())?;
         self.prepare(1, &mut unobserved)?;
         #[cfg(feature = "embedded")]
         if classes.are_around_trench() {
-            let first = |class, lag: [&mut [f64]; TRENCH_KINDS]| {
-                self.coefficients_around_trench(class, 1, lag)
-            };
-            return scatter_first(classes, matrix, first);
+            return scatter_first_lag(
+                classes,
+                matrix,
+                |class, values: [&mut [f64]; TRENCH_KINDS]| {
+                    self.coefficients_around_trench(class, 1, values)
+                },
+            );
         }
         if classes.plan().is_some() {
-            scatter_first(classes, matrix, |class, lag| self.coefficients_in_plan(class, 1, lag))
+            scatter_first_lag(classes, matrix, |class, values| {
+                self.coefficients_in_plan(class, 1, values)
+            })
         } else {
-            scatter_first(classes, matrix, |class, lag| self.coefficients(class, 1, lag))
+            scatter_first_lag(classes, matrix, |class, values| self.coefficients(class, 1, values))
         }
     }
 }
 
-/// Overwrites `matrix` with element means, from the coefficients of one lag.
-fn scatter_first<const KINDS: usize>(
+/// Overwrites `matrix` with element means of lag 1.
+///
+/// `first_lag(class, values)` writes the coefficients of a class at lag 1, kind by kind.
+fn scatter_first_lag<const N: usize>(
     classes: &PairClasses,
     matrix: &mut [f64],
-    get: impl Fn(usize, [&mut [f64]; KINDS]) -> Result<()>,
+    first_lag: impl Fn(usize, [&mut [f64]; N]) -> Result<()>,
 ) -> Result<()> {
-    let first = (0..classes.count())
-        .map(|class| {
-            let mut lag = [[0.0]; KINDS];
-            get(class, lag.each_mut().map(<[f64; 1]>::as_mut_slice))?;
-            Ok(lag.map(|[value]| value))
-        })
-        .collect::<Result<Vec<_>>>()?;
-    classes.scatter(matrix, |_, pair| first[pair.class].map(|value| value * pair.scale));
+    let mut coefficients = Vec::with_capacity(classes.count());
+    for class in 0..classes.count() {
+        let mut values = [[0.0]; N];
+        first_lag(class, values.each_mut().map(<[f64; 1]>::as_mut_slice))?;
+        coefficients.push(values.map(|[value]| value));
+    }
+    classes.scatter(matrix, |_, pair| coefficients[pair.class].map(|value| value * pair.scale));
     Ok(())
 }
 
-/// Coefficients of a class, one slice for each kind, in the plane or in plan.
-pub(super) fn all_kinds(
+/// Overwrites `values`, one slice for each kind, with the coefficients of a class.
+pub(super) fn read_coefficients(
     kernel: &dyn ConvolutionWeights,
     class: usize,
     first_lag: usize,
@@ -189,21 +195,21 @@ pub(super) fn all_kinds(
         [zz, xx, yy, xy, zx, zy] => {
             kernel.coefficients_in_plan(class, first_lag, [zz, xx, yy, xy, zx, zy])
         }
-        _ => Err(OTHER_KINDS),
+        _ => Err(UNSUPPORTED_KINDS),
     }
 }
 
 /// Error for a kind of coefficients that a kernel does not have.
-pub(crate) const OTHER_KINDS: Error = Error::Scene {
+pub(crate) const UNSUPPORTED_KINDS: Error = Error::Scene {
     quantity: "coefficients of a kernel",
     needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
 };
 
 /// A kernel whose late lags are sums of decaying exponentials.
 ///
-/// [`ExponentialHistory`](super::ExponentialHistory) compares these exponentials with the coefficients themselves, at
-/// single lags up to the horizon, and checks that window and exponentials together are passive. So
-/// [`ConvolutionWeights::coefficients`] should be quick at any lag here.
+/// [`ExponentialHistory`](super::ExponentialHistory) compares these exponentials with the coefficients at single lags
+/// up to the horizon, and checks that window and exponentials together are passive. Therefore
+/// [`ConvolutionWeights::coefficients`] should be fast at any lag of such a kernel.
 pub trait LateWeights: Send + Sync {
     /// Last lag that exponentials cannot represent.
     ///

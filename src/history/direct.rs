@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use super::convolution::{ConvolutionHistory, check_inputs};
-use super::convolution_weights::{ConvolutionWeights, all_kinds};
+use super::convolution_weights::{ConvolutionWeights, read_coefficients};
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
-/// Number of steps summed together, so that tractions and coefficients stay in cache.
-const CHUNK: usize = 512;
+/// Number of steps summed for all pairs in turn, so that tractions and coefficients stay in cache.
+const STEPS_PER_CHUNK: usize = 512;
+
+/// Smallest number of lags for which coefficients are stored.
+const MIN_CAPACITY_LAGS: usize = 64;
 
 /// Direct summation of the history: the reference for all other methods.
 ///
@@ -18,14 +21,15 @@ pub struct DirectHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Lags for which coefficients are stored; grows by doubling.
     capacity: usize,
-    /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end. The coupling is stored only
-    /// while it is not zero.
-    kinds: Vec<Vec<Vec<f64>>>,
+    /// Coefficients of each kind, class by class, reversed: lag n is the n-th from the end.
+    ///
+    /// The coupling is stored only while it is not zero.
+    coefficients: Vec<Vec<Vec<f64>>>,
     /// Tractions of all steps, for each contact component.
     traction: Vec<Vec<f64>>,
     steps: usize,
-    /// Memory allowed, bytes.
-    memory: f64,
+    /// Bytes.
+    memory_limit: f64,
 }
 
 short_debug! {
@@ -36,54 +40,56 @@ impl DirectHistory {
     /// History of `kernel`, empty.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>) -> Self {
         let classes = kernel.classes();
-        let kinds = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
+        let coefficients = vec![vec![Vec::new(); classes.count()]; classes.kinds()];
         let traction = vec![Vec::new(); classes.layout().len()];
-        let memory = memory_limit() as f64;
-        Self { kernel, capacity: 0, kinds, traction, steps: 0, memory }
+        let memory_limit = memory_limit() as f64;
+        Self { kernel, capacity: 0, coefficients, traction, steps: 0, memory_limit }
     }
 
-    /// Limits the memory to `bytes`: more steps are [`Error::Memory`].
-    pub(super) fn within(mut self, bytes: usize) -> Self {
-        self.memory = self.memory.min(bytes as f64);
+    /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
+    pub(super) fn within_memory(mut self, bytes: usize) -> Self {
+        self.memory_limit = self.memory_limit.min(bytes as f64);
         self
     }
 
     /// Stores the coefficients of the lags up to `lags`.
     fn grow(&mut self, lags: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let (old, new) = (self.capacity, lags.max(2 * self.capacity).max(64));
-        let numbers = self.kinds.len() * self.kernel.classes().count() + self.traction.len();
-        let needed = 8.0 * numbers as f64 * new as f64;
-        if needed > self.memory {
+        let old_capacity = self.capacity;
+        let capacity = lags.max(2 * self.capacity).max(MIN_CAPACITY_LAGS);
+        let numbers = self.coefficients.len() * self.kernel.classes().count() + self.traction.len();
+        let needed = 8.0 * numbers as f64 * capacity as f64;
+        if needed > self.memory_limit {
             return Err(Error::Memory(MemoryError {
                 quantity: "steps of the convolution history",
                 asked: lags as f64,
                 needed,
-                limit: self.memory,
+                limit: self.memory_limit,
                 remedy: "take fewer steps, or allow more with `HistoryOptions::memory`: a checkpoint can go on there",
             }));
         }
-        let own = self.kernel.classes().layout().components();
-        let mut lags = vec![vec![0.0; new - old]; self.kinds.len()];
-        self.kernel.prepare(new, observer)?;
+        let diagonal_kinds = self.kernel.classes().layout().components();
+        let mut new_lags = vec![vec![0.0; capacity - old_capacity]; self.coefficients.len()];
+        self.kernel.prepare(capacity, observer)?;
         for class in 0..self.kernel.classes().count() {
-            let last = self.kernel.last_coupling_lag(class)?.unwrap_or(new).min(new);
-            let mut values: Vec<_> = lags.iter_mut().map(Vec::as_mut_slice).collect();
-            all_kinds(&*self.kernel, class, old + 1, &mut values)?;
-            for (kind, (stored, lags)) in self.kinds.iter_mut().zip(&lags).enumerate() {
-                if kind < own {
+            let last_lag = self.kernel.last_coupling_lag(class)?;
+            let last = last_lag.unwrap_or(capacity).min(capacity);
+            let mut values: Vec<_> = new_lags.iter_mut().map(Vec::as_mut_slice).collect();
+            read_coefficients(&*self.kernel, class, old_capacity + 1, &mut values)?;
+            for (kind, (stored, lags)) in self.coefficients.iter_mut().zip(&new_lags).enumerate() {
+                if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);
                 } else if last > stored[class].len() {
-                    let kept = last - old.min(last);
-                    prepend_reversed(&mut stored[class], &lags[..kept]);
+                    let coupled_lags = last - old_capacity.min(last);
+                    prepend_reversed(&mut stored[class], &lags[..coupled_lags]);
                 }
             }
         }
-        self.capacity = new;
+        self.capacity = capacity;
         Ok(())
     }
 }
 
-/// Puts `next` (the lags that follow the stored ones) in front of `stored`, reversed.
+/// Puts the lags `next`, which follow the stored ones, in front of `stored`, reversed.
 fn prepend_reversed(stored: &mut Vec<f64>, next: &[f64]) {
     let mut grown = Vec::with_capacity(stored.len() + next.len());
     grown.extend(next.iter().rev());
@@ -97,7 +103,7 @@ impl ConvolutionHistory for DirectHistory {
     }
 
     fn memory(&self) -> usize {
-        let coefficients: usize = self.kinds.iter().flatten().map(Vec::capacity).sum();
+        let coefficients: usize = self.coefficients.iter().flatten().map(Vec::capacity).sum();
         let traction: usize = self.traction.iter().map(Vec::capacity).sum();
         (coefficients + traction) * size_of::<f64>()
     }
@@ -125,19 +131,18 @@ impl ConvolutionHistory for DirectHistory {
             self.grow(past + 1, &mut unobserved)?;
         }
         // Input m (from 0) acts with lag past + 1 − m.
-        for begin in (0..past).step_by(CHUNK) {
-            let end = (begin + CHUNK).min(past);
+        for begin in (0..past).step_by(STEPS_PER_CHUNK) {
+            let end = (begin + STEPS_PER_CHUNK).min(past);
             self.kernel.classes().each(|[receiver, source], pair, terms| {
                 for term in terms {
                     let factor = term.factor * pair.scale;
-                    let lags = &self.kinds[term.kind][pair.class];
+                    let lags = &self.coefficients[term.kind][pair.class];
                     let first = (past + 1).saturating_sub(lags.len()).max(begin);
                     if first < end && factor != 0.0 {
-                        let seen = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
-                        let [to, from] = term.components;
-                        let traction = &self.traction[layout.place(from, source)];
-                        displacement[layout.place(to, receiver)] +=
-                            factor * dot(&lags[seen], &traction[first..end]);
+                        let range = lags.len() - (past + 1 - first)..lags.len() - (past + 1 - end);
+                        let traction = &self.traction[layout.place(term.components[1], source)];
+                        displacement[layout.place(term.components[0], receiver)] +=
+                            factor * dot(&lags[range], &traction[first..end]);
                     }
                 }
             });

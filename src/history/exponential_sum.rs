@@ -63,8 +63,11 @@ impl ExponentialSum {
             }
             same_length("tangential weights", tangential.len(), normal.len())?;
             if normal.len() > rates.len() {
-                let (found, needed) = (normal.len(), rates.len());
-                return Err(Error::Size { quantity: "weights of a product", found, needed });
+                return Err(Error::Size {
+                    quantity: "weights of a product",
+                    found: normal.len(),
+                    needed: rates.len(),
+                });
             }
             for weight in normal.iter().chain(tangential) {
                 finite("weight of an exponential", *weight)?;

@@ -3,19 +3,21 @@
 use std::sync::Arc;
 
 use super::chosen::ChosenHistory;
-use super::convolution_weights::{ConvolutionWeights, LateWeights};
+use super::convolution_weights::ConvolutionWeights;
 use super::direct::DirectHistory;
-use super::exponentials::{ExponentialHistory, MEMORY};
+use super::exponentials::{DEFAULT_MEMORY, ExponentialHistory};
 use super::method::HistoryMethod;
-use super::relaxed_fft::{LEAF, RelaxedFftHistory, bytes_of_blocks};
+use super::relaxed_fft::{LEAF_STEPS, RelaxedFftHistory, bytes_of_blocks};
 use crate::error::{Result, memory};
 
-/// Sum of the late coefficients of a ground in plan that may be left out, relative to the sum of all.
-const NEGLECTED: f64 = 1e-8;
-/// Tolerance of exponentials that the rule chooses: results change by rounding only.
-const ROUNDING: f64 = 1e-12;
-/// Longest window, lags, with which the rule chooses exponentials: the fit takes a few tenths of a second.
-const LONGEST_WINDOW: usize = 1 << 14;
+/// Sum of the late coefficients that a ground in plan may neglect, relative to the sum of all.
+const NEGLECTED_WEIGHT_FRACTION: f64 = 1e-8;
+/// Tolerance of exponentials that the rule chooses: it changes results by rounding only.
+const RULE_TOLERANCE: f64 = 1e-12;
+/// Longest window with which the rule chooses exponentials, lags.
+///
+/// Its fit takes a few tenths of a second.
+const MAX_RULE_WINDOW: usize = 1 << 14;
 
 /// Options of a ground's history, given to [`ElasticGround::with_history`](crate::bem::ElasticGround::with_history).
 ///
@@ -59,7 +61,7 @@ impl From<HistoryMethod> for HistoryOptions {
 
 impl Default for HistoryOptions {
     fn default() -> Self {
-        Self { method: HistoryMethod::Auto, tolerance: None, memory: MEMORY }
+        Self { method: HistoryMethod::Auto, tolerance: None, memory: DEFAULT_MEMORY }
     }
 }
 
@@ -70,45 +72,65 @@ impl HistoryOptions {
         Ok(self)
     }
 
-    /// Makes an empty history of `weights` for `steps` steps in all; `None` if no end is known.
+    /// Makes an empty history of `weights`.
+    ///
+    /// `steps`: their number in all; `None` if no end is known.
     pub(crate) fn history(
         self,
         weights: &Arc<dyn ConvolutionWeights>,
         steps: Option<usize>,
     ) -> Result<ChosenHistory> {
         let count = weights.classes().elements().len() as f64;
-        memory::check("contact elements", count, bytes_of_blocks(&**weights, LEAF)?)?;
-        let kernel = || Arc::clone(weights);
-        let exponentials = |tolerance: f64| {
-            let tolerance = self.tolerance.unwrap_or(tolerance);
-            let horizon = steps.unwrap_or(0).max(ExponentialHistory::HORIZON);
-            ExponentialHistory::within(kernel(), tolerance, horizon, self.memory)
-        };
-        let transforms = || RelaxedFftHistory::new(kernel()).within(self.memory);
+        memory::check("contact elements", count, bytes_of_blocks(&**weights, LEAF_STEPS)?)?;
         Ok(match self.method {
             HistoryMethod::Direct => {
-                ChosenHistory::direct(DirectHistory::new(kernel()).within(self.memory), steps)
+                let history = DirectHistory::new(Arc::clone(weights)).within_memory(self.memory);
+                ChosenHistory::direct(history, steps)
             }
-            HistoryMethod::RelaxedFft => ChosenHistory::transforms(transforms(), steps, 0.0),
+            HistoryMethod::RelaxedFft => {
+                ChosenHistory::transforms(self.transforms(weights), steps, 0.0)
+            }
             HistoryMethod::Exponentials => {
-                ChosenHistory::exponentials(exponentials(ExponentialHistory::TOLERANCE)?, steps)
+                let tolerance = ExponentialHistory::DEFAULT_TOLERANCE;
+                ChosenHistory::exponentials(self.exponentials(weights, steps, tolerance)?, steps)
             }
-            HistoryMethod::Auto => {
-                let early = |late: &dyn LateWeights| late.window() <= LONGEST_WINDOW;
-                let early = weights.late_weights().is_some_and(early);
-                match early.then(|| exponentials(ROUNDING)) {
-                    Some(Ok(history)) => ChosenHistory::exponentials(history, steps),
-                    _ if weights.classes().plan().is_none() => {
-                        ChosenHistory::transforms(transforms(), steps, 0.0)
-                    }
-                    _ => {
-                        let least = NEGLECTED.max(weights.late_error());
-                        let neglected = self.tolerance.unwrap_or(least);
-                        let history = transforms().forgetting(neglected);
-                        ChosenHistory::transforms(history, steps, neglected)
-                    }
-                }
-            }
+            HistoryMethod::Auto => self.history_by_rule(weights, steps),
         })
+    }
+
+    /// History by the rule of [`HistoryMethod::Auto`].
+    fn history_by_rule(
+        self,
+        weights: &Arc<dyn ConvolutionWeights>,
+        steps: Option<usize>,
+    ) -> ChosenHistory {
+        let has_short_window =
+            weights.late_weights().is_some_and(|late| late.window() <= MAX_RULE_WINDOW);
+        if has_short_window && let Ok(history) = self.exponentials(weights, steps, RULE_TOLERANCE) {
+            return ChosenHistory::exponentials(history, steps);
+        }
+        if weights.classes().plan().is_none() {
+            return ChosenHistory::transforms(self.transforms(weights), steps, 0.0);
+        }
+        let default_fraction = NEGLECTED_WEIGHT_FRACTION.max(weights.late_error());
+        let neglected = self.tolerance.unwrap_or(default_fraction);
+        let history = self.transforms(weights).neglecting(neglected);
+        ChosenHistory::transforms(history, steps, neglected)
+    }
+
+    fn transforms(self, weights: &Arc<dyn ConvolutionWeights>) -> RelaxedFftHistory {
+        RelaxedFftHistory::new(Arc::clone(weights)).within_memory(self.memory)
+    }
+
+    /// History by exponentials within the option's tolerance, or else `default_tolerance`.
+    fn exponentials(
+        self,
+        weights: &Arc<dyn ConvolutionWeights>,
+        steps: Option<usize>,
+        default_tolerance: f64,
+    ) -> Result<ExponentialHistory> {
+        let tolerance = self.tolerance.unwrap_or(default_tolerance);
+        let horizon = steps.unwrap_or(0).max(ExponentialHistory::DEFAULT_HORIZON);
+        ExponentialHistory::within_memory(Arc::clone(weights), tolerance, horizon, self.memory)
     }
 }

@@ -12,14 +12,23 @@ use crate::geometry::{
 use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
 
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
-pub(crate) const KINDS: usize = 3;
+pub(crate) const STRIP_KINDS: usize = 3;
 
 /// Number of kinds around a trench: normal, tangential, normal by tangential, and tangential by normal.
 #[cfg(feature = "embedded")]
 pub(crate) const TRENCH_KINDS: usize = 4;
 
 /// Largest number of kinds in the plane.
-pub(crate) const MOST_KINDS: usize = if cfg!(feature = "embedded") { KINDS + 1 } else { KINDS };
+pub(crate) const MAX_KINDS: usize =
+    if cfg!(feature = "embedded") { STRIP_KINDS + 1 } else { STRIP_KINDS };
+
+/// Length in units of 1e-12 of the patch, as an integer.
+///
+/// Rounding of the nodes therefore does not split a class.
+#[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
+fn length_key(length: f64, span: f64) -> i64 {
+    (length / span * 1e12).round() as i64
+}
 
 /// Effect of one traction component of the source on one displacement component of the receiver.
 #[derive(Clone, Copy, Default)]
@@ -46,8 +55,8 @@ pub struct Pair {
     pub sign: f64,
 }
 
-/// Smallest element length relative to the patch: the classes of shorter elements could not be distinguished.
-const SHORTEST: f64 = 1e-8;
+/// Smallest element length relative to the patch; classes of shorter elements could not be distinguished.
+const MIN_LENGTH_RATIO: f64 = 1e-8;
 
 /// Elements of a patch, and their pairs sorted into classes.
 ///
@@ -88,19 +97,22 @@ impl PairClasses {
         let span = elements[elements.len() - 1].right() - elements[0].left();
         let shortest = elements.iter().map(ContactElement::length).fold(f64::INFINITY, f64::min);
         let quantity = "length of the shortest contact element over that of the patch";
-        require(quantity, shortest / span, shortest >= SHORTEST * span, "at least 1e-8")?;
+        require(quantity, shortest / span, shortest >= MIN_LENGTH_RATIO * span, "at least 1e-8")?;
         let mut numbers = HashMap::new();
         let mut representatives = Vec::new();
         let mut pairs = Vec::with_capacity(elements.len() * elements.len());
         for (p, receiver) in elements.iter().enumerate() {
             for (q, source) in elements.iter().enumerate() {
-                let (left, right) = if p < q { (receiver, source) } else { (source, receiver) };
-                // Rounding of the nodes must not split a class: differences of 1e-12 of the patch are ignored.
-                #[allow(clippy::cast_possible_truncation, reason = "at most 1e12")]
-                let key = |length: f64| (length / span * 1e12).round() as i64;
-                let (a, b) = (key(left.length()), key(right.length()));
-                let distance = key(right.center()[0] - left.center()[0]);
-                let class = *numbers.entry((a.min(b), a.max(b), distance)).or_insert_with(|| {
+                let left = if p < q { receiver } else { source };
+                let right = if p < q { source } else { receiver };
+                let left_length = length_key(left.length(), span);
+                let right_length = length_key(right.length(), span);
+                let key = (
+                    left_length.min(right_length),
+                    left_length.max(right_length),
+                    length_key(right.center()[0] - left.center()[0], span),
+                );
+                let class = *numbers.entry(key).or_insert_with(|| {
                     representatives.push([*left, *right]);
                     representatives.len() - 1
                 });
@@ -133,31 +145,38 @@ impl PairClasses {
     #[cfg(feature = "embedded")]
     pub(crate) fn around_trench(elements: Vec<ContactElement>) -> Result<Self> {
         check_count(elements.len(), COMPONENTS_IN_PLANE)?;
-        let (count, half) = (elements.len(), elements.len() / 2);
-        let own = half * (half + 1) / 2;
-        let right = |e: usize| if e < half { half - 1 - e } else { e - half };
-        let (mut pairs, mut exchanged) = (vec![], vec![]);
+        let count = elements.len();
+        let half = count / 2;
+        let same_half_classes = half * (half + 1) / 2;
+        let from_axis = |element: usize| {
+            if element < half { half - 1 - element } else { element - half }
+        };
+        let mut pairs = vec![];
+        let mut exchanged = vec![];
         for (p, receiver) in elements.iter().enumerate() {
             for q in 0..count {
-                let across = (p < half) != (q < half);
-                let [i, j] = [p, q].map(right);
-                let class = i.max(j) * (i.max(j) + 1) / 2 + i.min(j) + if across { own } else { 0 };
-                let swap = i < j;
+                let i = from_axis(p);
+                let j = from_axis(q);
+                let is_across = (p < half) != (q < half);
+                let first_class = if is_across { same_half_classes } else { 0 };
+                let class = i.max(j) * (i.max(j) + 1) / 2 + i.min(j) + first_class;
+                let is_exchanged = i < j;
                 // A receiver of the left half is the mirror image of one of the right half.
-                let mirrored = if swap { q < half } else { p < half };
-                let sign = if mirrored { -1.0 } else { 1.0 };
+                let is_mirrored = if is_exchanged { q < half } else { p < half };
+                let sign = if is_mirrored { -1.0 } else { 1.0 };
                 pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
-                exchanged.push(swap);
+                exchanged.push(is_exchanged);
             }
         }
-        let sides = [half, 0].into_iter();
-        let representatives = sides.flat_map(|side| {
-            let source = move |j: usize| if side == 0 { half - 1 - j } else { half + j };
-            let pairs = (0..half).flat_map(|i| (0..=i).map(move |j| [i, j]));
-            pairs.map(move |[i, j]| [source(j), half + i])
-        });
-        let representatives =
-            representatives.map(|pair| pair.map(|element| elements[element])).collect();
+        let mut representatives = Vec::with_capacity(2 * same_half_classes);
+        for source_is_right in [true, false] {
+            for i in 0..half {
+                for j in 0..=i {
+                    let source = if source_is_right { half + j } else { half - 1 - j };
+                    representatives.push([elements[source], elements[half + i]]);
+                }
+            }
+        }
         Ok(Self { elements, pairs, representatives, plan: None, exchanged })
     }
 
@@ -179,13 +198,15 @@ impl PairClasses {
         corner: [f64; 2],
     ) -> Result<Self> {
         check_count(cells.len(), COMPONENTS_IN_PLANE)?;
-        let element = |cell: &[usize; 2]| {
-            let [along, across] = [0, 1].map(|axis| {
-                [0, 1].map(|end| corner[axis] + lattice.pitch[axis] * (cell[axis] + end) as f64)
-            });
-            ContactElement::in_plan(along, across)
-        };
-        let elements = cells.iter().map(element).collect();
+        let elements = cells
+            .iter()
+            .map(|cell| {
+                let edges = [0, 1].map(|axis| {
+                    [0, 1].map(|end| corner[axis] + lattice.pitch[axis] * (cell[axis] + end) as f64)
+                });
+                ContactElement::in_plan(edges[0], edges[1])
+            })
+            .collect();
         Ok(Self {
             elements,
             pairs: vec![],
@@ -207,7 +228,7 @@ impl PairClasses {
         if self.are_around_trench() {
             return TRENCH_KINDS;
         }
-        if self.plan.is_some() { SERIES_PER_OFFSET } else { KINDS }
+        if self.plan.is_some() { SERIES_PER_OFFSET } else { STRIP_KINDS }
     }
 
     /// The elements, from left to right; cells in plan in the order given.
@@ -235,8 +256,8 @@ impl PairClasses {
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist.
     pub fn representative(&self, class: usize) -> Result<[ContactElement; 2]> {
-        let all = &self.representatives;
-        Ok(all[in_bounds("class of element pairs", class, all.len())?])
+        let count = self.representatives.len();
+        Ok(self.representatives[in_bounds("class of element pairs", class, count)?])
     }
 
     /// Order of the numbers of a contact vector.
@@ -246,18 +267,17 @@ impl PairClasses {
         ContactLayout::new(components, self.elements.len())
     }
 
-    /// Calls `put` with every pair's receiver and source, its class, and its terms.
-    pub(crate) fn each(&self, mut put: impl FnMut([usize; 2], &Pair, &[Term])) {
+    /// Calls `visit` with every pair's receiver and source, its class, and its terms.
+    pub(crate) fn each(&self, mut visit: impl FnMut([usize; 2], &Pair, &[Term])) {
         let count = self.elements.len();
         let mut terms = [Term::default(); 9];
         for (place, pair) in self.pairs.iter().enumerate() {
-            let [(one, factor), (other, back)] = self.coupling(place);
-            let own =
-                [(0, [0, 0], 1.0), (1, [1, 1], 1.0), (one, [0, 1], factor), (other, [1, 0], back)];
-            for (term, (kind, components, factor)) in terms.iter_mut().zip(own) {
-                *term = Term { kind, components, factor };
-            }
-            put([place / count, place % count], pair, &terms[..own.len()]);
+            let coupling = self.coupling(place);
+            terms[0] = Term { kind: 0, components: [0, 0], factor: 1.0 };
+            terms[1] = Term { kind: 1, components: [1, 1], factor: 1.0 };
+            terms[2] = Term { kind: coupling[0].0, components: [0, 1], factor: coupling[0].1 };
+            terms[3] = Term { kind: coupling[1].0, components: [1, 0], factor: coupling[1].1 };
+            visit([place / count, place % count], pair, &terms[..4]);
         }
         let Some((lattice, cells)) = &self.plan else { return };
         let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
@@ -267,12 +287,12 @@ impl PairClasses {
                 for (place, (kind, factor)) in block.into_iter().flatten().enumerate() {
                     terms[place] = Term { kind, components: [place / 3, place % 3], factor };
                 }
-                put([p, q], &Pair { class, scale, sign: 1.0 }, &terms);
+                visit([p, q], &Pair { class, scale, sign: 1.0 }, &terms);
             }
         }
     }
 
-    /// Kind and factor of a pair's mixed effects: of shear on the normal, of pressure on the tangential displacement.
+    /// Kind and factor of a pair's coupling: normal displacement due to shear, tangential due to pressure.
     pub(crate) fn coupling(&self, place: usize) -> [(usize, f64); 2] {
         let sign = self.pairs[place].sign;
         #[cfg(feature = "embedded")]
@@ -287,10 +307,10 @@ impl PairClasses {
     ///
     /// `of_pair` returns the coefficients of a receiver and a source, kind by kind, the coupling as if the receiver
     /// were to the right of the source and behind it.
-    pub(crate) fn scatter<T, const KINDS: usize>(
+    pub(crate) fn scatter<T, const N: usize>(
         &self,
         matrix: &mut [T],
-        mut of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+        mut of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) where
         T: Copy + Mul<f64, Output = T>,
     {
@@ -305,45 +325,45 @@ impl PairClasses {
         });
     }
 
-    /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `own`.
+    /// Smallest eigenvalue of the Hermitian part of a symbol, normalised by `diagonal`.
     ///
-    /// `of_pair` gives the symbol as for [`PairClasses::scatter`]; `own` gives a size for each class and component of
-    /// an element on itself. NaN if the symbol is not finite.
+    /// `of_pair` gives the symbol as for [`PairClasses::scatter`]. `diagonal(class, component)` gives a magnitude for
+    /// each element on itself. NaN if the symbol is not finite.
     ///
     /// With (1−z) Ĝ(z), integrated over receivers and sources, it shows whether a ground can create energy: by Parseval
     /// the work of any tractions is not negative if this eigenvalue is not negative anywhere on |z| = 1.
-    pub(crate) fn least_eigenvalue<T, const KINDS: usize>(
+    pub(crate) fn smallest_eigenvalue<T, const N: usize>(
         &self,
-        own: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+        diagonal: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) -> f64
     where
         T: ComplexField<Real = f64> + Copy + Default + Mul<f64, Output = T>,
     {
-        let matrix = self.scaled(own, of_pair);
-        hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[least, _]| least)
+        let matrix = self.scaled(diagonal, of_pair);
+        hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[smallest, _]| smallest)
     }
 
     /// Whether the smallest eigenvalue of a real symbol is above `bound`.
     ///
-    /// It uses a factorisation, much quicker than eigenvalues; close to `bound` it may return false.
-    pub(crate) fn exceeds<const KINDS: usize>(
+    /// It uses a factorization, which is much faster than eigenvalues; close to `bound` it may return false.
+    pub(crate) fn exceeds<const N: usize>(
         &self,
         bound: f64,
-        own: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [f64; KINDS],
+        diagonal: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [f64; N],
     ) -> bool {
-        let mut matrix = self.scaled(own, of_pair);
+        let mut matrix = self.scaled(diagonal, of_pair);
         let order = self.layout().len();
         matrix.iter_mut().step_by(order + 1).for_each(|value| *value -= bound);
         matrix.iter().all(|value| value.is_finite()) && indefinite_pivot(&matrix, order).is_none()
     }
 
-    /// Matrix of a symbol with rows and columns divided by the roots of `own`.
-    fn scaled<T, const KINDS: usize>(
+    /// Matrix of a symbol with rows and columns divided by the square roots of `diagonal`.
+    fn scaled<T, const N: usize>(
         &self,
-        own: impl Fn(usize, usize) -> f64,
-        of_pair: impl FnMut([usize; 2], &Pair) -> [T; KINDS],
+        diagonal: impl Fn(usize, usize) -> f64,
+        of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) -> Vec<T>
     where
         T: Copy + Default + Mul<f64, Output = T>,
@@ -351,15 +371,15 @@ impl PairClasses {
         let layout = self.layout();
         let mut matrix = vec![T::default(); layout.square()];
         self.scatter(&mut matrix, of_pair);
-        let scale = |place: usize| {
+        let mut scales = Vec::with_capacity(layout.len());
+        for place in 0..layout.len() {
             let [component, element] = layout.origin(place);
             // The first class of a lattice is a cell on itself.
-            let itself = self.pairs.get(element * (self.elements.len() + 1));
-            1.0 / own(itself.map_or(0, |pair| pair.class), component).sqrt()
-        };
-        let scales: Vec<f64> = (0..layout.len()).map(scale).collect();
-        for (line, row) in matrix.chunks_exact_mut(layout.len()).zip(&scales) {
-            for (value, column) in line.iter_mut().zip(&scales) {
+            let self_pair = self.pairs.get(element * (self.elements.len() + 1));
+            scales.push(1.0 / diagonal(self_pair.map_or(0, |pair| pair.class), component).sqrt());
+        }
+        for (row_values, row) in matrix.chunks_exact_mut(layout.len()).zip(&scales) {
+            for (value, column) in row_values.iter_mut().zip(&scales) {
                 *value = *value * *row * *column;
             }
         }

@@ -25,7 +25,9 @@ struct Stores {
 /// Tables of one type, in a store.
 pub(super) type Shared<T> = Arc<Mutex<T>>;
 
-/// Locks tables: other threads wait while one computes. Even after a panic, a table is complete or absent.
+/// Locks tables: other threads wait while one computes.
+///
+/// Even after a panic, a table is complete or absent.
 pub(super) fn lock<T: ?Sized>(tables: &Mutex<T>) -> MutexGuard<'_, T> {
     tables.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -39,13 +41,13 @@ impl SharedSpectra {
     /// Returns the tables of type `T`, empty at first.
     pub(super) fn tables<T: Default + Send + 'static>(&self) -> Shared<T> {
         let mut tables = lock(&self.stores.tables);
-        let own = tables.iter().find(|(of, _)| *of == TypeId::of::<T>());
-        if let Some(own) = own.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
-            return own;
+        let stored = tables.iter().find(|(id, _)| *id == TypeId::of::<T>());
+        if let Some(stored) = stored.and_then(|(_, any)| Arc::clone(any).downcast().ok()) {
+            return stored;
         }
-        let new = Shared::<T>::default();
-        tables.push((TypeId::of::<T>(), new.clone()));
-        new
+        let added = Shared::<T>::default();
+        tables.push((TypeId::of::<T>(), added.clone()));
+        added
     }
 }
 

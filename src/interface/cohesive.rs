@@ -11,7 +11,7 @@ use crate::error::{Result, not_negative};
 /// Coulomb's law. While bonded, p ≥ −tension and |τ| ≤ cohesion + friction · max(p, 0). Its state variable is
 /// 1 while it is bonded and 0 after it has broken; an element that is open at first is broken. The traction
 /// of a broken element passes to its neighbours at once. A base may therefore unzip in a step, and the
-/// elastic energy that is released is radiated. Within a step bonds only break. First, the bonds with the
+/// released elastic energy is radiated. Within a step bonds only break. First, the bonds with the
 /// largest overload break while the others hold; then, with the tractions redistributed, the next ones.
 ///
 /// ```
@@ -35,7 +35,7 @@ use crate::error::{Result, not_negative};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "AdhesiveForm"))]
+#[cfg_attr(feature = "serde", serde(try_from = "CohesiveForm"))]
 pub struct Cohesive {
     tension: f64,
     cohesion: f64,
@@ -47,7 +47,7 @@ pub struct Cohesive {
 }
 
 validated! {
-    Cohesive as AdhesiveForm {
+    Cohesive as CohesiveForm {
         tension: f64,
         cohesion: f64,
         #[serde(with = "crate::text::forms::number")]
@@ -88,8 +88,8 @@ impl Cohesive {
 }
 
 /// Whether the element was bonded at the start of the step, and is still bonded.
-fn is_glued(start: &PreviousContact) -> bool {
-    !start.has_opened && start.state_variables.first().is_some_and(|glued| *glued > 0.0)
+fn is_bonded(start: &PreviousContact) -> bool {
+    !start.has_opened && start.state_variables.first().is_some_and(|bonded| *bonded > 0.0)
 }
 
 impl InterfaceLaw for Cohesive {
@@ -108,15 +108,14 @@ impl InterfaceLaw for Cohesive {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        let holds = || is_glued(start) && self.overload(trial) <= tolerance.traction;
-        if mode == Mode::Stick && holds() {
+        if mode == Mode::Stick && is_bonded(start) && self.overload(trial) <= tolerance.traction {
             return Mode::Stick;
         }
         self.broken.next_mode(mode, start, trial, tolerance)
     }
 
     fn bond_overload(&self, start: &PreviousContact, trial: &ContactState) -> Option<f64> {
-        is_glued(start).then(|| self.overload(trial))
+        is_bonded(start).then(|| self.overload(trial))
     }
 
     fn state_variables(&self) -> usize {
@@ -141,22 +140,22 @@ impl InterfaceLaw for Cohesive {
 
     /// Limits in plan.
     ///
-    /// An element whose strength is exceeded keeps the strength to the end of the step, unless it opens.
+    /// An element whose strength is exceeded retains the strength until the end of the step, unless it opens.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let broken = self.broken.limits(start)?;
-        if is_glued(start) {
+        if is_bonded(start) {
             Ok(Limits { tension: self.tension, shear_strength: self.cohesion, ..broken })
         } else {
             Ok(broken)
         }
     }
 
-    /// This law without friction and cohesion, its tensile strength kept.
+    /// This law without friction and cohesion, with the same tensile strength.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-        Box::new(Coulomb::held_by(self.tension))
+        Box::new(Coulomb::frictionless_with_strength(self.tension))
     }
 
-    /// Friction coefficient of the broken interface, without adhesion.
+    /// Friction coefficient of the broken interface, without cohesion.
     fn friction_coefficient(&self) -> Option<f64> {
         Some(self.friction())
     }

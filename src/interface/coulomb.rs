@@ -66,8 +66,8 @@ pub(super) fn check_friction(friction: f64) -> Result<()> {
 impl Coulomb {
     /// Law with a friction coefficient of zero or more; if it is infinite, nothing ever slides.
     ///
-    /// In plan, steps with a coefficient of 3 or more may have several solutions: hold a run against one of the scene's
-    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) says so.
+    /// In plan, steps with a coefficient of 3 or more may have several solutions: compare a run with one of the scene's
+    /// mirror image. [`Warning::HighFriction`](crate::coupled::Warning::HighFriction) reports it.
     ///
     /// # Errors
     /// [`Error::Input`](crate::Error::Input) for NaN or a negative coefficient.
@@ -76,7 +76,9 @@ impl Coulomb {
         Ok(Self { friction, ..Self::frictionless() })
     }
 
-    /// Law that opens but never slides (infinite friction). In plan, steps may have several solutions: see [`Coulomb::new`].
+    /// Law that opens but never slides (infinite friction).
+    ///
+    /// In plan, steps may have several solutions: see [`Coulomb::new`].
     pub fn uplift_only() -> Self {
         Self { friction: f64::INFINITY, ..Self::frictionless() }
     }
@@ -87,7 +89,7 @@ impl Coulomb {
     }
 
     /// Law without friction, with this tensile strength.
-    pub(super) fn held_by(tensile_strength: f64) -> Self {
+    pub(super) fn frictionless_with_strength(tensile_strength: f64) -> Self {
         Self { tensile_strength, ..Self::frictionless() }
     }
 
@@ -132,7 +134,7 @@ impl Coulomb {
         if start.has_opened { 0.0 } else { self.tensile_strength }
     }
 
-    /// Gap of a closed element at the end of the step; `None` if the element cannot close.
+    /// Gap of a closed element at the step's end; `None` if it cannot close.
     fn closed_gap(&self, start: &PreviousContact) -> Option<f64> {
         match self.condition {
             UnilateralCondition::Position => Some(0.0),
@@ -164,9 +166,9 @@ impl InterfaceLaw for Coulomb {
         Some(self.friction)
     }
 
-    /// This law without friction, its tensile strength kept.
+    /// This law without friction, with the same tensile strength.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-        Box::new(Self::held_by(self.tensile_strength))
+        Box::new(Self::frictionless_with_strength(self.tensile_strength))
     }
 }
 
@@ -175,7 +177,7 @@ mod tests {
     use super::*;
     use crate::interface::{ContactState, Tolerance};
 
-    const TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
+    const TEST_TOLERANCE: Tolerance = Tolerance { length: 1e-12, traction: 1e-9 };
 
     fn start(mode: Mode) -> PreviousContact<'static> {
         PreviousContact::new(ContactState::default(), mode, 0.01)
@@ -186,11 +188,11 @@ mod tests {
         let law = Coulomb::new(0.5).unwrap();
         let start = start(Mode::Stick);
         let state = ContactState { pressure: 2.0, shear: 0.99, ..Default::default() };
-        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TEST_TOLERANCE), Mode::Stick);
         let state = ContactState { pressure: 2.0, shear: 1.0, slip: 0.1, ..Default::default() };
-        assert_eq!(law.next_mode(Mode::SlipRight, &start, &state, TOLERANCE), Mode::SlipRight);
+        assert_eq!(law.next_mode(Mode::SlipRight, &start, &state, TEST_TOLERANCE), Mode::SlipRight);
         let state = ContactState { gap: 0.1, ..Default::default() };
-        assert_eq!(law.next_mode(Mode::Open, &start, &state, TOLERANCE), Mode::Open);
+        assert_eq!(law.next_mode(Mode::Open, &start, &state, TEST_TOLERANCE), Mode::Open);
     }
 
     #[test]
@@ -199,7 +201,7 @@ mod tests {
         let start = start(Mode::Stick);
         let next = |mode, gap, slip, pressure, shear| {
             let state = ContactState { gap, slip, pressure, shear, ..Default::default() };
-            law.next_mode(mode, &start, &state, TOLERANCE)
+            law.next_mode(mode, &start, &state, TEST_TOLERANCE)
         };
         assert_eq!(next(Mode::Stick, 0.0, 0.0, -1.0, 0.0), Mode::Open);
         assert_eq!(next(Mode::Stick, 0.0, 0.0, 1.0, 0.6), Mode::SlipRight);
@@ -214,9 +216,9 @@ mod tests {
         let law = Coulomb::new(0.5).unwrap().with_tensile_strength(3.0).unwrap();
         let state = ContactState { pressure: -2.0, ..Default::default() };
         let mut start = start(Mode::Stick);
-        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Stick);
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TEST_TOLERANCE), Mode::Stick);
         start.has_opened = true;
-        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TOLERANCE), Mode::Open);
+        assert_eq!(law.next_mode(Mode::Stick, &start, &state, TEST_TOLERANCE), Mode::Open);
         assert!(law.with_tensile_strength(f64::NAN).is_err());
         assert!(
             law.with_unilateral_condition(UnilateralCondition::Velocity { closed_below: -1.0 })

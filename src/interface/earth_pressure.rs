@@ -5,7 +5,7 @@ use super::{
 };
 use crate::error::{Error, Result, not_negative, require};
 
-/// Coulomb friction of a wall on soil that yields at its passive pressure and follows the wall at its active one.
+/// Coulomb friction of a wall on soil between its active and its passive pressure.
 ///
 /// The soil beside a wall bears no more than its passive pressure, and presses with no less than its active pressure: a
 /// wedge of it slides up before a wall that is pushed in, and down behind a wall that moves away. The state variable of
@@ -62,7 +62,9 @@ validated! {
 }
 
 impl EarthPressure {
-    /// Law with an active and a passive pressure (Pa), and a friction coefficient of zero or more.
+    /// Law with an active and a passive pressure (Pa), and friction.
+    ///
+    /// The friction coefficient is zero or more.
     ///
     /// If the coefficient is infinite, nothing ever slides.
     ///
@@ -110,9 +112,11 @@ impl InterfaceLaw for EarthPressure {
     }
 
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-        let [normal, tangential] = self.passive_limits(start).conditions(mode, start, [0.0; 2]);
-        let normal = if mode.is_active() { Condition::pressure_is(self.active) } else { normal };
-        [normal, tangential]
+        let mut conditions = self.passive_limits(start).conditions(mode, start, [0.0; 2]);
+        if mode.is_active() {
+            conditions[0] = Condition::pressure_is(self.active);
+        }
+        conditions
     }
 
     fn next_mode(
@@ -123,8 +127,7 @@ impl InterfaceLaw for EarthPressure {
         tolerance: Tolerance,
     ) -> Mode {
         let limits = self.passive_limits(start);
-        let modes = [mode, self.modes()[0]];
-        let next = limits.next_mode(modes, start, trial, tolerance, [0.0; 2]);
+        let next = limits.next_mode(mode, self.modes()[0], start, trial, tolerance, [0.0; 2]);
         if self.opens() {
             return next;
         }

@@ -31,8 +31,9 @@ use crate::error::{Error, Result, finite, not_negative, require};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Limits {
-    /// Friction coefficient; infinite where nothing slides. With 3 or more, a step may have several solutions: see
-    /// [`Coulomb::new`](super::Coulomb::new).
+    /// Friction coefficient; infinite where nothing slides.
+    ///
+    /// With 3 or more, a step may have several solutions: see [`Coulomb::new`](super::Coulomb::new).
     pub friction: f64,
     /// Pressure that is added to p for friction, Pa.
     pub attraction: f64,
@@ -96,9 +97,9 @@ impl Limits {
         Ok(self)
     }
 
-    /// Conditions of a mode in the plane; `compliance`: of the law's elastic layer, as in
-    /// [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
+    /// Conditions of a mode in the plane.
     ///
+    /// `compliance`: of the law's elastic layer, as in [`InterfaceLaw::compliance`](super::InterfaceLaw::compliance).
     /// NaN for limits that are not possible: [`Limits::checked`] names them.
     pub(super) fn conditions(
         &self,
@@ -110,9 +111,9 @@ impl Limits {
             return [Condition::gap_is(f64::NAN), Condition::slip_is(f64::NAN)];
         }
         let open = [Condition::pressure_is(0.0), Condition::shear_is(0.0)];
-        let [normal, tangential] = compliance;
+        let tangential = compliance[1];
         let ContactState { slip, shear, .. } = start.state;
-        let closed = Condition { pressure: normal, ..Condition::gap_is(self.gap_offset) };
+        let closed = Condition { pressure: compliance[0], ..Condition::gap_is(self.gap_offset) };
         let sticks =
             Condition { shear: 0.0 - tangential, ..Condition::slip_is(slip - tangential * shear) };
         if self.bonded {
@@ -136,22 +137,27 @@ impl Limits {
     /// solution: an element about to open under shear could neither stick nor open.
     fn slip_condition(&self, direction: f64) -> Condition {
         let Self { friction, attraction, shear_strength, .. } = *self;
-        let [shear, pressure, cohesion] = if friction > 1.0 {
-            [-direction / friction, 1.0, -shear_strength / friction]
-        } else {
-            [direction, -friction, shear_strength]
-        };
-        let value = -pressure * attraction + cohesion;
-        Condition { pressure, shear, value, ..Condition::default() }
+        if friction > 1.0 {
+            let value = -attraction - shear_strength / friction;
+            return Condition {
+                pressure: 1.0,
+                shear: -direction / friction,
+                value,
+                ..Condition::default()
+            };
+        }
+        let value = friction * attraction + shear_strength;
+        Condition { pressure: -friction, shear: direction, value, ..Condition::default() }
     }
 
     /// The mode to try after a `trial` in `mode` in the plane.
     ///
-    /// `at_rest`: mode of an element that closes. `compliance`: as for [`Limits::conditions`]. An element that slides
-    /// keeps no tension beyond the attraction.
+    /// `closing_mode`: mode of an element that closes. `compliance`: as for [`Limits::conditions`]. An element that
+    /// slides keeps no tension beyond the attraction.
     pub(super) fn next_mode(
         &self,
-        [mode, at_rest]: [Mode; 2],
+        mode: Mode,
+        closing_mode: Mode,
         start: &PreviousContact,
         trial: &ContactState,
         tolerance: Tolerance,
@@ -163,41 +169,43 @@ impl Limits {
         if self.gap_offset == f64::NEG_INFINITY {
             return Mode::Open;
         }
-        let [normal, tangential] = compliance;
-        let gap = trial.gap - self.gap_offset + normal * trial.pressure;
+        let tangential = compliance[1];
+        let gap = trial.gap - self.gap_offset + compliance[0] * trial.pressure;
         if mode == Mode::Open {
-            return if gap < -tolerance.length { at_rest } else { Mode::Open };
+            return if gap < -tolerance.length { closing_mode } else { Mode::Open };
         }
-        let slack = tolerance.traction;
-        let (pressed, has_shear) =
-            (trial.pressure + self.attraction, self.friction > 0.0 || self.shear_strength > 0.0);
-        let advance =
+        let traction_tolerance = tolerance.traction;
+        let friction_pressure = trial.pressure + self.attraction;
+        let has_shear = self.friction > 0.0 || self.shear_strength > 0.0;
+        let slip_increment =
             trial.slip - start.state.slip - tangential * (trial.shear - start.state.shear);
-        let still = tolerance.length + tangential * slack;
-        let slides = |direction: f64| {
-            if pressed < -slack || (has_shear && direction * trial.shear < -slack) {
+        let slip_tolerance = tolerance.length + tangential * traction_tolerance;
+        let sliding_mode = |direction: f64| {
+            if friction_pressure < -traction_tolerance
+                || (has_shear && direction * trial.shear < -traction_tolerance)
+            {
                 Mode::Open
-            } else if has_shear && direction * advance < -still {
+            } else if has_shear && direction * slip_increment < -slip_tolerance {
                 Mode::Stick
             } else {
                 mode.elastic()
             }
         };
-        let limit = self.friction * pressed.max(0.0) + self.shear_strength;
+        let limit = self.friction * friction_pressure.max(0.0) + self.shear_strength;
         let next = match mode.elastic() {
-            Mode::SlipRight => slides(1.0),
-            Mode::SlipLeft => slides(-1.0),
-            _ if trial.pressure + self.tension < -slack => Mode::Open,
+            Mode::SlipRight => sliding_mode(1.0),
+            Mode::SlipLeft => sliding_mode(-1.0),
+            _ if trial.pressure + self.tension < -traction_tolerance => Mode::Open,
             // Infinite friction times zero pressure is not a limit.
             _ if self.friction == f64::INFINITY => Mode::Stick,
-            _ if trial.shear > limit + slack => Mode::SlipRight,
-            _ if trial.shear < -limit - slack => Mode::SlipLeft,
+            _ if trial.shear > limit + traction_tolerance => Mode::SlipRight,
+            _ if trial.shear < -limit - traction_tolerance => Mode::SlipLeft,
             _ => Mode::Stick,
         };
         let yields = if mode.is_yield() {
             self.pressure_cap.is_finite() && gap <= tolerance.length
         } else {
-            trial.pressure > self.pressure_cap + slack
+            trial.pressure > self.pressure_cap + traction_tolerance
         };
         if yields { next.yielding() } else { next }
     }

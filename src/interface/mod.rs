@@ -53,35 +53,38 @@ pub struct ContactState {
     pub shear_across: f64,
 }
 
-/// A number of an element: its word, its SI unit, whether only grounds in plan have it, and its value.
+/// A number of an element: word, SI unit, whether in plan only, value.
 type Number = (&'static str, &'static str, bool, fn(&ContactState) -> f64);
 
 impl ContactState {
-    /// All numbers, in the order of columns in files: word, SI unit, whether only grounds in plan have it, value.
+    /// All numbers, in the order of columns in files.
+    ///
+    /// Each has its word, its SI unit, whether only grounds in plan have it, and its value.
     pub const NUMBERS: [Number; 6] = [
-        ("gap", "m", false, |own| own.gap),
-        ("slip", "m", false, |own| own.slip),
-        ("pressure", "Pa", false, |own| own.pressure),
-        ("shear", "Pa", false, |own| own.shear),
-        ("slip_across", "m", true, |own| own.slip_across),
-        ("shear_across", "Pa", true, |own| own.shear_across),
+        ("gap", "m", false, |state| state.gap),
+        ("slip", "m", false, |state| state.slip),
+        ("pressure", "Pa", false, |state| state.pressure),
+        ("shear", "Pa", false, |state| state.shear),
+        ("slip_across", "m", true, |state| state.slip_across),
+        ("shear_across", "Pa", true, |state| state.shear_across),
     ];
 
-    /// Gap, slip and tractions of an element from their components: down, along x, and in plan along y.
+    /// Gap, slip and tractions of an element from their components.
+    ///
+    /// Components: down, along x, and in plan along y.
     #[inline]
     pub(crate) fn from_components(
         jump: impl Fn(usize) -> f64,
         traction: impl Fn(usize) -> f64,
-        plan: bool,
+        is_plan: bool,
     ) -> Self {
-        let [slip_across, shear_across] = if plan { [-jump(2), traction(2)] } else { [0.0; 2] };
         Self {
             gap: jump(0),
             slip: -jump(1),
             pressure: traction(0),
             shear: traction(1),
-            slip_across,
-            shear_across,
+            slip_across: if is_plan { -jump(2) } else { 0.0 },
+            shear_across: if is_plan { traction(2) } else { 0.0 },
         }
     }
 
@@ -125,13 +128,13 @@ pub struct ContactScene {
     pub time_step: f64,
 }
 
-/// Error unless there is one law, or one for each of `count` elements, and all have modes.
+/// Checks that there is one law, or one for each element, with modes.
 pub(crate) fn check_list(laws: &[Box<dyn InterfaceLaw>], count: usize) -> Result<()> {
     if laws.len() != 1 {
         same_length("list of interface laws", laws.len(), count)?;
     }
-    let named = laws.iter().all(|law| !law.modes().is_empty());
-    require_part("interface law", named, "`modes` must name at least one mode")
+    let all_have_modes = laws.iter().all(|law| !law.modes().is_empty());
+    require_part("interface law", all_have_modes, "`modes` must name at least one mode")
 }
 
 /// The law of `element`, from a list of one law for all elements or one each.
@@ -139,7 +142,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
     laws[if laws.len() == 1 { 0 } else { element }].as_ref()
 }
 
-/// Contact law between base and soil: implement this for a law of your own.
+/// Contact law between base and soil: implement this for your law.
 ///
 /// A law needs one method: the [`limits`](InterfaceLaw::limits) of an element's tractions. A law of the plane that no
 /// limits describe (an open element that bears, a slip that is resisted by its speed) has its own
@@ -207,7 +210,7 @@ pub trait InterfaceLaw: Send {
     /// [`Error::part`](crate::Error::part); for a law of the plane alone [`Limits::only_in_plane`].
     fn limits(&self, start: &PreviousContact) -> Result<Limits>;
 
-    /// The modes that this law uses in the plane, first the mode of an element at rest in contact.
+    /// The modes of this law in the plane, first the mode of rest.
     ///
     /// The default has all modes of a law with [`limits`](InterfaceLaw::limits).
     fn modes(&self) -> &[Mode] {
@@ -236,9 +239,10 @@ pub trait InterfaceLaw: Send {
         tolerance: Tolerance,
     ) -> Mode {
         let compliance = self.compliance(Mode::Stick, start);
-        let modes = [mode, self.modes().first().copied().unwrap_or(Mode::Stick)];
-        self.limits(start)
-            .map_or(mode, |limits| limits.next_mode(modes, start, trial, tolerance, compliance))
+        let closing_mode = self.modes().first().copied().unwrap_or(Mode::Stick);
+        self.limits(start).map_or(mode, |limits| {
+            limits.next_mode(mode, closing_mode, start, trial, tolerance, compliance)
+        })
     }
 
     /// Elastic opening per traction in `mode`, m/Pa: gap per tension, and slip per shear traction.
@@ -300,7 +304,7 @@ pub trait InterfaceLaw: Send {
         None
     }
 
-    /// Called after a condition that is not finite; returns the reason if the law can name it.
+    /// Reason for a condition that is not finite, if the law can name it.
     ///
     /// # Errors
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
@@ -313,7 +317,9 @@ pub trait InterfaceLaw: Send {
         }
     }
 
-    /// The same law without friction and cohesion, for the gravity stage on a ground in the plane.
+    /// The same law without friction and cohesion, for the gravity stage.
+    ///
+    /// It acts on a ground in the plane.
     ///
     /// By default, hard and frictionless contact. Building returns an error where the law does not hold the static state
     /// found with it. In plan the law itself acts with its [`limits`](Self::limits), without friction, attraction and

@@ -20,8 +20,7 @@ pub enum Mode {
     YieldLeft,
     /// Closed; the soil yields under the pressure, and the structure slides to the right.
     YieldRight,
-    /// Slip in plan: closed; the structure slides over the soil in the direction of the shear traction on the
-    /// soil.
+    /// Slip in plan: closed; the structure slides along the soil's shear traction.
     Slip,
     /// Slip in plan on soil that yields under the pressure.
     YieldSlip,
@@ -94,7 +93,9 @@ impl Mode {
         }
     }
 
-    /// The corresponding mode on soil that follows the wall, of a mode on soil that does not yield.
+    /// The corresponding mode on soil that follows the wall.
+    ///
+    /// `self` is a mode on soil that does not yield.
     pub(super) fn following(self) -> Self {
         match self {
             Mode::SlipLeft => Mode::ActiveLeft,
@@ -145,7 +146,9 @@ impl Mode {
         }
     }
 
-    /// The modes of contact with Coulomb friction, on soil that yields and follows a wall: nothing opens.
+    /// The modes of Coulomb friction on soil that yields and follows a wall.
+    ///
+    /// Nothing opens.
     pub(super) fn with_following(friction: f64) -> &'static [Self] {
         if friction == 0.0 {
             &[Self::SlipRight, Self::ActiveRight, Self::YieldRight]

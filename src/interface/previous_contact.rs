@@ -5,7 +5,7 @@ use crate::error::{LawError, Result, finite, memory, same_length};
 
 /// State of an element at the beginning of a step, as passed to its law.
 ///
-/// In the signatures of a law of your own it is `&PreviousContact`; the lifetime belongs to
+/// In the signatures of a user's law it is `&PreviousContact`; the lifetime belongs to
 /// `state_variables`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -97,7 +97,7 @@ impl<'a> PreviousContact<'a> {
 
 /// The start of a step for all elements, from left to right, with state variables.
 ///
-/// A [`Simulation`](crate::Simulation) has its own. A code with its own integrator obtains one from
+/// A [`Simulation`](crate::Simulation) contains one. A code with another integrator obtains one from
 /// [`ContactProblem::start`](crate::contact::ContactProblem::start), owns it, and may clone it to return to
 /// it later. [`ContactSolution::commit`](crate::contact::ContactSolution::commit) advances it.
 #[derive(Debug, Clone, PartialEq)]
@@ -246,17 +246,18 @@ impl PreviousContacts {
         }
         state_variables.copy_from_slice(&self.state_variables);
         for (e, (state, &mode)) in states.iter().zip(modes).enumerate() {
-            let own = &mut state_variables[self.state_variable_range(e)];
-            if !own.is_empty() {
-                law_of(laws, e).commit(&self.element(e), state, mode, own);
-                check_state_variables(e, mode, own)?;
+            let element_variables = &mut state_variables[self.state_variable_range(e)];
+            if !element_variables.is_empty() {
+                law_of(laws, e).commit(&self.element(e), state, mode, element_variables);
+                check_state_variables(e, mode, element_variables)?;
             }
         }
         Ok(())
     }
 
-    /// Advances to the start of the next step, after a step that ended in `states`, `modes` and
-    /// `state_variables`.
+    /// Advances to the start of the next step.
+    ///
+    /// The step before ended in `states`, `modes` and `state_variables`.
     pub(crate) fn advance(
         &mut self,
         states: &[ContactState],
@@ -266,10 +267,11 @@ impl PreviousContacts {
         for ((past, state), mode) in self.past.iter_mut().zip(states).zip(modes) {
             let along = state.slip - past.state.slip;
             let across = state.slip_across - past.state.slip_across;
-            let is_turned = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
-            past.slip_rate = if is_turned { along.hypot(across) } else { along } / past.time_step;
+            let is_in_plan = across != 0.0 || matches!(mode, Mode::Slip | Mode::YieldSlip);
+            past.slip_rate = if is_in_plan { along.hypot(across) } else { along } / past.time_step;
             past.has_opened |= !mode.is_closed();
-            (past.state, past.mode) = (*state, *mode);
+            past.state = *state;
+            past.mode = *mode;
         }
         if !state_variables.is_empty() {
             self.state_variables.copy_from_slice(state_variables);

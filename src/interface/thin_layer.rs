@@ -9,7 +9,7 @@
 //! A four-node element of length L and thickness t, integrated at its centre, has the mean strains ε_yy = g/t
 //! and γ = s/t of its two long sides (and ε_xx, which is of the order of t/L relative to them). Its nodal
 //! forces equal the forces of tractions D₂₂ g/t and μ s/t on L. The layer is therefore a law for one
-//! element's means, without its own degrees of freedom.
+//! element's means, without additional degrees of freedom.
 
 use super::coulomb::check_friction;
 use super::{
@@ -48,8 +48,9 @@ words! { pub(crate) FrictionLimit, "friction limit", {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SlipSense {
-    /// Slip beyond the elastic slip, as in plasticity. It starts in the sense of the shear traction and
-    /// continues while it grows.
+    /// Slip beyond the elastic slip, as in plasticity.
+    ///
+    /// It starts in the sense of the shear traction and continues while it grows.
     #[default]
     Inelastic,
     /// The relative velocity of this step, including the elastic part [PS, eq. 12].
@@ -78,7 +79,7 @@ words! { pub(crate) SlipSense, "sense of slip", {
 /// with r = 0.001, so that an open element still carries a small tension. Tractions and slip continue from
 /// the previous step, so that slip remains. A layer of zero thickness is [`Coulomb`](super::Coulomb).
 ///
-/// The ratio r refers to the layer's own thickness. A layer a hundred times thinner carries a hundred times
+/// The ratio r refers to the thickness of the layer. A layer a hundred times thinner carries a hundred times
 /// more tension while it is open, so r must be reduced with the thickness.
 ///
 /// With the default [`FrictionLimit`] and [`SlipSense`] and zero stiffness in slip, the shear of a closed
@@ -132,8 +133,7 @@ validated! {
         slip_stiffness_ratio: f64,
     }
     => {
-        let [normal, shear] = reference_stiffness;
-        let layer = ThinLayer::from_stiffness(normal, shear, friction)?
+        let layer = ThinLayer::from_stiffness(reference_stiffness[0], reference_stiffness[1], friction)?
             .with_thickness_ratio(thickness_ratio)?
             .with_debonded_ratio(debonded_ratio)?
             .with_slip_stiffness_ratio(slip_stiffness_ratio)?;
@@ -151,7 +151,8 @@ impl ThinLayer {
     /// that is NaN or negative.
     pub fn new(soil: Soil, neighbour_height: f64, friction: f64) -> Result<Self> {
         positive("height of the element beside the thin layer", neighbour_height)?;
-        let (shear, nu) = (soil.shear_modulus(), soil.poisson());
+        let shear = soil.shear_modulus();
+        let nu = soil.poisson();
         let normal = 2.0 * shear * (1.0 - nu) / (1.0 - 2.0 * nu);
         Self::from_stiffness(normal / neighbour_height, shear / neighbour_height, friction)?
             .with_thickness_ratio(0.1)
@@ -211,7 +212,9 @@ impl ThinLayer {
         self
     }
 
-    /// Sets the fraction of the shear stiffness that resists the slip of each step, in addition to friction.
+    /// Sets the fraction of the shear stiffness that resists slip besides friction.
+    ///
+    /// It acts on the slip of each step.
     ///
     /// The default is zero. It acts as a viscosity, since the next step does not depend on it.
     ///
@@ -228,7 +231,7 @@ impl ThinLayer {
     }
 
     /// Friction limit of the shear traction; `None` if it is not known before the step.
-    fn known_limit(&self, start: &PreviousContact) -> Option<f64> {
+    fn prescribed_limit(&self, start: &PreviousContact) -> Option<f64> {
         let pressure = match self.limit {
             FrictionLimit::Total => return None,
             _ if self.friction == f64::INFINITY => return None,
@@ -239,32 +242,35 @@ impl ThinLayer {
         Some(self.friction * pressure)
     }
 
-    /// ± τ = limit + ratio · k_s (±Δs), in a form that has a limit for infinite friction (see
-    /// [`super::Coulomb`]).
+    /// ± τ = limit + ratio · k_s (±Δs), for any friction.
+    ///
+    /// The form has a limit for infinite friction (see [`super::Coulomb`]).
     fn slip_condition(&self, direction: f64, start: &PreviousContact) -> Condition {
-        let drag = self.slip_stiffness * self.stiffness()[1];
-        let moved = drag * start.state.slip;
-        if let Some(limit) = self.known_limit(start) {
-            let value = direction * limit - moved;
-            return Condition { shear: 1.0, slip: -drag, value, ..Condition::default() };
+        let slip_resistance = self.slip_stiffness * self.stiffness()[1];
+        let initial_resistance = slip_resistance * start.state.slip;
+        if let Some(limit) = self.prescribed_limit(start) {
+            let value = direction * limit - initial_resistance;
+            return Condition { shear: 1.0, slip: -slip_resistance, value, ..Condition::default() };
         }
         let scale = 1.0 / self.friction.max(1.0);
         let pressure = if self.friction > 1.0 { -1.0 } else { -self.friction };
         Condition {
             shear: direction * scale,
-            slip: -direction * scale * drag,
+            slip: -direction * scale * slip_resistance,
             pressure,
-            value: -direction * scale * moved,
+            value: -direction * scale * initial_resistance,
             ..Condition::default()
         }
     }
 
     /// Slip of the structure in this step, as [`SlipSense`] defines it.
-    fn advance(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
-        let moved = trial.slip - start.state.slip;
+    fn slip_increment(&self, start: &PreviousContact, trial: &ContactState) -> f64 {
+        let increment = trial.slip - start.state.slip;
         match self.sense {
-            SlipSense::Inelastic => moved - (trial.shear - start.state.shear) / self.stiffness()[1],
-            SlipSense::Velocity => moved,
+            SlipSense::Inelastic => {
+                increment - (trial.shear - start.state.shear) / self.stiffness()[1]
+            }
+            SlipSense::Velocity => increment,
             SlipSense::LastVelocity => start.slip_rate,
         }
     }
@@ -290,9 +296,10 @@ impl InterfaceLaw for ThinLayer {
             Mode::SlipLeft => self.slip_condition(-1.0, start),
             _ => {
                 // The shear that a closed layer carried is lost when it opens.
-                let gone = mode == Mode::Open && start.mode.is_closed();
-                let before = if gone { 0.0 } else { start.state.shear };
-                Condition { slip: -shear, ..Condition::shear_is(before - shear * start.state.slip) }
+                let is_opening = mode == Mode::Open && start.mode.is_closed();
+                let initial_shear = if is_opening { 0.0 } else { start.state.shear };
+                let value = initial_shear - shear * start.state.slip;
+                Condition { slip: -shear, ..Condition::shear_is(value) }
             }
         };
         [layer, along]
@@ -305,34 +312,36 @@ impl InterfaceLaw for ThinLayer {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Mode {
-        let slack = tolerance.traction;
+        let traction_tolerance = tolerance.traction;
         if mode == Mode::Open {
             return if trial.gap < -tolerance.length { self.modes()[0] } else { Mode::Open };
         }
-        if trial.pressure < -slack {
+        if trial.pressure < -traction_tolerance {
             return Mode::Open;
         }
-        let known = self.known_limit(start);
-        let limit = known.unwrap_or(self.friction * trial.pressure.max(0.0));
-        let slides = |direction: f64| {
-            let still = tolerance.length + slack / self.stiffness()[1];
-            let dragged = self.slip_stiffness > 0.0 && self.friction.is_finite();
-            let pulled = known.is_none() && !dragged;
+        let limit_before_step = self.prescribed_limit(start);
+        let limit = limit_before_step.unwrap_or(self.friction * trial.pressure.max(0.0));
+        let sliding_mode = |direction: f64| {
+            let slip_tolerance = tolerance.length + traction_tolerance / self.stiffness()[1];
+            let has_slip_stiffness = self.slip_stiffness > 0.0 && self.friction.is_finite();
+            let shear_needs_pressure = limit_before_step.is_none() && !has_slip_stiffness;
             if self.friction == 0.0 {
                 mode
-            } else if pulled && direction * trial.shear < -slack {
+            } else if shear_needs_pressure && direction * trial.shear < -traction_tolerance {
                 Mode::Open
-            } else if direction * self.advance(start, trial) < -still {
+            } else if direction * self.slip_increment(start, trial) < -slip_tolerance {
                 Mode::Stick
             } else {
                 mode
             }
         };
         match mode {
-            Mode::SlipRight => slides(1.0),
-            Mode::SlipLeft => slides(-1.0),
+            Mode::SlipRight => sliding_mode(1.0),
+            Mode::SlipLeft => sliding_mode(-1.0),
             // Infinite friction times zero pressure is not a limit.
-            _ if self.friction == f64::INFINITY || trial.shear.abs() <= limit + slack => {
+            _ if self.friction == f64::INFINITY
+                || trial.shear.abs() <= limit + traction_tolerance =>
+            {
                 Mode::Stick
             }
             _ if self.sense == SlipSense::LastVelocity && start.slip_rate < 0.0 => Mode::SlipLeft,
@@ -354,14 +363,16 @@ impl InterfaceLaw for ThinLayer {
     ///
     /// An open element carries no traction; slip excludes the elastic deformation.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
-        let refuse = |needed| Err(Error::Scene { quantity: "thin layer in plan", needed });
+        let quantity = "thin layer in plan";
         if self.debonded > 0.0 {
-            return refuse("`with_debonded_ratio(0.0)`: an open element carries nothing there");
+            let needed = "`with_debonded_ratio(0.0)`: an open element carries nothing there";
+            return Err(Error::Scene { quantity, needed });
         }
         if self.sense != SlipSense::Inelastic || self.slip_stiffness > 0.0 {
-            return refuse("slip that is inelastic, without a stiffness of its own");
+            let needed = "slip that is inelastic, without a stiffness in slip";
+            return Err(Error::Scene { quantity, needed });
         }
-        Ok(match self.known_limit(start) {
+        Ok(match self.prescribed_limit(start) {
             Some(limit) => Limits { shear_strength: limit, ..Limits::default() },
             None => Limits { friction: self.friction, ..Limits::default() },
         })
@@ -373,18 +384,12 @@ impl InterfaceLaw for ThinLayer {
     }
 
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-        let smooth = Self { friction: 0.0, limit: FrictionLimit::Total, ..*self };
-        Box::new(Self { slip_stiffness: 0.0, ..smooth })
+        Box::new(Self { friction: 0.0, limit: FrictionLimit::Total, slip_stiffness: 0.0, ..*self })
     }
 
     fn check(&self, scene: &ContactScene) -> Result<()> {
         let quantity = "friction limited by the static pressure";
-        let needed = "there is none without gravity";
-        require_part(
-            quantity,
-            self.limit != FrictionLimit::Static || scene.gravity != 0.0,
-            needed,
-        )?;
-        Ok(())
+        let has_pressure = self.limit != FrictionLimit::Static || scene.gravity != 0.0;
+        require_part(quantity, has_pressure, "there is none without gravity")
     }
 }

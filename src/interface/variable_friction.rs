@@ -8,8 +8,8 @@ type Coefficient = Box<dyn Fn(&PreviousContact) -> f64 + Send>;
 
 /// [`Coulomb`]'s law with a friction coefficient that a closure gives for each step.
 ///
-/// The closure sees the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. It has no
-/// state variables: friction that depends on the distance slid takes an [`InterfaceLaw`] of your own.
+/// The closure receives the [`PreviousContact`] of the element: slip, slip rate, pressure, static pressure. It has no
+/// state variables: friction that depends on the distance slid needs a user's [`InterfaceLaw`].
 ///
 /// The coefficient is evaluated at the start of the step, so that it cannot change while the modes of the step are
 /// searched for. It therefore lags by one step.
@@ -90,7 +90,7 @@ impl InterfaceLaw for VariableFriction {
         self.at(start).limits(start)
     }
 
-    /// This law without friction, its tensile strength kept.
+    /// This law without friction, with the same tensile strength.
     fn frictionless(&self) -> Box<dyn InterfaceLaw> {
         InterfaceLaw::frictionless(&self.contact)
     }

@@ -11,12 +11,12 @@ use crate::error::{Error, Result};
 
 /// Dense complex matrix, stored column by column.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Block {
+pub(crate) struct ComplexBlock {
     rows: usize,
     values: Vec<Complex64>,
 }
 
-impl Block {
+impl ComplexBlock {
     pub(crate) fn zeros(rows: usize, columns: usize) -> Self {
         Self { rows, values: vec![Complex64::ZERO; rows * columns] }
     }
@@ -29,14 +29,13 @@ impl Block {
         &self.values
     }
 
-    /// The part with these rows and columns.
-    pub(crate) fn part(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
-        let mut part =
-            Self { rows: rows.len(), values: Vec::with_capacity(rows.len() * columns.len()) };
+    /// Copies the submatrix of these rows and columns.
+    pub(crate) fn submatrix(&self, rows: Range<usize>, columns: Range<usize>) -> Self {
+        let mut values = Vec::with_capacity(rows.len() * columns.len());
         for column in columns {
-            part.values.extend_from_slice(&self.values[column * self.rows..][rows.clone()]);
+            values.extend_from_slice(&self.values[column * self.rows..][rows.clone()]);
         }
-        part
+        Self { rows: rows.len(), values }
     }
 
     /// −A.
@@ -47,17 +46,22 @@ impl Block {
 
     /// Largest magnitude of a real or imaginary part.
     pub(crate) fn largest(&self) -> f64 {
-        self.values.iter().fold(0.0, |most, value| most.max(value.re.abs()).max(value.im.abs()))
+        self.values
+            .iter()
+            .fold(0.0, |maximum, value| maximum.max(value.re.abs()).max(value.im.abs()))
     }
 
-    /// Subtracts Cᵀ M⁻¹ C of a symmetric `pivot` M and its `coupling` C to this symmetric matrix.
+    /// Subtracts Cᵀ M⁻¹ C: eliminates the symmetric `pivot` M.
+    ///
+    /// `coupling`: C, from M's rows to this symmetric matrix.
     ///
     /// The result is symmetric to the last bit.
     ///
     /// # Errors
     /// [`Error::Singular`] for a pivot that is singular or not finite.
     pub(crate) fn eliminate(&mut self, pivot: &Self, coupling: &Self) -> Result<()> {
-        let (order, count) = (pivot.rows, self.rows);
+        let order = pivot.rows;
+        let count = self.rows;
         if order == 0 || count == 0 {
             return Ok(());
         }
@@ -89,7 +93,7 @@ impl Block {
     }
 }
 
-impl Index<(usize, usize)> for Block {
+impl Index<(usize, usize)> for ComplexBlock {
     type Output = Complex64;
 
     fn index(&self, (row, column): (usize, usize)) -> &Complex64 {
@@ -97,7 +101,7 @@ impl Index<(usize, usize)> for Block {
     }
 }
 
-impl IndexMut<(usize, usize)> for Block {
+impl IndexMut<(usize, usize)> for ComplexBlock {
     fn index_mut(&mut self, (row, column): (usize, usize)) -> &mut Complex64 {
         &mut self.values[column * self.rows + row]
     }

@@ -34,9 +34,9 @@ impl Complex {
         Self { re, im: 0.0 }
     }
 
-    /// `size` e^(i `angle`).
-    pub(crate) fn polar(size: f64, angle: f64) -> Self {
-        Self::new(size * angle.cos(), size * angle.sin())
+    /// `modulus` e^(i `angle`).
+    pub(crate) fn polar(modulus: f64, angle: f64) -> Self {
+        Self::new(modulus * angle.cos(), modulus * angle.sin())
     }
 
     /// Absolute value.
@@ -115,20 +115,19 @@ impl Complex {
 
     /// Principal artanh; on the real axis beyond ±1, its real part.
     pub(crate) fn atanh(self) -> Self {
-        let above = (1.0 + self.re).powi(2) + self.im * self.im;
-        // The lower limit 1e-30 replaces zero at the pole.
-        let below = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
-        let above = above.max(1e-30);
-        let re = if self.re.abs() < 0.5 * above.min(below) {
-            0.25 * (4.0 * self.re / below).ln_1p()
+        // |1 ± x|²; the lower limit 1e-30 replaces zero at the poles.
+        let plus = ((1.0 + self.re).powi(2) + self.im * self.im).max(1e-30);
+        let minus = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
+        let re = if self.re.abs() < 0.5 * plus.min(minus) {
+            0.25 * (4.0 * self.re / minus).ln_1p()
         } else {
-            0.25 * (above / below).ln()
+            0.25 * (plus / minus).ln()
         };
         if self.im == 0.0 {
             return Self::real(re);
         }
-        let size = self.re * self.re + self.im * self.im;
-        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - size))
+        let square = self.re * self.re + self.im * self.im;
+        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - square))
     }
 
     /// This number in the type that transforms and matrices use.

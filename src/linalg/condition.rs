@@ -9,7 +9,7 @@
 use super::{DenseFactor, SparseFactor, SparseMatrix};
 
 /// Largest number of products of the estimator, with B and with Bᵀ.
-const ITERATIONS: usize = 5;
+const MAX_ESTIMATOR_PRODUCTS: usize = 5;
 
 /// Estimate of ‖B‖₁ from `multiply(b, transposed)`, which overwrites b with B b or Bᵀ b; B is the inverse of a matrix, or
 /// the matrix.
@@ -20,15 +20,15 @@ fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
     let mut x = vec![1.0 / order as f64; order];
     let mut signs = vec![0.0; order];
     let mut estimate = 0.0_f64;
-    let mut place = usize::MAX;
-    for iteration in 0..ITERATIONS {
+    let mut unit_entry = usize::MAX;
+    for iteration in 0..MAX_ESTIMATOR_PRODUCTS {
         multiply(&mut x, false);
         let norm: f64 = x.iter().map(|x| x.abs()).sum();
         if !norm.is_finite() {
             return f64::INFINITY;
         }
-        let same = signs.iter().zip(&x).all(|(s, x)| *s == x.signum());
-        if iteration > 0 && (norm <= estimate || same) {
+        let signs_repeat = signs.iter().zip(&x).all(|(s, x)| *s == x.signum());
+        if iteration > 0 && (norm <= estimate || signs_repeat) {
             estimate = estimate.max(norm);
             break;
         }
@@ -36,13 +36,13 @@ fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         signs.iter_mut().zip(&x).for_each(|(s, x)| *s = x.signum());
         x.copy_from_slice(&signs);
         multiply(&mut x, true);
-        let best = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
-        if best == place {
+        let largest_entry = (0..order).fold(0, |a, b| if x[b].abs() > x[a].abs() { b } else { a });
+        if largest_entry == unit_entry {
             break;
         }
-        place = best;
+        unit_entry = largest_entry;
         x.fill(0.0);
-        x[place] = 1.0;
+        x[unit_entry] = 1.0;
     }
     // This vector finds norms that the iteration may miss.
     let last = order.max(2) as f64 - 1.0;
@@ -51,17 +51,17 @@ fn one_norm(order: usize, multiply: &mut dyn FnMut(&mut [f64], bool)) -> f64 {
         *x = sign * (1.0 + i as f64 / last);
     }
     multiply(&mut x, false);
-    let other: f64 = x.iter().map(|x| x.abs()).sum::<f64>() * 2.0 / (3.0 * order as f64);
-    if other.is_finite() { estimate.max(other) } else { f64::INFINITY }
+    let alternative: f64 = x.iter().map(|x| x.abs()).sum::<f64>() * 2.0 / (3.0 * order as f64);
+    if alternative.is_finite() { estimate.max(alternative) } else { f64::INFINITY }
 }
 
 /// Roots of the diagonal's magnitudes; one where it is zero.
-fn scales(diagonal: impl Iterator<Item = f64>) -> Vec<f64> {
+fn roots_of_diagonal(diagonal: impl Iterator<Item = f64>) -> Vec<f64> {
     diagonal.map(|d| if d == 0.0 { 1.0 } else { d.abs().sqrt() }).collect()
 }
 
-fn scale(values: &mut [f64], scales: &[f64]) {
-    values.iter_mut().zip(scales).for_each(|(x, s)| *x *= s);
+fn scale_by(values: &mut [f64], factors: &[f64]) {
+    values.iter_mut().zip(factors).for_each(|(x, s)| *x *= s);
 }
 
 /// Condition number of a dense row-major matrix scaled by its diagonal, in the 1-norm.
@@ -71,11 +71,12 @@ pub(crate) fn dense_condition(matrix: &[f64], order: usize) -> f64 {
     if order == 0 {
         return 1.0;
     }
-    let scales = scales((0..order).map(|i| matrix[i * order + i]));
+    let roots = roots_of_diagonal((0..order).map(|i| matrix[i * order + i]));
     let scaled: Vec<f64> =
-        (0..order * order).map(|k| matrix[k] / (scales[k / order] * scales[k % order])).collect();
-    let column = |j: usize| (0..order).map(|i| scaled[i * order + j].abs()).sum::<f64>();
-    let norm = (0..order).map(column).fold(0.0, f64::max);
+        (0..order * order).map(|k| matrix[k] / (roots[k / order] * roots[k % order])).collect();
+    let norm = (0..order)
+        .map(|j| (0..order).map(|i| scaled[i * order + j].abs()).sum::<f64>())
+        .fold(0.0, f64::max);
     let mut factor = DenseFactor::with_capacity(order);
     if !factor.factor(&scaled, order) {
         return f64::INFINITY;
@@ -93,37 +94,37 @@ pub(crate) fn condition_by_products(
     multiply: impl Fn(&mut [f64], bool),
     mut solve: impl FnMut(&mut [f64], bool),
 ) -> f64 {
-    let scales = scales(diagonal.iter().copied());
-    let reciprocals: Vec<f64> = scales.iter().map(|scale| scale.recip()).collect();
+    let roots = roots_of_diagonal(diagonal.iter().copied());
+    let reciprocals: Vec<f64> = roots.iter().map(|root| root.recip()).collect();
     let norm = one_norm(diagonal.len(), &mut |x, transposed| {
-        scale(x, &reciprocals);
+        scale_by(x, &reciprocals);
         multiply(x, transposed);
-        scale(x, &reciprocals);
+        scale_by(x, &reciprocals);
     });
     norm * one_norm(diagonal.len(), &mut |x, transposed| {
-        scale(x, &scales);
+        scale_by(x, &roots);
         solve(x, transposed);
-        scale(x, &scales);
+        scale_by(x, &roots);
     })
 }
 
 /// Condition number of a sparse matrix scaled by its diagonal, from its factors, in the 1-norm.
 pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> f64 {
     let order = matrix.order();
-    let scales = scales(matrix.diagonal().into_iter());
-    let mut columns = vec![0.0; order];
+    let roots = roots_of_diagonal(matrix.diagonal().into_iter());
+    let mut column_sums = vec![0.0; order];
     for (row, column, value) in matrix.entries() {
-        columns[column] += value.abs() / (scales[row] * scales[column]);
+        column_sums[column] += value.abs() / (roots[row] * roots[column]);
     }
-    let norm = columns.into_iter().fold(0.0, f64::max);
+    let norm = column_sums.into_iter().fold(0.0, f64::max);
     norm * one_norm(order, &mut |x, transposed| {
-        scale(x, &scales);
+        scale_by(x, &roots);
         if transposed {
             factor.solve_transposed(x);
         } else {
             factor.solve_many(x);
         }
-        scale(x, &scales);
+        scale_by(x, &roots);
     })
 }
 
@@ -140,7 +141,7 @@ mod tests {
         for case in 0..400 {
             let n = 1 + case % 12;
             // Any condition, any units.
-            let own = random.log_within(1e-10, 1.0);
+            let smallest_part = random.log_within(1e-10, 1.0);
             let units: Vec<f64> = (0..n).map(|_| random.log_within(1e-6, 1e6)).collect();
             let root: Vec<f64> = (0..n * n).map(|_| random.within(-1.0, 1.0)).collect();
             let skew = if case % 3 == 0 { 0.5 } else { 0.0 };
@@ -148,7 +149,8 @@ mod tests {
             for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
                 // One direction is almost missing.
                 let product: f64 = (1..n).map(|k| root[i * n + k] * root[j * n + k]).sum();
-                let rest = if i == j { own } else { skew * root[i.min(j) * n + i.max(j)] };
+                let rest =
+                    if i == j { smallest_part } else { skew * root[i.min(j) * n + i.max(j)] };
                 let sign = if i < j { -1.0 } else { 1.0 };
                 matrix[i * n + j] = (product + sign * rest) * units[i] * units[j];
                 if i == j {

@@ -2,21 +2,21 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
-use super::product::{ROWS as COLUMNS, Simd, WithSimd, add_rows, vectorized};
+use super::product::{ROWS_AT_ONCE as COLUMNS_AT_ONCE, Simd, WithSimd, add_rows, vectorized};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor as dense_factor, solve as dense_solve};
 use faer::perm::PermRef;
 use faer::traits::ComplexField;
 use faer::{Conj, MatMut, MatRef, Par, Spec};
 
-/// LU factors of a dense matrix with partial pivoting; factoring again reuses the memory.
+/// LU factors of a dense matrix with partial pivoting, in reusable memory.
 pub(crate) struct DenseFactor<T = f64> {
     order: usize,
     /// L and U, column by column.
     values: Vec<T>,
     forward: Vec<usize>,
     inverse: Vec<usize>,
-    /// Row exchanges of the last factoring.
+    /// Number of row exchanges of the last factorization.
     pub(super) transpositions: usize,
     buffer: MemBuffer,
     /// Right-hand side of a small solve.
@@ -74,7 +74,7 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
         if order == 0 {
             return true;
         }
-        let (info, _) = dense_factor::lu_in_place(
+        let result = dense_factor::lu_in_place(
             MatMut::from_column_major_slice_mut(&mut self.values, order, order),
             &mut self.forward,
             &mut self.inverse,
@@ -82,7 +82,7 @@ impl<T: ComplexField + Copy> DenseFactor<T> {
             MemStack::new(&mut self.buffer),
             Spec::default(),
         );
-        self.transpositions = info.transposition_count;
+        self.transpositions = result.0.transposition_count;
         self.pivots().all(|pivot| T::is_finite_impl(&pivot) && pivot != T::zero_impl())
     }
 
@@ -163,22 +163,22 @@ impl WithSimd for Substitute<'_> {
         let Self { columns, x } = self;
         let order = x.len();
         let column = |k: usize| &columns[k * order..][..order];
-        let whole = order - order % COLUMNS;
-        for k in (0..whole).step_by(COLUMNS) {
-            let (known, rest) = x[k..].split_at_mut(COLUMNS);
-            let columns: [&[f64]; COLUMNS] = std::array::from_fn(|j| &column(k + j)[k..]);
-            solve_lower(|j| columns[j], known);
-            let factors = std::array::from_fn(|j| -known[j]);
-            add_rows(simd, factors, columns.map(|column| &column[COLUMNS..]), rest);
+        let whole = order - order % COLUMNS_AT_ONCE;
+        for k in (0..whole).step_by(COLUMNS_AT_ONCE) {
+            let (solved, rest) = x[k..].split_at_mut(COLUMNS_AT_ONCE);
+            let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| &column(k + j)[k..]);
+            solve_lower(|j| columns[j], solved);
+            let factors = std::array::from_fn(|j| -solved[j]);
+            add_rows(simd, factors, columns.map(|column| &column[COLUMNS_AT_ONCE..]), rest);
         }
         solve_lower(|j| &column(whole + j)[whole..], &mut x[whole..]);
-        // The incomplete block is the first one: no rows are above it, which it would have to update.
-        let first = order % COLUMNS;
-        for k in (first..order).step_by(COLUMNS).rev() {
-            let (rest, known) = x[..k + COLUMNS].split_at_mut(k);
-            let columns: [&[f64]; COLUMNS] = std::array::from_fn(|j| column(k + j));
-            solve_upper(|j| &columns[j][k..], known);
-            let factors = std::array::from_fn(|j| -known[j]);
+        // The incomplete block is the first one, because no rows above it need an update.
+        let first = order % COLUMNS_AT_ONCE;
+        for k in (first..order).step_by(COLUMNS_AT_ONCE).rev() {
+            let (rest, solved) = x[..k + COLUMNS_AT_ONCE].split_at_mut(k);
+            let columns: [&[f64]; COLUMNS_AT_ONCE] = std::array::from_fn(|j| column(k + j));
+            solve_upper(|j| &columns[j][k..], solved);
+            let factors = std::array::from_fn(|j| -solved[j]);
             add_rows(simd, factors, columns.map(|column| &column[..k]), rest);
         }
         solve_upper(column, &mut x[..first]);

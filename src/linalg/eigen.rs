@@ -31,14 +31,6 @@ pub(crate) fn generalised_modes(
     stiffness: &SparseMatrix,
     mass: &SparseMatrix,
 ) -> Option<(Vec<f64>, Vec<f64>)> {
-    let n = mass.order();
-    let dense = |matrix: &SparseMatrix| {
-        let mut dense = Mat::<f64>::zeros(n, n);
-        for (row, column, value) in matrix.entries() {
-            dense[(row, column)] = value;
-        }
-        dense
-    };
     let factor = dense(mass).llt(Side::Lower).ok()?;
     let mut reduced = dense(stiffness);
     solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
@@ -59,6 +51,15 @@ pub(crate) fn symmetric_modes(matrix: &[f64], order: usize) -> Option<(Vec<f64>,
     Some((values, by_rows(&vectors)))
 }
 
+fn dense(matrix: &SparseMatrix) -> Mat<f64> {
+    let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
+    for (row, column, value) in matrix.entries() {
+        dense[(row, column)] = value;
+    }
+    dense
+}
+
+/// The values of a matrix, row-major.
 fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
     let n = matrix.ncols();
     (0..matrix.nrows()).flat_map(|i| (0..n).map(move |j| matrix[(i, j)])).collect()
@@ -70,7 +71,8 @@ fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     if n == 0 {
         return Some((Vec::new(), Mat::zeros(0, 0)));
     }
-    let (mut values, mut vectors) = (Diag::<f64>::zeros(n), Mat::<f64>::zeros(n, n));
+    let mut values = Diag::<f64>::zeros(n);
+    let mut vectors = Mat::<f64>::zeros(n, n);
     // From order 128 on, faer uses divide and conquer by default. It left residuals of 6e-7 of the largest
     // force (order 308, the containment of the examples); the QR iteration leaves residuals at rounding
     // level.

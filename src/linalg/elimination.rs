@@ -11,29 +11,29 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMat, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
-use super::dissection::dissection;
+use super::dissection::{Adjacency, dissection};
 use super::matrix::SparseMatrix;
 use super::partition::Partition;
 
-/// Places of the entries, by columns.
+/// Places of the entries of a matrix, by columns.
 type Pattern<'a> = SymbolicSparseColMatRef<'a, usize>;
 
-/// Entries of a factor from which another order of elimination is tried.
+/// Number of entries of a factor from which nested dissection is tried.
 ///
-/// Below, numeric factors cost less than that order.
-const LARGE: usize = 1_500_000;
-/// Smallest number of entries of a factor over the square of the number of rows on which it is condensed.
-const SQUARES: usize = 4;
+/// Smaller factors cost less than the dissection.
+const MIN_SHARED_ORDER_ENTRIES: usize = 1_500_000;
+/// Smallest ratio of a factor's entries to its condensed matrix' entries.
+const MIN_ENTRIES_PER_SQUARE: usize = 4;
 
 /// Order of elimination that matrices of one structure share.
 ///
-/// Empty until a factor of many entries has chosen it. Matrices with few entries in their factors do not need it.
+/// Empty until the first factor with many entries chooses it. Smaller factors do not need it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Elimination(Arc<OnceLock<Order>>);
+pub(crate) struct Elimination(Arc<OnceLock<EliminationOrder>>);
 
 /// Rows in the order of elimination, and the place of each row.
 #[derive(Debug)]
-struct Order {
+struct EliminationOrder {
     rows: Vec<usize>,
     places: Vec<usize>,
     /// Entries of the factor for which the order was chosen.
@@ -43,55 +43,72 @@ struct Order {
 impl Elimination {
     /// Order for a matrix, if its factor may have many entries.
     pub(crate) fn of(matrix: &SparseMatrix) -> Self {
-        let own = Self::default();
-        if matrix.order() * matrix.order() / 2 > LARGE {
-            own.analyse(by_columns(matrix).symbolic());
+        let elimination = Self::default();
+        if matrix.order() * matrix.order() / 2 > MIN_SHARED_ORDER_ENTRIES {
+            elimination.analyse(by_columns(matrix).symbolic());
         }
-        own
+        elimination
     }
 
-    /// The shared order with the rows `last` at the end, if the factor has many more entries than their square.
+    /// The shared order with the rows `last` at the end.
+    ///
+    /// `None` unless the factor has many more entries than the square of their number.
     pub(crate) fn ending_with(&self, last: &[usize]) -> Option<Self> {
-        let order = self.0.get().filter(|order| SQUARES * last.len().pow(2) <= order.entries)?;
+        let order = self
+            .0
+            .get()
+            .filter(|order| MIN_ENTRIES_PER_SQUARE * last.len().pow(2) <= order.entries)?;
         let mut is_last = vec![false; order.rows.len()];
         for row in last {
             is_last[*row] = true;
         }
         let others = order.rows.iter().filter(|row| !is_last[**row]);
-        let own = Order::new(others.chain(last).copied().collect(), order.entries);
-        Some(Self(Arc::new(OnceLock::from(own))))
+        let reordered = EliminationOrder::new(others.chain(last).copied().collect(), order.entries);
+        Some(Self(Arc::new(OnceLock::from(reordered))))
     }
 
-    /// Symbolic factor in the shared order, or in the order of minimum degree while there is none.
+    /// Symbolic factor in the shared order.
+    ///
+    /// While there is none, in the order of minimum degree.
     ///
     /// The first factor of many entries chooses the shared order: by dissection, if its factor has fewer entries.
     pub(super) fn analyse(&self, pattern: Pattern<'_>) -> Option<SymbolicCholesky<usize>> {
         if let Some(order) = self.0.get().filter(|order| order.rows.len() == pattern.ncols()) {
             return symbolic_in(pattern, order.by_parts(pattern).as_symmetric());
         }
-        let found = symbolic_in(pattern, SymmetricOrdering::Amd)?;
-        if found.len_val() < LARGE {
-            return Some(found);
+        let by_degree = symbolic_in(pattern, SymmetricOrdering::Amd)?;
+        if by_degree.len_val() < MIN_SHARED_ORDER_ENTRIES {
+            return Some(by_degree);
         }
-        let Some(dissected) = Order::by_dissection(pattern) else { return Some(found) };
-        let other = symbolic_in(pattern, dissected.as_symmetric())?;
-        let dissected = Order { entries: other.len_val(), ..dissected };
-        let is_better = other.len_val() < found.len_val();
-        let by_degree = |found: &SymbolicCholesky<usize>| {
-            let (rows, places) = found.perm()?.arrays();
-            let (rows, places) = (rows.to_vec(), places.to_vec());
-            Some(Order { rows, places, entries: found.len_val() })
+        let Some(dissection_order) = EliminationOrder::by_dissection(pattern) else {
+            return Some(by_degree);
         };
-        let order = if is_better { Some(dissected) } else { by_degree(&found) };
+        let by_dissection = symbolic_in(pattern, dissection_order.as_symmetric())?;
+        let is_better = by_dissection.len_val() < by_degree.len_val();
+        let order = if is_better {
+            Some(EliminationOrder { entries: by_dissection.len_val(), ..dissection_order })
+        } else {
+            EliminationOrder::of_factor(&by_degree)
+        };
         if let Some(order) = order {
-            // Another factor may have chosen meanwhile.
+            // Another factor may have chosen an order meanwhile; then that one stays.
             let _ = self.0.set(order);
         }
-        Some(if is_better { other } else { found })
+        Some(if is_better { by_dissection } else { by_degree })
     }
 }
 
-impl Order {
+impl EliminationOrder {
+    /// Order of a symbolic factor.
+    fn of_factor(factor: &SymbolicCholesky<usize>) -> Option<Self> {
+        let permutation = factor.perm()?.arrays();
+        Some(Self {
+            rows: permutation.0.to_vec(),
+            places: permutation.1.to_vec(),
+            entries: factor.len_val(),
+        })
+    }
+
     fn by_dissection(pattern: Pattern<'_>) -> Option<Self> {
         let rows = dissection(
             pattern.ncols(),
@@ -107,9 +124,10 @@ impl Order {
         Self { rows, places, entries }
     }
 
-    /// This order, in separate parts of a matrix one after the other.
+    /// This order, with uncoupled parts of the matrix one after the other.
     ///
-    /// The masses of bricks do not couple directions: a factor whose columns alternate between these has no blocks.
+    /// The masses of bricks do not couple directions: a factor whose columns alternate between directions has no
+    /// dense blocks.
     fn by_parts(&self, pattern: Pattern<'_>) -> Self {
         let mut parts = Partition::new(self.rows.len());
         for column in 0..self.rows.len() {
@@ -135,14 +153,16 @@ fn symbolic_in(
     factorize_symbolic_cholesky(pattern, Side::Lower, order, parameters).ok()
 }
 
-/// Vertices of a graph by minimum degree; the graph is given as a symmetric pattern.
-fn by_minimum_degree(start: &[usize], neighbours: &[usize]) -> Option<Vec<usize>> {
-    let count = start.len() - 1;
-    let [mut order, mut places] = [(); 2].map(|()| vec![0; count]);
-    let pattern = Pattern::new_checked(count, count, start, None, neighbours);
-    let scratch = amd::order_maybe_unsorted_scratch::<usize>(count, neighbours.len());
+/// Vertices of a graph in the order of minimum degree.
+fn by_minimum_degree(graph: &Adjacency) -> Option<Vec<usize>> {
+    let count = graph.start.len() - 1;
+    let mut order = vec![0; count];
+    let mut places = vec![0; count];
+    let pattern = Pattern::new_checked(count, count, &graph.start, None, &graph.neighbours);
+    let scratch = amd::order_maybe_unsorted_scratch::<usize>(count, graph.neighbours.len());
     let mut buffer = MemBuffer::new(scratch);
-    let (control, stack) = (amd::Control::default(), MemStack::new(&mut buffer));
+    let stack = MemStack::new(&mut buffer);
+    let control = amd::Control::default();
     amd::order_maybe_unsorted(&mut order, &mut places, pattern, control, stack).ok()?;
     Some(order)
 }
@@ -154,11 +174,13 @@ pub(super) fn by_columns(matrix: &SparseMatrix) -> SparseColMat<usize, f64> {
     matrix.entries().for_each(|(_, column, _)| start[column + 1] += 1);
     (0..order).for_each(|column| start[column + 1] += start[column]);
     let mut next = start.clone();
-    let (mut rows, mut values) = (vec![0; matrix.stored()], vec![0.0; matrix.stored()]);
+    let mut rows = vec![0; matrix.stored()];
+    let mut values = vec![0.0; matrix.stored()];
     for (row, column, value) in matrix.entries() {
-        let at = &mut next[column];
-        (rows[*at], values[*at]) = (row, value);
-        *at += 1;
+        let place = next[column];
+        rows[place] = row;
+        values[place] = value;
+        next[column] += 1;
     }
     let pattern = SymbolicSparseColMat::new_checked(order, order, start, None, rows);
     SparseColMat::new(pattern, values)
@@ -172,11 +194,10 @@ mod tests {
     /// A cube of `side`³ masses, each joined to its 26 neighbours by springs and to the ground by one.
     fn cube(side: usize, spring: f64) -> SparseMatrix {
         let mut matrix = Triplets::new(side.pow(3));
-        let place = |v: usize| [v % side, v / side % side, v / side / side];
         for v in 0..side.pow(3) {
             matrix.add(v, v, 0.1);
-            let [x, y, z] = place(v);
-            for u in (0..27).map(|k| [x + k % 3, y + k / 3 % 3, z + k / 9]) {
+            let at = [v % side, v / side % side, v / side / side];
+            for u in (0..27).map(|k| [at[0] + k % 3, at[1] + k / 3 % 3, at[2] + k / 9]) {
                 // One more than the neighbour's place.
                 if u.iter().all(|k| (1..=side).contains(k)) {
                     let u = u[0] - 1 + side * (u[1] - 1 + side * (u[2] - 1));
@@ -189,7 +210,7 @@ mod tests {
         SparseMatrix::new("cube", &matrix).unwrap()
     }
 
-    /// Factors of a few entries keep the order of minimum degree; of many entries they share a better one.
+    /// Small factors keep the order of minimum degree; large ones share a better order.
     #[test]
     fn factors_of_many_entries_share_an_order_with_fewer() {
         let elimination = Elimination::default();
@@ -211,8 +232,11 @@ mod tests {
         assert_eq!((order.rows.len(), stored[0]), (8000, stored[1]));
         let columns = by_columns(&matrix);
         let amd = symbolic_in(columns.symbolic(), SymmetricOrdering::Amd).unwrap();
-        assert!(amd.len_val() > LARGE && 5 * stored[0] < 4 * amd.len_val(), "{stored:?}");
-        // A matrix of another order chooses its own.
+        assert!(
+            amd.len_val() > MIN_SHARED_ORDER_ENTRIES && 5 * stored[0] < 4 * amd.len_val(),
+            "{stored:?}"
+        );
+        // A matrix of another size chooses another order.
         SparseFactor::of("cube", &cube(8, 1.0), &elimination).unwrap();
     }
 
@@ -226,57 +250,62 @@ mod tests {
         let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
         let condensed = factor.condensed(&last).unwrap();
         let force: Vec<f64> = (0..400).map(|i| f64::from(i).cos()).collect();
-        let mut moved = vec![0.0; 8000];
-        last.iter().zip(&force).for_each(|(row, force)| moved[*row] = *force);
-        SparseFactor::of("cube", &matrix, &Elimination::default()).unwrap().solve(&mut moved);
-        let on_last: Vec<f64> = last.iter().map(|row| moved[*row]).collect();
+        let mut displacement = vec![0.0; 8000];
+        last.iter().zip(&force).for_each(|(row, force)| displacement[*row] = *force);
+        SparseFactor::of("cube", &matrix, &Elimination::default())
+            .unwrap()
+            .solve(&mut displacement);
+        let on_last: Vec<f64> = last.iter().map(|row| displacement[*row]).collect();
         let found = SparseMatrix::full(400, condensed.clone()).times(&on_last);
         assert!(found.iter().zip(&force).all(|(a, b)| (a - b).abs() < 1e-10));
         // With another matrix on the last rows, which couples all.
         let shift = |k: usize| if k.is_multiple_of(401) { 0.5 } else { 1e-3 };
-        let shifted = condensed.iter().enumerate().map(|(k, own)| own + shift(k));
+        let shifted = condensed.iter().enumerate().map(|(k, value)| value + shift(k));
         let shifted: Vec<f64> = shifted.collect();
         let x: Vec<f64> = (0..8000).map(|i| f64::from(i).sin()).collect();
-        let mut moved = matrix.times(&x);
+        let mut solution = matrix.times(&x);
         for (k, row) in last.iter().enumerate() {
-            let beside = last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
-            moved[*row] += beside.sum::<f64>();
+            let added = last.iter().enumerate().map(|(j, row)| shift(400 * k + j) * x[*row]);
+            solution[*row] += added.sum::<f64>();
         }
-        factor.with_condensed(&last, &shifted).unwrap().solve(&mut moved);
-        assert!(moved.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
+        factor.with_condensed(&last, &shifted).unwrap().solve(&mut solution);
+        assert!(solution.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
         let factor = SparseFactor::of("cube", &matrix, &ending).unwrap();
-        // Other rows are not last, and too many rows do not pay.
-        assert!(factor.condensed(&last[1..]).is_none_or(|own| own.len() == 399 * 399));
+        // Other rows are not the last ones, and for too many rows condensation costs more than a solve.
+        assert!(factor.condensed(&last[1..]).is_none_or(|matrix| matrix.len() == 399 * 399));
         assert!(factor.condensed(&[last[0]]).is_none());
         assert!(factor.with_condensed(&last, &vec![0.0; 160_000]).is_none());
         assert!(elimination.ending_with(&(0..4000).collect::<Vec<_>>()).is_none());
         assert!(Elimination::default().ending_with(&last).is_none());
     }
 
-    /// Three cubes that do not couple, row by row: in the order of one that couples them, the factors of each.
+    /// Three uncoupled cubes, numbered in turns: an order for coupled cubes gives the factors of each.
     #[test]
     fn separate_parts_are_eliminated_one_after_the_other() {
-        let one = cube(13, 2.0);
-        let [mut apart, mut coupled] = [(); 2].map(|()| Triplets::new(3 * one.order()));
-        for (row, column, value) in one.entries() {
-            (0..3).for_each(|k| apart.add(3 * row + k, 3 * column + k, value));
+        let single_cube = cube(13, 2.0);
+        let mut uncoupled = Triplets::new(3 * single_cube.order());
+        let mut coupled = Triplets::new(3 * single_cube.order());
+        for (row, column, value) in single_cube.entries() {
+            (0..3).for_each(|k| uncoupled.add(3 * row + k, 3 * column + k, value));
             for (k, l) in (0..9).map(|k| (k / 3, k % 3)) {
                 let value = if k == l { 3.0 * value } else { 0.1 * value };
                 coupled.add(3 * row + k, 3 * column + l, value);
             }
         }
-        let [apart, coupled] = [apart, coupled].map(|own| SparseMatrix::new("", &own).unwrap());
+        let uncoupled = SparseMatrix::new("", &uncoupled).unwrap();
+        let coupled = SparseMatrix::new("", &coupled).unwrap();
         let elimination = Elimination::of(&coupled);
         let order = elimination.0.get().unwrap();
-        let columns = by_columns(&apart);
+        let columns = by_columns(&uncoupled);
         let parts = order.by_parts(columns.symbolic());
-        assert!(parts.rows.chunks(one.order()).enumerate().all(|(k, own)| {
-            own.iter().all(|row| row % 3 == k) && own.is_sorted_by_key(|row| order.places[*row])
-        }));
+        for (k, rows) in parts.rows.chunks(single_cube.order()).enumerate() {
+            assert!(rows.iter().all(|row| row % 3 == k));
+            assert!(rows.is_sorted_by_key(|row| order.places[*row]));
+        }
         assert_eq!(order.by_parts(by_columns(&coupled).symbolic()).rows, order.rows);
-        let x: Vec<f64> = (0..apart.order()).map(|i| (i as f64).sin()).collect();
-        let mut found = apart.times(&x);
-        SparseFactor::of("apart", &apart, &elimination).unwrap().solve(&mut found);
+        let x: Vec<f64> = (0..uncoupled.order()).map(|i| (i as f64).sin()).collect();
+        let mut found = uncoupled.times(&x);
+        SparseFactor::of("apart", &uncoupled, &elimination).unwrap().solve(&mut found);
         assert!(found.iter().zip(&x).all(|(a, b)| (a - b).abs() < 1e-10));
     }
 }

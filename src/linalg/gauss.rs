@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-/// Orders kept, ascending.
-const ORDERS: [usize; 12] = [2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 26];
+/// Orders of the cached rules, ascending.
+const CACHED_ORDERS: [usize; 12] = [2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 26];
 
 /// A rule on [−1, 1].
 #[derive(Debug)]
@@ -14,8 +14,11 @@ pub(crate) struct Rule {
     reach: f64,
 }
 
-/// Target relative error on one piece.
-const TOLERANCE: f64 = 1e-14;
+/// Target relative error of a rule on one piece.
+const RULE_ERROR_TOLERANCE: f64 = 1e-14;
+
+/// Number of Newton's iterations for a node: enough for rounding at all orders.
+const NEWTON_ITERATIONS: usize = 6;
 
 impl Rule {
     /// Rule of `order` points.
@@ -23,27 +26,39 @@ impl Rule {
     /// Two and three points have closed forms; others use Newton's iteration on the Legendre polynomial
     /// (Davis & Rabinowitz 1984, § 2.7).
     pub(crate) fn new(order: usize) -> Self {
-        let [third, far] = [1.0 / 3.0_f64.sqrt(), 0.6_f64.sqrt()];
-        let (nodes, weights) = match order {
-            2 => (vec![-third, third], vec![1.0, 1.0]),
-            3 => (vec![-far, 0.0, far], vec![5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0]),
+        match order {
+            2 => {
+                let node = 1.0 / 3.0_f64.sqrt();
+                Self::of_points(vec![-node, node], vec![1.0, 1.0])
+            }
+            3 => {
+                let node = 0.6_f64.sqrt();
+                Self::of_points(vec![-node, 0.0, node], vec![5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0])
+            }
             _ => Self::by_iteration(order),
-        };
+        }
+    }
+
+    fn of_points(nodes: Vec<f64>, weights: Vec<f64>) -> Self {
         // The error of an order-n rule falls like ρ^(−2n).
-        let rho = TOLERANCE.powf(-0.5 / order as f64);
+        let rho = RULE_ERROR_TOLERANCE.powf(-0.5 / nodes.len() as f64);
         Self { nodes, weights, reach: 0.5 * (rho + 1.0 / rho) }
     }
 
-    fn by_iteration(order: usize) -> (Vec<f64>, Vec<f64>) {
+    fn by_iteration(order: usize) -> Self {
         let count = order as f64;
-        let (mut nodes, mut weights) = (vec![0.0; order], vec![0.0; order]);
+        let mut nodes = vec![0.0; order];
+        let mut weights = vec![0.0; order];
         for i in 0..order {
             let mut x = -(std::f64::consts::PI * (i as f64 + 0.75) / (count + 0.5)).cos();
             let mut slope = 1.0;
-            for _ in 0..6 {
-                let (mut before, mut value) = (1.0, x);
+            for _ in 0..NEWTON_ITERATIONS {
+                let mut before = 1.0;
+                let mut value = x;
                 for k in 2..=order {
-                    (before, value) = (value, next_legendre(k, x, [before, value]));
+                    let next = next_legendre(k, x, [before, value]);
+                    before = value;
+                    value = next;
                 }
                 slope = count * (x * value - before) / (x * x - 1.0);
                 x -= value / slope;
@@ -51,11 +66,12 @@ impl Rule {
             nodes[i] = x;
             weights[i] = 2.0 / ((1.0 - x * x) * slope * slope);
         }
-        (nodes, weights)
+        Self::of_points(nodes, weights)
     }
 }
 
-/// Legendre polynomial of `degree` at `x` from the two polynomials of lower degree:
+/// Legendre polynomial of `degree` at `x` from the two of lower degree.
+///
 /// k Pₖ = (2k−1) x Pₖ₋₁ − (k−1) Pₖ₋₂.
 pub(crate) fn next_legendre(degree: usize, x: f64, [before, last]: [f64; 2]) -> f64 {
     let k = degree as f64;
@@ -88,11 +104,11 @@ pub(crate) fn cube(order: usize) -> impl Iterator<Item = ([f64; 3], f64)> {
 
 fn rules() -> &'static [Rule] {
     static RULES: OnceLock<Vec<Rule>> = OnceLock::new();
-    RULES.get_or_init(|| ORDERS.iter().map(|&order| Rule::new(order)).collect())
+    RULES.get_or_init(|| CACHED_ORDERS.iter().map(|&order| Rule::new(order)).collect())
 }
 
-/// Largest rule used on a piece before it is split.
-const LARGEST: usize = 10;
+/// Index of the largest rule for a piece; a piece that needs a larger rule is split.
+const LARGEST_PIECE_RULE: usize = 10;
 
 /// The rule of `order` points, from 2 to 8.
 pub(crate) fn rule(order: usize) -> &'static Rule {
@@ -101,20 +117,22 @@ pub(crate) fn rule(order: usize) -> &'static Rule {
 
 /// The rule for polynomials up to degree 51.
 pub(crate) fn largest() -> &'static Rule {
-    &rules()[ORDERS.len() - 1]
+    &rules()[CACHED_ORDERS.len() - 1]
 }
 
 /// The cheapest rule for an integrand analytic inside the ellipse (|z−1| + |z+1|)/2 < `reach`.
 ///
 /// `None` if that rule would be larger than the largest rule for a piece.
 pub(crate) fn rule_for(reach: f64) -> Option<&'static Rule> {
-    rules()[..=LARGEST].iter().find(|rule| rule.reach <= reach)
+    rules()[..=LARGEST_PIECE_RULE].iter().find(|rule| rule.reach <= reach)
 }
 
-/// (|p − a| + |p − b|)/(b − a) of a point p in the complex plane and the interval [a, b].
+/// Size of the ellipse through a point of the complex plane with foci at an interval's ends.
+///
+/// (|p − a| + |p − b|)/(b − a) for the point p and the interval [a, b].
 pub(crate) fn reach(point: [f64; 2], low: f64, high: f64) -> f64 {
     if point[1] == 0.0 {
-        // Squares of tiny slownesses would underflow to zero, and pieces would be split without end.
+        // Squares of tiny slownesses underflow to zero; the pieces would then be split endlessly.
         return ((point[0] - low).abs() + (point[0] - high).abs()) / (high - low);
     }
     let square = point[1] * point[1];
@@ -135,8 +153,8 @@ mod tests {
         let third = 1.0 / 3.0_f64.sqrt();
         let mean: f64 = square(2).map(|([x, y], weight)| weight * (x * y).abs()).sum::<f64>() / 4.0;
         assert!((mean - third * third).abs() < 1e-15);
-        let cubic = |(x, weight): (f64, f64)| weight * x.powi(3);
-        let sum: f64 = rule(4).points_on_unit_interval().map(cubic).sum();
+        let sum: f64 =
+            rule(4).points_on_unit_interval().map(|(x, weight)| weight * x.powi(3)).sum();
         assert!((sum - 0.25).abs() < 1e-15);
     }
 

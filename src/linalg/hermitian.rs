@@ -30,8 +30,8 @@ where
     let mut part = Vec::with_capacity(order * order);
     for row in 0..order {
         for column in 0..order {
-            let twin = conj(&matrix[column * order + row]);
-            part.push(mul_real(&add(&matrix[row * order + column], &twin), &0.5));
+            let mirrored = conj(&matrix[column * order + row]);
+            part.push(mul_real(&add(&matrix[row * order + column], &mirrored), &0.5));
         }
     }
     if order == 0 || !part.iter().all(is_finite) {
@@ -53,11 +53,9 @@ where
         Spec::default(),
     )
     .ok()?;
-    let range = values
-        .iter()
-        .map(real)
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-    Some(range)
+    let smallest = values.iter().map(real).fold(f64::INFINITY, f64::min);
+    let largest = values.iter().map(real).fold(f64::NEG_INFINITY, f64::max);
+    Some([smallest, largest])
 }
 
 #[cfg(test)]
@@ -101,8 +99,8 @@ mod tests {
         let c = Complex64::new;
         // Hermitian part [[1, 2i], [−2i, 1]]: eigenvalues 1 ± 2; the rest is skew.
         let matrix = [c(1.0, 5.0), c(0.7, 2.0), c(-0.7, -2.0), c(1.0, -3.0)];
-        let [low, high] = hermitian_range(&matrix, 2).unwrap();
-        assert!((low + 1.0).abs() < 1e-14 && (high - 3.0).abs() < 1e-14);
+        let range = hermitian_range(&matrix, 2).unwrap();
+        assert!((range[0] + 1.0).abs() < 1e-14 && (range[1] - 3.0).abs() < 1e-14);
         assert!(hermitian_range(&[c(f64::NAN, 0.0)], 1).is_none());
         assert!(hermitian_range::<f64>(&[], 0).is_none());
     }

@@ -13,7 +13,7 @@ use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
 /// Largest difference of blocks of equal offset, relative to the largest entry.
-const EQUAL: f64 = 1e-14;
+const OFFSET_BLOCK_TOLERANCE: f64 = 1e-14;
 
 /// Symmetric matrix of 3 × 3 blocks, one for each pair of cells, equal for equal offsets.
 pub(crate) struct LatticeProduct {
@@ -27,7 +27,9 @@ pub(crate) struct LatticeProduct {
     rows: usize,
     along: (Arc<dyn RealToComplex<f64>>, Arc<dyn ComplexToReal<f64>>),
     across: [Arc<dyn Fft<f64>>; 2],
-    /// For each k, columns of S along y: diagonal of ĝ, then its entries (0, 1), (0, 2), (1, 2).
+    /// ĝ at each k: its diagonal, then its entries (0, 1), (0, 2), (1, 2).
+    ///
+    /// For each k along x all along y.
     spectra: Vec<([f64; 3], [Complex<f64>; 3])>,
 }
 
@@ -52,29 +54,32 @@ impl LatticeProduct {
         factors: &[f64],
         block: impl Fn(usize, usize) -> [[f64; 3]; 3],
     ) -> Option<Self> {
-        let counts = [0, 1].map(|axis| cells.iter().fold(0, |most, cell| most.max(cell[axis] + 1)));
-        let lengths = counts.map(|count| smooth(2 * count - 1));
-        let [length, across] = lengths;
+        let counts =
+            [0, 1].map(|axis| cells.iter().fold(0, |largest, cell| largest.max(cell[axis] + 1)));
+        let lengths = counts.map(|count| next_smooth_even(2 * count - 1));
+        let length = lengths[0];
+        let across = lengths[1];
         let mut blocks: Vec<Option<[[f64; 3]; 3]>> = vec![None; length * across];
-        let (mut most, mut apart) = (0.0_f64, 0.0_f64);
+        let mut largest = 0.0_f64;
+        let mut max_difference = 0.0_f64;
         for (receiver, to) in cells.iter().enumerate() {
             for (source, from) in cells.iter().enumerate() {
-                let own = block(receiver, source);
-                let [i, j] =
-                    [0, 1].map(|axis| (lengths[axis] + to[axis] - from[axis]) % lengths[axis]);
-                let known = blocks[j * length + i].get_or_insert(own);
-                for (a, b) in own.as_flattened().iter().zip(known.as_flattened()) {
-                    most = most.max(a.abs());
-                    apart = apart.max((a - b).abs());
+                let offset_block = block(receiver, source);
+                let column = (length + to[0] - from[0]) % length;
+                let row = (across + to[1] - from[1]) % across;
+                let first_block = blocks[row * length + column].get_or_insert(offset_block);
+                for (a, b) in offset_block.as_flattened().iter().zip(first_block.as_flattened()) {
+                    largest = largest.max(a.abs());
+                    max_difference = max_difference.max((a - b).abs());
                 }
             }
         }
-        if apart.is_nan() || apart > EQUAL * most {
+        if max_difference.is_nan() || max_difference > OFFSET_BLOCK_TOLERANCE * largest {
             return None;
         }
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
-        let mut all = Self {
+        let mut product = Self {
             cells: cells.to_vec(),
             places: cells.iter().map(|[i, j]| j * length + i).collect(),
             factors: factors.to_vec(),
@@ -84,13 +89,14 @@ impl LatticeProduct {
             across: [complex.plan_fft_forward(across), complex.plan_fft_inverse(across)],
             spectra: vec![],
         };
-        all.find_spectra(&blocks, EQUAL * most)?;
-        Some(all)
+        product.find_spectra(&blocks, OFFSET_BLOCK_TOLERANCE * largest)?;
+        Some(product)
     }
 
     /// Transforms the blocks of all offsets; `None` if the matrix is not symmetric.
     fn find_spectra(&mut self, blocks: &[Option<[[f64; 3]; 3]>], rounding: f64) -> Option<()> {
-        let [length, across] = self.lengths;
+        let length = self.lengths[0];
+        let across = self.lengths[1];
         let columns = length / 2 + 1;
         let mut scratch = self.scratch();
         let mut entries = [[(); 3]; 3].map(|row| row.map(|()| vec![]));
@@ -111,16 +117,15 @@ impl LatticeProduct {
         let rounding = rounding * (length * across) as f64;
         let scale = 1.0 / (length * across) as f64;
         for k in 0..columns * across {
-            let at = |r: usize, c: usize| entries[r][c][k];
-            let unlike = |r: usize, c: usize| (at(r, c) - at(c, r).conj()).norm();
-            if [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)]
-                .iter()
-                .any(|(r, c)| unlike(*r, *c).is_nan() || unlike(*r, *c) > rounding)
-            {
-                return None;
+            for (r, c) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+                let difference = (entries[r][c][k] - entries[c][r][k].conj()).norm();
+                if difference.is_nan() || difference > rounding {
+                    return None;
+                }
             }
-            let own = [0, 1, 2].map(|r| scale * at(r, r).re);
-            self.spectra.push((own, [(0, 1), (0, 2), (1, 2)].map(|(r, c)| at(r, c) * scale)));
+            let diagonal = [0, 1, 2].map(|r| scale * entries[r][r][k].re);
+            let others = [(0, 1), (0, 2), (1, 2)].map(|(r, c)| entries[r][c][k] * scale);
+            self.spectra.push((diagonal, others));
         }
         Some(())
     }
@@ -132,32 +137,39 @@ impl LatticeProduct {
 
     /// Scratch for products with this matrix.
     pub(crate) fn scratch(&self) -> LatticeScratch {
-        let [length, across] = self.lengths;
+        let length = self.lengths[0];
+        let across = self.lengths[1];
         let columns = length / 2 + 1;
-        let need =
+        let scratch_len =
             self.across.iter().map(|plan| plan.get_inplace_scratch_len()).fold(0, usize::max);
-        let need = need.max(self.along.0.get_scratch_len()).max(self.along.1.get_scratch_len());
+        let scratch_len =
+            scratch_len.max(self.along.0.get_scratch_len()).max(self.along.1.get_scratch_len());
         LatticeScratch {
             real: vec![0.0; length * self.rows],
             row: vec![Complex::default(); columns],
             waves: vec![Complex::default(); 3 * columns * across],
-            scratch: vec![Complex::default(); need],
+            scratch: vec![Complex::default(); scratch_len],
         }
     }
 
-    /// Calls `write` with the product of the matrix and `x`, component by component: place in `x`, and value.
+    /// Calls `write(component, cell, value)` with the product of the matrix and `x`.
+    ///
+    /// `x`: component by component, each over all cells.
     pub(crate) fn multiply(
         &self,
         x: &[f64],
         scratch: &mut LatticeScratch,
         mut write: impl FnMut(usize, usize, f64),
     ) {
-        let [length, across] = self.lengths;
+        let length = self.lengths[0];
+        let across = self.lengths[1];
         let LatticeScratch { real, row, waves, scratch } = scratch;
         let columns = row.len();
-        let (count, all) = (self.places.len(), columns * across);
-        let (forward, inverse) = (&self.along.0, &self.along.1);
-        for (own, x) in waves.chunks_exact_mut(all).zip(x.chunks_exact(count)) {
+        let count = self.places.len();
+        let wave_count = columns * across;
+        let forward = &self.along.0;
+        let inverse = &self.along.1;
+        for (spectrum, x) in waves.chunks_exact_mut(wave_count).zip(x.chunks_exact(count)) {
             real.fill(0.0);
             for ((place, factor), x) in self.places.iter().zip(&self.factors).zip(x) {
                 real[*place] = factor * x;
@@ -166,29 +178,32 @@ impl LatticeProduct {
                 let scratch = &mut scratch[..forward.get_scratch_len()];
                 let done = forward.process_with_scratch(values, row, scratch);
                 debug_assert!(done.is_ok());
-                for (own, value) in own.chunks_exact_mut(across).zip(&*row) {
-                    own[j] = *value;
+                for (column, value) in spectrum.chunks_exact_mut(across).zip(&*row) {
+                    column[j] = *value;
                 }
             }
-            own.chunks_exact_mut(across).for_each(|own| own[self.rows..].fill(Complex::default()));
+            for column in spectrum.chunks_exact_mut(across) {
+                column[self.rows..].fill(Complex::default());
+            }
         }
         self.across[0].process_with_scratch(waves, scratch);
-        let (p, rest) = waves.split_at_mut(all);
-        let (x, y) = rest.split_at_mut(all);
-        for (((p, x), y), (own, others)) in p.iter_mut().zip(x).zip(y).zip(&self.spectra) {
-            let [a, b, c] = others;
+        let mut components = waves.chunks_exact_mut(wave_count);
+        let p = components.next().unwrap_or_default();
+        let x = components.next().unwrap_or_default();
+        let y = components.next().unwrap_or_default();
+        for (((p, x), y), (diagonal, [a, b, c])) in p.iter_mut().zip(x).zip(y).zip(&self.spectra) {
             let sums = [
-                *p * own[0] + a * *x + b * *y,
-                a.conj() * *p + *x * own[1] + c * *y,
-                b.conj() * *p + c.conj() * *x + *y * own[2],
+                *p * diagonal[0] + a * *x + b * *y,
+                a.conj() * *p + *x * diagonal[1] + c * *y,
+                b.conj() * *p + c.conj() * *x + *y * diagonal[2],
             ];
             [*p, *x, *y] = sums;
         }
         self.across[1].process_with_scratch(waves, scratch);
-        for (component, own) in waves.chunks_exact(all).enumerate() {
+        for (component, spectrum) in waves.chunks_exact(wave_count).enumerate() {
             for (j, values) in real.chunks_exact_mut(length).enumerate() {
-                for (value, own) in row.iter_mut().zip(own.chunks_exact(across)) {
-                    *value = own[j];
+                for (value, column) in row.iter_mut().zip(spectrum.chunks_exact(across)) {
+                    *value = column[j];
                 }
                 // These values are real up to rounding; the inverse transform requires exact zeros. S is even.
                 (row[0].im, row[columns - 1].im) = (0.0, 0.0);
@@ -203,21 +218,23 @@ impl LatticeProduct {
     }
 }
 
-/// The smallest even number from `least` on with no prime factor above 5.
-pub(crate) fn smooth(least: usize) -> usize {
-    let is_smooth = |mut number: usize| {
-        for factor in [2, 3, 5] {
-            while number.is_multiple_of(factor) {
-                number /= factor;
-            }
-        }
-        number == 1
-    };
-    let mut length = least.max(2).next_multiple_of(2);
+/// The smallest even number of at least `minimum` with no prime factor above 5.
+pub(crate) fn next_smooth_even(minimum: usize) -> usize {
+    let mut length = minimum.max(2).next_multiple_of(2);
     while !is_smooth(length) {
         length += 2;
     }
     length
+}
+
+/// Whether a number has no prime factor above 5.
+fn is_smooth(mut number: usize) -> bool {
+    for factor in [2, 3, 5] {
+        while number.is_multiple_of(factor) {
+            number /= factor;
+        }
+    }
+    number == 1
 }
 
 #[cfg(test)]
@@ -227,12 +244,13 @@ mod tests {
 
     /// Symmetric block for an offset, without any other symmetry.
     fn block(to: [usize; 2], from: [usize; 2]) -> [[f64; 3]; 3] {
-        let [x, y] = [0, 1].map(|k| to[k] as f64 - from[k] as f64);
+        let x = to[0] as f64 - from[0] as f64;
+        let y = to[1] as f64 - from[1] as f64;
         let far = (-0.3 * x.hypot(y)).exp();
-        let odd = |a: f64, b: f64| far * (a * x + b * y + 0.2 * x * y);
-        let [zx, zy, xy] = [odd(0.3, -0.1), odd(0.0, 0.4), far * 0.1];
-        [[far, zx, zy], [-odd(0.3, -0.1) + 0.4 * far * x * y, 0.8 * far, xy], [zy, xy, 1.3 * far]]
-            .map(|row| row)
+        let zx = far * (0.3 * x - 0.1 * y + 0.2 * x * y);
+        let zy = far * (0.0 * x + 0.4 * y + 0.2 * x * y);
+        let xy = far * 0.1;
+        [[far, zx, zy], [-zx + 0.4 * far * x * y, 0.8 * far, xy], [zy, xy, 1.3 * far]]
     }
 
     #[test]
@@ -245,25 +263,24 @@ mod tests {
             .collect();
         let count = cells.len();
         // B(o) = A(o) + A(−o)ᵀ.
-        let both = |r: usize, s: usize| {
-            let [a, b] = [block(cells[r], cells[s]), block(cells[s], cells[r])];
-            [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[i][j] + b[j][i]))
+        let symmetric_block = |r: usize, s: usize| {
+            let forward = block(cells[r], cells[s]);
+            let backward = block(cells[s], cells[r]);
+            [0, 1, 2].map(|i| [0, 1, 2].map(|j| forward[i][j] + backward[j][i]))
         };
         let factors: Vec<f64> = (0..count).map(|_| random.within(0.5, 1.5)).collect();
-        let product = LatticeProduct::new(&cells, &factors, both).unwrap();
+        let product = LatticeProduct::new(&cells, &factors, symmetric_block).unwrap();
         let mut scratch = product.scratch();
         for _ in 0..2 {
             let x: Vec<f64> = (0..3 * count).map(|_| random.within(-1.0, 1.0)).collect();
             let mut found = vec![0.0; 3 * count];
             product.multiply(&x, &mut scratch, |k, e, value| found[k * count + e] += value);
             for (i, found) in found.iter().enumerate() {
-                let (row, receiver) = (i / count, i % count);
-                let sum: f64 = (0..3 * count)
-                    .map(|j| {
-                        let (column, source) = (j / count, j % count);
-                        both(receiver, source)[row][column] * factors[source] * x[j]
-                    })
-                    .sum();
+                let mut sum = 0.0;
+                for (j, x) in x.iter().enumerate() {
+                    let block = symmetric_block(i % count, j % count);
+                    sum += block[i / count][j / count] * factors[j % count] * x;
+                }
                 assert!((found - sum).abs() < 1e-12, "{i}: {found} {sum}");
             }
         }
@@ -272,23 +289,23 @@ mod tests {
     #[test]
     fn other_matrices_are_none() {
         let cells: Vec<[usize; 2]> = (0..9).map(|e| [e % 3, e / 3]).collect();
-        let even = |r: usize, s: usize| {
+        let isotropic_block = |r: usize, s: usize| {
             let far =
                 (cells[r][0].abs_diff(cells[s][0]) + cells[r][1].abs_diff(cells[s][1])) as f64;
             [0, 1, 2].map(|i| [0, 1, 2].map(|j| if i == j { 1.0 / (1.0 + far) } else { 0.0 }))
         };
         let factors = [1.0; 9];
-        assert!(LatticeProduct::new(&cells, &factors, even).is_some());
+        assert!(LatticeProduct::new(&cells, &factors, isotropic_block).is_some());
         // One block differs; or the matrix is not symmetric.
-        let odd = |r: usize, s: usize| {
-            even(r, s).map(|row| row.map(|v| if r == 4 { 1.001 * v } else { v }))
+        let with_other_row = |r: usize, s: usize| {
+            isotropic_block(r, s).map(|row| row.map(|v| if r == 4 { 1.001 * v } else { v }))
         };
-        assert!(LatticeProduct::new(&cells, &factors, odd).is_none());
-        let turned = |r: usize, s: usize| {
-            let mut block = even(r, s);
+        assert!(LatticeProduct::new(&cells, &factors, with_other_row).is_none());
+        let unsymmetric = |r: usize, s: usize| {
+            let mut block = isotropic_block(r, s);
             block[0][1] = 0.1;
             block
         };
-        assert!(LatticeProduct::new(&cells, &factors, turned).is_none());
+        assert!(LatticeProduct::new(&cells, &factors, unsymmetric).is_none());
     }
 }

@@ -10,95 +10,100 @@
 //! § 13), which excludes spurious copies of modes. A block finds as many modes of one frequency as it has vectors.
 
 use super::eigen::symmetric_modes;
-use super::orthonormal::{Least, OrthonormalRows};
+use super::orthonormal::{MinRemainder, OrthonormalRows};
 use super::product::{add_combined_rows, row_products};
 use super::sparse::SparseFactor;
 use crate::linalg::SparseMatrix;
 
-/// Vectors of a block.
-const BLOCK: usize = 16;
+/// Vectors of one block of the iteration.
+const VECTORS_PER_BLOCK: usize = 16;
 
 /// Largest residual ‖A x − θ x‖ of a converged mode, relative to θ.
-const TOLERANCE: f64 = 1e-9;
+const DEFAULT_RESIDUAL_TOLERANCE: f64 = 1e-9;
 
-/// Rounding of the basis, relative to the residual.
-const ROUNDING: f64 = 1e-9;
+/// Largest error of the basis' orthonormality, relative to the residual's tolerance.
+const BASIS_ROUNDING_FACTOR: f64 = 1e-9;
 
-/// The number of vectors grows by one in so many from a search for modes to the next.
-const SEARCHES: usize = 8;
+/// The basis grows by its size over this divisor between two searches for modes.
+const SEARCH_INTERVAL_DIVISOR: usize = 8;
 
-/// Largest number of vectors in a search for modes up to a limit.
-const VECTORS: usize = 800;
+/// Largest size of the basis in a search for modes up to a limit.
+const MAX_LIMITED_BASIS_SIZE: usize = 800;
 
 /// A vector counts as dependent if orthogonalisation shortens it to this fraction of its length.
-const DEPENDENT: f64 = 1e-10;
+const DEPENDENCE_TOLERANCE: f64 = 1e-10;
 
 /// Eigenvalues and eigenvectors.
 type Pairs = (Vec<f64>, Vec<f64>);
 
 /// The lowest `count` eigenvalues λ of K φ = λ M φ, ascending, and their eigenvectors.
 ///
-/// `limit`: an eigenvalue, and a residual relative to θ. The search ends at the first eigenvalue above the limit, which is
-/// the last one returned. The residual may be large where the modes span a space: their errors are squared in it.
+/// `limit`: an eigenvalue, and the residual's tolerance relative to θ. The search ends at the first eigenvalue above
+/// the limit, which is the last one returned. The tolerance may be loose if the caller uses only the space that the
+/// modes span: errors of the modes enter it squared.
 ///
 /// Each eigenvector is a row of the matrix returned, with φ·M φ = 1. K is positive definite, given by its
-/// factor; M is positive semi-definite. Fewer are returned if the rank of M is lower. `None` if the iteration
-/// fails, or so many modes are below `limit` that 800 vectors do not find them.
+/// factor; M is positive semi-definite. Fewer pairs are returned if the rank of M is lower. `None` if the
+/// iteration fails, or 800 vectors do not find all modes below `limit`.
 pub(crate) fn lowest_modes(
     stiffness: &SparseFactor,
     mass: &SparseMatrix,
     count: usize,
     limit: Option<(f64, f64)>,
 ) -> Option<Pairs> {
-    let (limit, tolerance) = limit.unwrap_or((f64::INFINITY, TOLERANCE));
-    let basis = OrthonormalRows::new(mass, ROUNDING * tolerance);
-    let mut space = Space { stiffness, order: mass.order(), basis, columns: Vec::new(), seed: 1 };
-    let count = count.min(space.order);
-    let mut next = if limit.is_finite() { 0 } else { count };
+    let tolerance = limit.map_or(DEFAULT_RESIDUAL_TOLERANCE, |(_, tolerance)| tolerance);
+    let limit = limit.map_or(f64::INFINITY, |(eigenvalue, _)| eigenvalue);
+    let basis = OrthonormalRows::new(mass, BASIS_ROUNDING_FACTOR * tolerance);
+    let mut krylov =
+        KrylovSpace { stiffness, order: mass.order(), basis, columns: Vec::new(), seed: 1 };
+    let count = count.min(krylov.order);
+    let mut next_search_size = if limit.is_finite() { 0 } else { count };
     loop {
-        let applied = space.columns.len();
-        if applied == space.basis.count() {
-            // At the beginning, or when A yields no new vector. The modes found are then exact, unless a
-            // frequency has more modes than a block has vectors.
-            space.extend_at_random();
-            if applied == space.basis.count() {
-                return space.modes(&space.approximations(count, limit)?);
+        let applied = krylov.columns.len();
+        if applied == krylov.basis.count() {
+            // The iteration begins, or A yields no new vector. In the second case the modes found are exact,
+            // unless a frequency has more modes than a block has vectors.
+            krylov.extend_at_random();
+            if applied == krylov.basis.count() {
+                return krylov.modes(&krylov.approximations(count, limit)?);
             }
         }
-        space.step();
-        let applied = space.columns.len();
-        if applied >= next {
-            let found = space.approximations(count, limit)?;
-            let ends = found.theta.last().is_some_and(|theta| theta * limit < 1.0);
-            if (ends || applied >= count) && found.residual <= tolerance {
-                return space.modes(&found);
+        krylov.step();
+        let applied = krylov.columns.len();
+        if applied >= next_search_size {
+            let approximations = krylov.approximations(count, limit)?;
+            let exceeds_limit =
+                approximations.theta.last().is_some_and(|theta| theta * limit < 1.0);
+            if (exceeds_limit || applied >= count) && approximations.residual <= tolerance {
+                return krylov.modes(&approximations);
             }
-            if limit.is_finite() && applied > VECTORS {
+            if limit.is_finite() && applied > MAX_LIMITED_BASIS_SIZE {
                 return None;
             }
-            next = applied + applied / SEARCHES;
+            next_search_size = applied + applied / SEARCH_INTERVAL_DIVISOR;
         }
     }
 }
 
-/// The Krylov space built so far.
-struct Space<'a> {
+/// Krylov space of the blocks applied so far.
+struct KrylovSpace<'a> {
     stiffness: &'a SparseFactor,
     order: usize,
     /// V.
     basis: OrthonormalRows<'a>,
-    /// Columns of H, for every vector to which A was applied, with the rows known by then.
+    /// Columns of H, one for each vector to which A was applied, with the rows computed by then.
     columns: Vec<Vec<f64>>,
     seed: u64,
 }
 
-impl Space<'_> {
-    /// Appends a block of random vectors, multiplied by A to remove their parts without mass.
+impl KrylovSpace<'_> {
+    /// Appends a block of random vectors, multiplied by A to remove massless components.
     fn extend_at_random(&mut self) {
-        let mut block: Vec<f64> = (0..BLOCK * self.order).map(|_| self.random()).collect();
+        let mut block: Vec<f64> =
+            (0..VECTORS_PER_BLOCK * self.order).map(|_| self.random()).collect();
         block = self.basis.mass().times(&block);
         self.stiffness.solve_many(&mut block);
-        self.basis.extend(block, Least::Fraction(DEPENDENT));
+        self.basis.extend(block, MinRemainder::Fraction(DEPENDENCE_TOLERANCE));
     }
 
     /// SplitMix64 (Steele, Lea & Flood 2014), in [−½, ½).
@@ -114,32 +119,35 @@ impl Space<'_> {
     fn step(&mut self) {
         let mut images = self.basis.momenta()[self.columns.len() * self.order..].to_vec();
         self.stiffness.solve_many(&mut images);
-        self.basis.extend(images.clone(), Least::Fraction(DEPENDENT));
-        let shares = row_products(&images, self.basis.momenta(), self.order);
-        self.columns.extend(shares.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
+        self.basis.extend(images.clone(), MinRemainder::Fraction(DEPENDENCE_TOLERANCE));
+        let products = row_products(&images, self.basis.momenta(), self.order);
+        self.columns.extend(products.chunks_exact(self.basis.count()).map(<[f64]>::to_vec));
     }
 
-    /// The best approximations of the lowest `count` modes in this space, up to the first one above `limit`.
+    /// Approximations of the lowest `count` modes in this space.
+    ///
+    /// They end with the first one above `limit`.
     fn approximations(&self, count: usize, limit: f64) -> Option<Approximations> {
         let m = self.columns.len();
         let entry = |i: usize, j: usize| self.columns[j].get(i).copied().unwrap_or(0.0);
-        let square = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
-        // A column has all rows up to its own.
-        let matrix: Vec<f64> = square.map(|(i, j)| entry(i.min(j), i.max(j))).collect();
+        let places = (0..m).flat_map(|i| (0..m).map(move |j| (i, j)));
+        // Each column has all entries down to the diagonal.
+        let matrix: Vec<f64> = places.map(|(i, j)| entry(i.min(j), i.max(j))).collect();
         let (values, vectors) = symmetric_modes(&matrix, m)?;
-        let top = values.last().copied().unwrap_or(0.0);
-        let mut found = Approximations { theta: vec![], shares: vec![], residual: 0.0 };
+        let largest = values.last().copied().unwrap_or(0.0);
+        let mut found = Approximations { theta: vec![], coordinates: vec![], residual: 0.0 };
         for k in (0..m).rev().take(count) {
             let theta = values[k];
-            if !(theta.is_finite() && theta > f64::EPSILON * top) {
+            if !(theta.is_finite() && theta > f64::EPSILON * largest) {
                 break;
             }
             let y: Vec<f64> = (0..m).map(|i| vectors[i * m + k]).collect();
-            let outside = |row: usize| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>();
-            let square: f64 = (m..self.basis.count()).map(|row| outside(row).powi(2)).sum();
-            found.residual = found.residual.max(square.sqrt() / theta);
+            let residual_square: f64 = (m..self.basis.count())
+                .map(|row| (0..m).map(|j| entry(row, j) * y[j]).sum::<f64>().powi(2))
+                .sum();
+            found.residual = found.residual.max(residual_square.sqrt() / theta);
             found.theta.push(theta);
-            found.shares.push(y);
+            found.coordinates.push(y);
             if theta * limit < 1.0 {
                 break;
             }
@@ -149,10 +157,11 @@ impl Space<'_> {
 
     /// λ and φ of the approximations.
     fn modes(&self, found: &Approximations) -> Option<Pairs> {
-        let (n, m) = (self.order, self.columns.len());
+        let n = self.order;
+        let m = self.columns.len();
         let mut modes = vec![0.0; found.theta.len() * n];
         let weights: Vec<f64> =
-            (0..m).flat_map(|i| found.shares.iter().map(move |y| y[i])).collect();
+            (0..m).flat_map(|i| found.coordinates.iter().map(move |y| y[i])).collect();
         add_combined_rows(&weights, &self.basis.vectors()[..m * n], n, 1.0, &mut modes);
         let finite = modes.iter().all(|x| x.is_finite());
         finite.then(|| (found.theta.iter().map(|theta| 1.0 / theta).collect(), modes))
@@ -163,7 +172,7 @@ impl Space<'_> {
 struct Approximations {
     theta: Vec<f64>,
     /// Coordinates in the basis, one vector for each mode.
-    shares: Vec<Vec<f64>>,
+    coordinates: Vec<Vec<f64>>,
     /// Largest ‖A x − θ x‖/θ.
     residual: f64,
 }
@@ -173,11 +182,25 @@ mod tests {
     use super::*;
     use crate::linalg::{Triplets, largest};
 
+    struct Chains {
+        stiffness: SparseMatrix,
+        mass: SparseMatrix,
+        factor: SparseFactor,
+    }
+
+    impl Chains {
+        /// The lowest `count` eigenvalues, up to the first one above a limit.
+        fn lowest_values(&self, count: usize, limit: Option<(f64, f64)>) -> Vec<f64> {
+            lowest_modes(&self.factor, &self.mass, count, limit).unwrap().0
+        }
+    }
+
     /// `copies` equal chains of springs k = 1 and masses m = 1, fixed at one end:
     /// λ_j = 4 sin²((2j−1)π/(4n+2)), each `copies` times.
-    fn chains(length: usize, copies: usize, massless: usize) -> [SparseMatrix; 2] {
+    fn chains(length: usize, copies: usize, massless: usize) -> Chains {
         let n = length * copies + massless;
-        let (mut stiffness, mut mass) = (Triplets::new(n), Triplets::new(n));
+        let mut stiffness = Triplets::new(n);
+        let mut mass = Triplets::new(n);
         for copy in 0..copies {
             for i in 0..length {
                 let at = copy * length + i;
@@ -193,7 +216,12 @@ mod tests {
             stiffness.add(i, i, 2.0);
             stiffness.add_spring(i, 0, 1e-3);
         }
-        [stiffness, mass].map(|m| SparseMatrix::new("test", &m).unwrap())
+        let stiffness = SparseMatrix::new("test", &stiffness).unwrap();
+        Chains {
+            factor: SparseFactor::positive_definite("test", &stiffness).unwrap(),
+            mass: SparseMatrix::new("test", &mass).unwrap(),
+            stiffness,
+        }
     }
 
     fn exact(length: usize, j: usize) -> f64 {
@@ -205,8 +233,7 @@ mod tests {
     #[test]
     fn chains_have_their_frequencies_each_as_often_as_it_comes() {
         for (length, copies, count) in [(300, 1, 20), (100, 2, 12), (60, 5, 23), (40, 12, 30)] {
-            let [stiffness, mass] = chains(length, copies, 0);
-            let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
+            let Chains { stiffness, mass, factor } = chains(length, copies, 0);
             let (values, modes) = lowest_modes(&factor, &mass, count, None).unwrap();
             assert_eq!(values.len(), count);
             let n = mass.order();
@@ -229,10 +256,9 @@ mod tests {
     /// With a limit, all modes below it and one above.
     #[test]
     fn a_limit_ends_the_search() {
-        let [stiffness, mass] = chains(100, 2, 0);
-        let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
+        let chains = chains(100, 2, 0);
         for (limit, below) in [(0.5 * exact(100, 1), 0), (1.01 * exact(100, 7), 14)] {
-            let (values, _) = lowest_modes(&factor, &mass, 200, Some((limit, 1e-5))).unwrap();
+            let values = chains.lowest_values(200, Some((limit, 1e-5)));
             assert_eq!(values.len(), below + 1);
             for (k, value) in values.iter().enumerate() {
                 assert!((value / exact(100, k / 2 + 1) - 1.0).abs() < 1e-9, "mode {k}");
@@ -241,12 +267,9 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_mass_has_no_mode() {
-        let [stiffness, mass] = chains(5, 1, 4);
-        let factor = SparseFactor::positive_definite("test", &stiffness).unwrap();
-        let (values, _) = lowest_modes(&factor, &mass, 9, None).unwrap();
-        assert_eq!(values.len(), 5);
-        let (none, _) = lowest_modes(&factor, &mass, 0, None).unwrap();
-        assert!(none.is_empty());
+    fn massless_degrees_of_freedom_have_no_mode() {
+        let chains = chains(5, 1, 4);
+        assert_eq!(chains.lowest_values(9, None).len(), 5);
+        assert!(chains.lowest_values(0, None).is_empty());
     }
 }

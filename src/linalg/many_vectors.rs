@@ -5,8 +5,8 @@
 use super::matrix::SparseMatrix;
 use super::product::{Simd, WithSimd, vectorized};
 
-/// Number of vectors that a matrix multiplies together.
-const WIDTH: usize = 16;
+/// Number of vectors that one pass over the matrix multiplies.
+const VECTORS_AT_ONCE: usize = 16;
 
 impl SparseMatrix {
     /// A x of many vectors, one after the other.
@@ -19,20 +19,24 @@ impl SparseMatrix {
     /// Overwrites `products` with A x of many vectors, one after the other.
     pub(crate) fn multiply_many(&self, vectors: &[f64], products: &mut [f64]) {
         let n = self.order.max(1);
-        let mut beside = vec![[0.0; WIDTH]; self.order];
-        for (x, y) in vectors.chunks(WIDTH * n).zip(products.chunks_mut(WIDTH * n)) {
-            for (row, own) in beside.iter_mut().enumerate() {
-                own.iter_mut().zip(x[row..].iter().step_by(n)).for_each(|(own, x)| *own = *x);
+        let mut interleaved = vec![[0.0; VECTORS_AT_ONCE]; self.order];
+        for (x, y) in
+            vectors.chunks(VECTORS_AT_ONCE * n).zip(products.chunks_mut(VECTORS_AT_ONCE * n))
+        {
+            for (row, values) in interleaved.iter_mut().enumerate() {
+                for (value, x) in values.iter_mut().zip(x[row..].iter().step_by(n)) {
+                    *value = *x;
+                }
             }
-            vectorized(Times { matrix: self, x: &beside, y });
+            vectorized(Times { matrix: self, x: &interleaved, y });
         }
     }
 }
 
-/// A x of vectors whose entries are beside each other in `x` and one after the other in `y`.
+/// A x of several vectors: interleaved in `x`, one after the other in `y`.
 struct Times<'a> {
     matrix: &'a SparseMatrix,
-    x: &'a [[f64; WIDTH]],
+    x: &'a [[f64; VECTORS_AT_ONCE]],
     y: &'a mut [f64],
 }
 
@@ -43,11 +47,11 @@ impl WithSimd for Times<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self { matrix, x, y } = self;
         for row in 0..matrix.order {
-            let mut sums = [0.0; WIDTH];
-            let own = matrix.row_start[row]..matrix.row_start[row + 1];
-            for (&column, a) in matrix.column[own.clone()].iter().zip(&matrix.value[own]) {
+            let mut sums = [0.0; VECTORS_AT_ONCE];
+            let range = matrix.row_start[row]..matrix.row_start[row + 1];
+            for (&column, a) in matrix.column[range.clone()].iter().zip(&matrix.value[range]) {
                 let x = &x[column];
-                for k in 0..WIDTH {
+                for k in 0..VECTORS_AT_ONCE {
                     sums[k] += a * x[k];
                 }
             }
@@ -66,7 +70,8 @@ mod tests {
         let mut triplets = Triplets::new(5);
         (0..20).for_each(|k| triplets.add(k % 5, (3 * k + 1) % 5, 0.3 * k as f64 - 2.0));
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
-        let vectors: Vec<f64> = (0..5 * (2 * WIDTH + 3)).map(|k| (k as f64).sin()).collect();
+        let vectors: Vec<f64> =
+            (0..5 * (2 * VECTORS_AT_ONCE + 3)).map(|k| (k as f64).sin()).collect();
         let mut each = vec![0.0; vectors.len()];
         for (x, y) in vectors.chunks_exact(5).zip(each.chunks_exact_mut(5)) {
             matrix.multiply_add(1.0, x, y);

@@ -6,14 +6,16 @@ use crate::error::{MemoryError, Result, finite, in_bounds, memory, same_length};
 use crate::linalg::{Triplets, weighted_dot};
 
 /// Bytes per degree of freedom in a structure's sparse matrices, their factor and its states.
-const BYTES_PER_UNKNOWN: f64 = 400.0;
+const BYTES_PER_DOF: f64 = 400.0;
 
-/// Error if a structure of this `order` would not fit into memory; `quantity` names what the order counts.
+/// Checks that a structure of this `order` fits into memory.
+///
+/// `quantity` names what the order counts.
 pub(crate) fn check_order(
     quantity: &'static str,
     order: usize,
 ) -> std::result::Result<(), MemoryError> {
-    memory::check(quantity, order as f64, BYTES_PER_UNKNOWN * order as f64)
+    memory::check(quantity, order as f64, BYTES_PER_DOF * order as f64)
 }
 
 /// Weights by degree of freedom, zero where there is no (degree of freedom, weight) term.
@@ -35,7 +37,9 @@ pub(crate) struct SparseMatrix {
 }
 
 impl SparseMatrix {
-    /// Matrix of the entries that `fill` writes. `triplets` is overwritten; its order is the matrix's.
+    /// Matrix of the entries that `fill` writes into `triplets`.
+    ///
+    /// It has the order of `triplets`, whose entries are overwritten.
     pub(crate) fn assembled(
         name: &'static str,
         triplets: &mut Triplets,
@@ -61,22 +65,22 @@ impl SparseMatrix {
         for row in 0..order {
             row_start[row + 1] += row_start[row];
         }
-        let mut entries = vec![(0, 0.0); triplets.entries().len()];
+        let mut sorted = vec![(0, 0.0); triplets.entries().len()];
         let mut next = row_start.clone();
         for &(row, column, value) in triplets.entries() {
-            entries[next[row]] = (column, value);
+            sorted[next[row]] = (column, value);
             next[row] += 1;
         }
-        Ok(Self::by_rows(order, |row, own| {
-            own.extend_from_slice(&entries[row_start[row]..row_start[row + 1]]);
+        Ok(Self::by_rows(order, |row, entries| {
+            entries.extend_from_slice(&sorted[row_start[row]..row_start[row + 1]]);
         }))
     }
 
-    /// Σ factor · A of matrices of this order, summed.
+    /// Σ factor · A of matrices of this order, as one matrix.
     pub(crate) fn sum(name: &'static str, order: usize, terms: &[(f64, &Self)]) -> Result<Self> {
-        let sum = Self::by_rows(order, |row, own| {
+        let sum = Self::by_rows(order, |row, entries| {
             for (factor, matrix) in terms.iter().filter(|(_, matrix)| row < matrix.order) {
-                own.extend(matrix.row(row).map(|(column, value)| (column, factor * value)));
+                entries.extend(matrix.row(row).map(|(column, value)| (column, factor * value)));
             }
         });
         sum.value.iter().try_for_each(|value| finite(name, *value).map(drop))?;
@@ -95,7 +99,8 @@ impl SparseMatrix {
         mut fill: impl FnMut(usize, &mut Vec<(usize, f64)>),
     ) -> Self {
         let mut matrix = Self { order, row_start: vec![0], column: vec![], value: vec![] };
-        let (mut entries, mut sums) = (Vec::new(), Vec::<(usize, f64)>::new());
+        let mut entries = Vec::new();
+        let mut sums = Vec::<(usize, f64)>::new();
         // Place of each column in the sums of the row, if the row has the column.
         let mut places = vec![usize::MAX; order];
         for row in 0..order {
@@ -229,13 +234,13 @@ impl SparseMatrix {
 /// A matrix of the equations of motion in the coordinates in which they are stepped.
 #[derive(Debug, Clone)]
 pub(crate) enum Matrix {
-    /// Matrix in the structure's own degrees of freedom.
+    /// Matrix in the structure's degrees of freedom.
     Sparse(Arc<SparseMatrix>),
     /// Diagonal of the matrix in modal coordinates.
     Diagonal(Vec<f64>),
 }
 
-/// The matrices in modes.
+/// Diagonals of the matrices in modal coordinates.
 #[derive(Clone, Copy)]
 pub(crate) struct Diagonals<'a> {
     pub(crate) mass: &'a [f64],
@@ -245,7 +250,7 @@ pub(crate) struct Diagonals<'a> {
 }
 
 impl Matrix {
-    /// Whether there is nothing to multiply.
+    /// Whether all entries are zero.
     pub(crate) fn is_empty(&self) -> bool {
         match self {
             Self::Sparse(matrix) => matrix.is_empty(),
@@ -258,8 +263,9 @@ impl Matrix {
         match self {
             Self::Sparse(matrix) => Arc::clone(matrix),
             Self::Diagonal(values) => {
-                let fill = |row: usize, own: &mut Vec<_>| own.push((row, values[row]));
-                Arc::new(SparseMatrix::by_rows(values.len(), fill))
+                Arc::new(SparseMatrix::by_rows(values.len(), |row, entries| {
+                    entries.push((row, values[row]));
+                }))
             }
         }
     }
@@ -323,10 +329,11 @@ mod tests {
         let x: Vec<f64> = (0..11).map(|i| f64::from(i).sin()).collect();
         let y: Vec<f64> = (0..11).map(|i| f64::from(i).cos()).collect();
         assert!((sparse.form(&x, &y) - diagonal.form(&x, &y)).abs() < 1e-13);
-        let (mut a, mut b) = (y.clone(), y.clone());
-        sparse.multiply_add(-2.0, &x, &mut a);
-        diagonal.multiply_add(-2.0, &x, &mut b);
-        assert!(a.iter().zip(&b).all(|(a, b)| (a - b).abs() < 1e-13));
+        let mut by_sparse = y.clone();
+        let mut by_diagonal = y.clone();
+        sparse.multiply_add(-2.0, &x, &mut by_sparse);
+        diagonal.multiply_add(-2.0, &x, &mut by_diagonal);
+        assert!(by_sparse.iter().zip(&by_diagonal).all(|(a, b)| (a - b).abs() < 1e-13));
         assert!(Matrix::Diagonal(vec![0.0]).is_empty() && !diagonal.is_empty());
     }
 }

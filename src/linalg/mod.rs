@@ -28,7 +28,7 @@ mod thinned;
 mod triplets;
 
 #[cfg(feature = "embedded")]
-pub(crate) use block::Block;
+pub(crate) use block::ComplexBlock;
 pub use complex::Complex;
 pub(crate) use condition::{condition_by_products, dense_condition, sparse_condition};
 pub(crate) use dense::DenseFactor;
@@ -37,17 +37,17 @@ pub(crate) use elimination::Elimination;
 pub(crate) use faer::traits::ComplexField;
 pub(crate) use hermitian::hermitian_range;
 pub(crate) use lanes::Lanes;
-pub(crate) use lattice_product::{LatticeProduct, LatticeScratch, smooth};
+pub(crate) use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
 pub(crate) use lowest_modes::lowest_modes;
 pub(crate) use matrix::SparseMatrix;
-pub(crate) use number::Number;
+pub(crate) use number::ComplexArithmetic;
 pub(crate) use partition::Partition;
 pub(crate) use pivoted_cholesky::pivoted_cholesky;
 pub(crate) use product::{
-    Dot, Scalar, Simd, WithSimd, add_combined_rows, add_row, add_rows, dense_multiply_add, dot,
-    largest, magnitude, mixed, mixing_weight, row_products, symmetric_products,
-    transposed_multiply_add, vectorized, weighted_dot,
+    Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
+    dense_multiply_add, dot, largest, magnitude, mixed, mixing_weight, row_products,
+    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
 };
 pub(crate) use sparse::{SparseFactor, indefinite_row};
-pub(crate) use thinned::Thinned;
+pub(crate) use thinned::CompressedMatrix;
 pub use triplets::Triplets;

@@ -1,17 +1,17 @@
-//! Arithmetic that is written once for one complex number and for several at a time.
+//! Arithmetic written once for one complex number and for several at a time.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
 use super::Complex;
 
 /// Complex number, or several of them, one in each lane.
-pub(crate) trait Number:
+pub(crate) trait ComplexArithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + 'static
 {
-    /// The number `value` in all lanes, of as many as this one.
+    /// `value` in as many lanes as this number has.
     fn like(self, value: Complex) -> Self;
 
-    /// A real number in all lanes, of as many as this one.
+    /// A real number in as many lanes as this number has.
     fn like_real(self, value: f64) -> Self {
         self.like(Complex::real(value))
     }
@@ -28,14 +28,14 @@ pub(crate) trait Number:
     /// e^x.
     fn exp(self) -> Self;
 
-    /// This number, or `least` where that has the larger magnitude.
-    fn at_least(self, least: Self) -> Self;
+    /// This number, or `minimum` where that has the larger magnitude.
+    fn at_least(self, minimum: Self) -> Self;
 
     /// −x where Re `other` < −`fraction` |`other`|, x elsewhere.
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self;
 }
 
-impl Number for Complex {
+impl ComplexArithmetic for Complex {
     fn like(self, value: Complex) -> Self {
         value
     }
@@ -56,8 +56,8 @@ impl Number for Complex {
         self.exp()
     }
 
-    fn at_least(self, least: Self) -> Self {
-        if self.abs() < least.abs() { least } else { self }
+    fn at_least(self, minimum: Self) -> Self {
+        if self.abs() < minimum.abs() { minimum } else { self }
     }
 
     fn negated_where_negative(self, other: Self, fraction: f64) -> Self {

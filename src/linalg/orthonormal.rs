@@ -7,18 +7,18 @@
 use super::matrix::SparseMatrix;
 use super::product::{add_combined_rows, largest, row_products, symmetric_products};
 
-/// V and V M.
+/// M-orthonormal rows V, with V M, to which rows can be added.
 pub(crate) struct OrthonormalRows<'a> {
     mass: &'a SparseMatrix,
     /// Largest error of V M Vᵀ for which one pass of orthogonalisation is enough.
-    rounding: f64,
+    tolerance: f64,
     vectors: Vec<f64>,
     momenta: Vec<f64>,
 }
 
-/// Smallest part of a row outside V that makes a direction.
+/// Smallest component outside V for which a row counts as a new direction.
 #[derive(Clone, Copy)]
-pub(crate) enum Least {
+pub(crate) enum MinRemainder {
     /// Relative to the length of the row.
     Fraction(f64),
     /// Length, in the norm of M.
@@ -26,11 +26,11 @@ pub(crate) enum Least {
 }
 
 impl<'a> OrthonormalRows<'a> {
-    /// No rows.
+    /// Empty set of rows.
     ///
-    /// `rounding`: a second pass of orthogonalisation follows where V M Vᵀ errs by more.
-    pub(crate) fn new(mass: &'a SparseMatrix, rounding: f64) -> Self {
-        Self { mass, rounding, vectors: Vec::new(), momenta: Vec::new() }
+    /// `tolerance`: a second pass of orthogonalisation follows where the error of V M Vᵀ may be larger.
+    pub(crate) fn new(mass: &'a SparseMatrix, tolerance: f64) -> Self {
+        Self { mass, tolerance, vectors: Vec::new(), momenta: Vec::new() }
     }
 
     /// M.
@@ -58,91 +58,118 @@ impl<'a> OrthonormalRows<'a> {
         self.vectors.len() / self.mass.order().max(1)
     }
 
-    /// Adds the directions of `block` with more than `least` outside V.
-    pub(crate) fn extend(&mut self, mut block: Vec<f64>, least: Least) {
-        let (n, before) = (self.mass.order().max(1), self.count());
-        // Large blocks are written into two buffers in turns.
-        let [mut images, mut spare] = [(); 2].map(|()| vec![0.0; block.len()]);
-        let mut shares = row_products(&self.momenta, &block, n);
+    /// Adds the directions of `block` whose component outside V exceeds `min_remainder`.
+    pub(crate) fn extend(&mut self, mut block: Vec<f64>, min_remainder: MinRemainder) {
+        let n = self.mass.order().max(1);
+        let count_before = self.count();
+        // The block and its orthogonalised copy exchange their buffers after each pass.
+        let mut images = vec![0.0; block.len()];
+        let mut orthogonal = vec![0.0; block.len()];
+        let mut projections = row_products(&self.momenta, &block, n);
         for pass in 0..2 {
             let count = block.len() / n;
-            if before > 0 {
-                add_combined_rows(&shares, &self.vectors, n, -1.0, &mut block);
+            if count_before > 0 {
+                add_combined_rows(&projections, &self.vectors, n, -1.0, &mut block);
             }
             images.truncate(block.len());
             self.mass.multiply_many(&block, &mut images);
             let mut products = symmetric_products(&images, &block, n);
-            let length = |i: usize| {
-                let inside: f64 = (0..before).map(|j| shares[j * count + i].powi(2)).sum();
-                (inside + products[i * (count + 1)]).sqrt()
-            };
-            let lengths: Vec<f64> = (0..count).map(length).collect();
-            let (scales, longest) = match (pass, least) {
-                (0, Least::Fraction(_)) => {
-                    let inverse = |length: &f64| if *length > 0.0 { length.recip() } else { 0.0 };
-                    (lengths.iter().map(inverse).collect(), 1.0)
+            let mut lengths = Vec::with_capacity(count);
+            for i in 0..count {
+                let inside: f64 =
+                    (0..count_before).map(|j| projections[j * count + i].powi(2)).sum();
+                lengths.push((inside + products[i * (count + 1)]).sqrt());
+            }
+            let mut scales = vec![1.0; count];
+            let mut max_length = largest(&lengths);
+            if pass == 0 && matches!(min_remainder, MinRemainder::Fraction(_)) {
+                for (scale, length) in scales.iter_mut().zip(&lengths) {
+                    *scale = if *length > 0.0 { length.recip() } else { 0.0 };
                 }
-                _ => (vec![1.0; count], largest(&lengths)),
-            };
+                max_length = 1.0;
+            }
             for (k, product) in products.iter_mut().enumerate() {
                 *product *= scales[k / count] * scales[k % count];
             }
-            let least = match (pass, least) {
-                (0, Least::Fraction(least) | Least::Length(least)) => least,
+            let min_length = match min_remainder {
+                MinRemainder::Fraction(length) | MinRemainder::Length(length) if pass == 0 => {
+                    length
+                }
                 _ => 0.5,
             };
-            let mut weights = independent(products, count, least * least);
-            // The weight of a row on itself is the reciprocal of its remainder: short ones have more rounding.
-            let rounding = f64::EPSILON * (longest * largest(&weights)).powi(2);
-            let kept = weights.len() / count.max(1);
+            let mut weights = independent_combinations(products, count, min_length * min_length);
+            // The weight of a row on itself is the reciprocal of its remainder: short remainders have
+            // larger rounding errors.
+            let rounding = f64::EPSILON * (max_length * largest(&weights)).powi(2);
+            let rank = weights.len() / count.max(1);
             for row in weights.chunks_exact_mut(count.max(1)) {
                 row.iter_mut().zip(&scales).for_each(|(weight, scale)| *weight *= scale);
             }
             let columns = transpose(&weights, count);
-            let combine = |rows: &[f64], sum: &mut Vec<f64>| {
-                let start = sum.len();
-                sum.resize(start + kept * n, 0.0);
-                add_combined_rows(&columns, rows, n, 1.0, &mut sum[start..]);
-            };
-            spare.clear();
-            combine(&block, &mut spare);
+            orthogonal.clear();
+            append_combined_rows(&columns, &block, n, rank, &mut orthogonal);
             if pass == 0 {
-                shares = row_products(&self.momenta, &spare, n);
+                projections = row_products(&self.momenta, &orthogonal, n);
             }
-            if pass == 1 || rounding.max(largest(&shares)) < self.rounding {
-                combine(&images, &mut self.momenta);
-                self.vectors.append(&mut spare);
+            if pass == 1 || rounding.max(largest(&projections)) < self.tolerance {
+                append_combined_rows(&columns, &images, n, rank, &mut self.momenta);
+                self.vectors.append(&mut orthogonal);
                 return;
             }
-            std::mem::swap(&mut block, &mut spare);
+            std::mem::swap(&mut block, &mut orthogonal);
         }
     }
 }
 
+/// Appends `count` combinations of `rows`, each of length `order`, to `sum`.
+fn append_combined_rows(
+    weights: &[f64],
+    rows: &[f64],
+    order: usize,
+    count: usize,
+    sum: &mut Vec<f64>,
+) {
+    let start = sum.len();
+    sum.resize(start + count * order, 0.0);
+    add_combined_rows(weights, rows, order, 1.0, &mut sum[start..]);
+}
+
 /// Weights, a row each, of orthonormal combinations of vectors with these scalar products.
 ///
-/// Gram–Schmidt, the longest remainder first, while its square exceeds `least`. Vectors of separate parts stay
-/// separate.
-pub(crate) fn independent(mut products: Vec<f64>, count: usize, least: f64) -> Vec<f64> {
-    let mut rest: Vec<Vec<f64>> =
+/// Gram–Schmidt, the longest remainder first, while its square exceeds `min_square`. Vectors of separate parts
+/// stay separate.
+pub(crate) fn independent_combinations(
+    mut products: Vec<f64>,
+    count: usize,
+    min_square: f64,
+) -> Vec<f64> {
+    let mut remainders: Vec<Vec<f64>> =
         (0..count).map(|i| (0..count).map(|j| f64::from(u8::from(i == j))).collect()).collect();
     let mut weights = Vec::new();
-    let mut left: Vec<usize> = (0..count).collect();
-    let length = |products: &[f64], i: usize| products[i * (count + 1)];
-    while let Some(at) = (0..left.len())
-        .max_by(|a, b| length(&products, left[*a]).total_cmp(&length(&products, left[*b])))
-        .filter(|at| length(&products, left[*at]) > least)
+    let mut candidates: Vec<usize> = (0..count).collect();
+    let square = |products: &[f64], i: usize| products[i * (count + 1)];
+    while let Some(place) = (0..candidates.len())
+        .max_by(|a, b| {
+            square(&products, candidates[*a]).total_cmp(&square(&products, candidates[*b]))
+        })
+        .filter(|place| square(&products, candidates[*place]) > min_square)
     {
-        let chosen = left.swap_remove(at);
-        let scale = length(&products, chosen).sqrt().recip();
-        let own: Vec<f64> = rest[chosen].iter().map(|weight| scale * weight).collect();
-        let shares: Vec<f64> = (0..count).map(|j| scale * products[chosen * count + j]).collect();
-        for &i in &left {
-            rest[i].iter_mut().zip(&own).for_each(|(weight, own)| *weight -= shares[i] * own);
+        let pivot = candidates.swap_remove(place);
+        let scale = square(&products, pivot).sqrt().recip();
+        let pivot_weights: Vec<f64> =
+            remainders[pivot].iter().map(|weight| scale * weight).collect();
+        let projections: Vec<f64> =
+            (0..count).map(|j| scale * products[pivot * count + j]).collect();
+        for &i in &candidates {
+            for (weight, pivot_weight) in remainders[i].iter_mut().zip(&pivot_weights) {
+                *weight -= projections[i] * pivot_weight;
+            }
             let row = &mut products[i * count..(i + 1) * count];
-            row.iter_mut().zip(&shares).for_each(|(product, share)| *product -= shares[i] * share);
+            for (product, projection) in row.iter_mut().zip(&projections) {
+                *product -= projections[i] * projection;
+            }
         }
-        weights.extend(own);
+        weights.extend(pivot_weights);
     }
     weights
 }
@@ -157,6 +184,10 @@ mod tests {
     use super::*;
     use crate::linalg::Triplets;
 
+    fn sample(k: usize) -> f64 {
+        (0.37 * (k * k) as f64).sin()
+    }
+
     /// Rows of which a fraction `outside` is new, block after block, are orthonormal.
     #[test]
     fn rows_are_orthonormal_after_one_pass_or_two() {
@@ -167,17 +198,20 @@ mod tests {
             mass.add_spring(i - 1, i, 0.7);
         }
         let mass = SparseMatrix::new("mass", &mass).unwrap();
-        let wave = |k: usize| (0.37 * (k * k) as f64).sin();
         for outside in [1.0, 0.03, 1e-2, 1e-4, 1e-6] {
             let mut rows = OrthonormalRows::new(&mass, 1e-12);
-            let mut last: Vec<f64> = (0..8 * N).map(wave).collect();
-            rows.extend(last.clone(), Least::Fraction(1e-9));
+            let mut last: Vec<f64> = (0..8 * N).map(sample).collect();
+            rows.extend(last.clone(), MinRemainder::Fraction(1e-9));
             for block in 1..10 {
-                let new = |k: usize| wave(k + 8 * N * block);
-                last = last.iter().enumerate().map(|(k, old)| old + outside * new(k)).collect();
-                rows.extend(last.clone(), Least::Fraction(1e-9));
+                for (k, value) in last.iter_mut().enumerate() {
+                    *value += outside * sample(k + 8 * N * block);
+                }
+                rows.extend(last.clone(), MinRemainder::Fraction(1e-9));
             }
-            rows.extend((0..8 * N).map(|k| outside * wave(k + 31)).collect(), Least::Length(1e-9));
+            rows.extend(
+                (0..8 * N).map(|k| outside * sample(k + 31)).collect(),
+                MinRemainder::Length(1e-9),
+            );
             assert_eq!(rows.count(), 88);
             for momenta in [rows.momenta(), &mass.times(rows.vectors())] {
                 let mut products = row_products(rows.vectors(), momenta, N);

@@ -1,4 +1,4 @@
-//! Disjoint sets of numbers, such as the parts of a structure.
+//! Disjoint sets of numbers, such as the connected parts of a structure.
 
 use crate::linalg::SparseMatrix;
 
@@ -22,8 +22,9 @@ impl Partition {
 
     /// Merges the sets of two numbers.
     pub(crate) fn join(&mut self, first: usize, second: usize) {
-        let (a, b) = (self.root(first), self.root(second));
-        self.0[a.max(b)] = a.min(b);
+        let first_root = self.root(first);
+        let second_root = self.root(second);
+        self.0[first_root.max(second_root)] = first_root.min(second_root);
     }
 
     /// Merges the sets of all pairs that a nonzero entry of `matrix` couples.

@@ -8,8 +8,36 @@ use faer::{Accum, MatMut, MatRef, Par};
 
 pub(crate) use pulp::{Scalar, Simd, WithSimd};
 
-/// Number of rows read together.
-pub(super) const ROWS: usize = 4;
+/// Number of matrix rows that one pass over a vector reads.
+pub(super) const ROWS_AT_ONCE: usize = 4;
+
+/// Values in whole SIMD vectors, and the rest.
+pub(crate) struct SimdSlice<'a, S: Simd> {
+    pub(crate) vectors: &'a [S::f64s],
+    pub(crate) tail: &'a [f64],
+}
+
+impl<'a, S: Simd> SimdSlice<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(values: &'a [f64]) -> Self {
+        let parts = S::as_simd_f64s(values);
+        Self { vectors: parts.0, tail: parts.1 }
+    }
+}
+
+/// Mutable values in whole SIMD vectors, and the rest.
+pub(crate) struct SimdSliceMut<'a, S: Simd> {
+    pub(crate) vectors: &'a mut [S::f64s],
+    pub(crate) tail: &'a mut [f64],
+}
+
+impl<'a, S: Simd> SimdSliceMut<'a, S> {
+    #[inline(always)]
+    pub(crate) fn new(values: &'a mut [f64]) -> Self {
+        let parts = S::as_mut_simd_f64s(values);
+        Self { vectors: parts.0, tail: parts.1 }
+    }
+}
 
 /// y ← y + factor · A x for a dense row-major matrix with `x.len()` columns.
 pub(crate) fn dense_multiply_add(matrix: &[f64], factor: f64, x: &[f64], y: &mut [f64]) {
@@ -41,10 +69,11 @@ impl WithSimd for MultiplyAdd<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix, factor, x, y } = self;
         let columns = x.len();
-        let mut blocks = matrix.chunks_exact(ROWS * columns);
-        let mut outputs = y.chunks_exact_mut(ROWS);
+        let mut blocks = matrix.chunks_exact(ROWS_AT_ONCE * columns);
+        let mut outputs = y.chunks_exact_mut(ROWS_AT_ONCE);
         for (block, y) in blocks.by_ref().zip(outputs.by_ref()) {
-            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            let rows: [&[f64]; ROWS_AT_ONCE] =
+                std::array::from_fn(|k| &block[k * columns..][..columns]);
             for (y, sum) in y.iter_mut().zip(dots(simd, rows, x)) {
                 *y += factor * sum;
             }
@@ -70,10 +99,11 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { matrix, factor, x, y } = self;
         let columns = y.len();
-        let mut blocks = matrix.chunks_exact(ROWS * columns);
-        let mut inputs = x.chunks_exact(ROWS);
+        let mut blocks = matrix.chunks_exact(ROWS_AT_ONCE * columns);
+        let mut inputs = x.chunks_exact(ROWS_AT_ONCE);
         for (block, x) in blocks.by_ref().zip(inputs.by_ref()) {
-            let rows: [&[f64]; ROWS] = std::array::from_fn(|k| &block[k * columns..][..columns]);
+            let rows: [&[f64]; ROWS_AT_ONCE] =
+                std::array::from_fn(|k| &block[k * columns..][..columns]);
             add_rows(simd, std::array::from_fn(|k| factor * x[k]), rows, y);
         }
         let rest = blocks.remainder().chunks_exact(columns);
@@ -85,16 +115,19 @@ impl WithSimd for TransposedMultiplyAdd<'_> {
 
 /// Σ aᵢ xᵢ for four rows of the length of x.
 #[inline(always)]
-fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS] {
+fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS_AT_ONCE], x: &[f64]) -> [f64; ROWS_AT_ONCE] {
     // An addition waits for the previous one to the same sum, so each row has two sums.
-    let mut sums = [simd.splat_f64s(0.0); 2 * ROWS];
-    let (x, x_tail) = S::as_simd_f64s(x);
-    let ((a, a_tail), (b, b_tail)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
-    let ((c, c_tail), (d, d_tail)) = (S::as_simd_f64s(c), S::as_simd_f64s(d));
-    let (pairs, n) = (x.chunks_exact(2), x.len());
+    let mut sums = [simd.splat_f64s(0.0); 2 * ROWS_AT_ONCE];
+    let x = SimdSlice::<S>::new(x);
+    let a = SimdSlice::<S>::new(a);
+    let b = SimdSlice::<S>::new(b);
+    let c = SimdSlice::<S>::new(c);
+    let d = SimdSlice::<S>::new(d);
+    let n = x.vectors.len();
+    let pairs = x.vectors.chunks_exact(2);
     let odd = pairs.remainder();
-    let rows = a.chunks_exact(2).zip(b.chunks_exact(2));
-    let rows = rows.zip(c.chunks_exact(2).zip(d.chunks_exact(2)));
+    let rows = a.vectors.chunks_exact(2).zip(b.vectors.chunks_exact(2));
+    let rows = rows.zip(c.vectors.chunks_exact(2).zip(d.vectors.chunks_exact(2)));
     for (x, ((a, b), (c, d))) in pairs.zip(rows) {
         for k in 0..2 {
             sums[k] = simd.mul_add_e_f64s(a[k], x[k], sums[k]);
@@ -104,13 +137,13 @@ fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS
         }
     }
     if let [x] = odd {
-        for (k, row) in [a, b, c, d].into_iter().enumerate() {
+        for (k, row) in [a.vectors, b.vectors, c.vectors, d.vectors].into_iter().enumerate() {
             sums[2 * k] = simd.mul_add_e_f64s(row[n - 1], *x, sums[2 * k]);
         }
     }
-    let tails = [a_tail, b_tail, c_tail, d_tail];
+    let tails = [a.tail, b.tail, c.tail, d.tail];
     std::array::from_fn(|k| {
-        let tail: f64 = tails[k].iter().zip(x_tail).map(|(a, x)| a * x).sum();
+        let tail: f64 = tails[k].iter().zip(x.tail).map(|(a, x)| a * x).sum();
         tail + simd.reduce_sum_f64s(simd.add_f64s(sums[2 * k], sums[2 * k + 1]))
     })
 }
@@ -119,21 +152,24 @@ fn dots<S: Simd>(simd: S, [a, b, c, d]: [&[f64]; ROWS], x: &[f64]) -> [f64; ROWS
 #[inline(always)]
 pub(crate) fn add_rows<S: Simd>(
     simd: S,
-    factors: [f64; ROWS],
-    rows: [&[f64]; ROWS],
+    factors: [f64; ROWS_AT_ONCE],
+    rows: [&[f64]; ROWS_AT_ONCE],
     y: &mut [f64],
 ) {
-    let [p, q, r, s] = factors.map(|factor| simd.splat_f64s(factor));
-    let [a, b, c, d] = rows.map(S::as_simd_f64s);
-    let (y, y_tail) = S::as_mut_simd_f64s(y);
-    let rows = a.0.iter().zip(b.0).zip(c.0.iter().zip(d.0));
-    for (y, ((a, b), (c, d))) in y.iter_mut().zip(rows) {
-        let first = simd.mul_add_e_f64s(*b, q, simd.mul_add_e_f64s(*a, p, *y));
-        *y = simd.mul_add_e_f64s(*d, s, simd.mul_add_e_f64s(*c, r, first));
+    let splat = factors.map(|factor| simd.splat_f64s(factor));
+    let a = SimdSlice::<S>::new(rows[0]);
+    let b = SimdSlice::<S>::new(rows[1]);
+    let c = SimdSlice::<S>::new(rows[2]);
+    let d = SimdSlice::<S>::new(rows[3]);
+    let y = SimdSliceMut::<S>::new(y);
+    let rows = a.vectors.iter().zip(b.vectors).zip(c.vectors.iter().zip(d.vectors));
+    for (y, ((a, b), (c, d))) in y.vectors.iter_mut().zip(rows) {
+        let first_two = simd.mul_add_e_f64s(*b, splat[1], simd.mul_add_e_f64s(*a, splat[0], *y));
+        *y = simd.mul_add_e_f64s(*d, splat[3], simd.mul_add_e_f64s(*c, splat[2], first_two));
     }
-    for (i, y) in y_tail.iter_mut().enumerate() {
-        for (row, factor) in [a, b, c, d].iter().zip(factors) {
-            *y += row.1[i] * factor;
+    for (i, y) in y.tail.iter_mut().enumerate() {
+        for (row, factor) in [a.tail, b.tail, c.tail, d.tail].iter().zip(factors) {
+            *y += row[i] * factor;
         }
     }
 }
@@ -141,17 +177,19 @@ pub(crate) fn add_rows<S: Simd>(
 /// y ← y + factor · row.
 #[inline(always)]
 pub(crate) fn add_row<S: Simd>(simd: S, factor: f64, row: &[f64], y: &mut [f64]) {
-    let wide = simd.splat_f64s(factor);
-    let ((row, row_tail), (y, y_tail)) = (S::as_simd_f64s(row), S::as_mut_simd_f64s(y));
-    for (y, value) in y.iter_mut().zip(row) {
-        *y = simd.mul_add_e_f64s(*value, wide, *y);
+    let splat_factor = simd.splat_f64s(factor);
+    let row = SimdSlice::<S>::new(row);
+    let y = SimdSliceMut::<S>::new(y);
+    for (y, value) in y.vectors.iter_mut().zip(row.vectors) {
+        *y = simd.mul_add_e_f64s(*value, splat_factor, *y);
     }
-    y_tail.iter_mut().zip(row_tail).for_each(|(y, value)| *y += factor * value);
+    y.tail.iter_mut().zip(row.tail).for_each(|(y, value)| *y += factor * value);
 }
 
 /// Row-major A Bᵀ for row-major A and B with `columns` columns.
 pub(crate) fn row_products(a: &[f64], b: &[f64], columns: usize) -> Vec<f64> {
-    let (m, n) = (a.len() / columns.max(1), b.len() / columns.max(1));
+    let m = a.len() / columns.max(1);
+    let n = b.len() / columns.max(1);
     let mut products = vec![0.0; m * n];
     matmul(
         MatMut::from_row_major_slice_mut(&mut products, m, n),
@@ -196,7 +234,8 @@ pub(crate) fn add_combined_rows(
     factor: f64,
     sum: &mut [f64],
 ) {
-    let (m, k) = (vectors.len() / columns.max(1), sum.len() / columns.max(1));
+    let m = vectors.len() / columns.max(1);
+    let k = sum.len() / columns.max(1);
     matmul(
         MatMut::from_row_major_slice_mut(sum, k, columns),
         Accum::Add,
@@ -224,7 +263,8 @@ pub(crate) fn mixed(values: &[f64]) -> f64 {
 
 /// Σ |xᵢ|.
 pub(crate) fn magnitude(x: &[f64]) -> f64 {
-    let (chunks, mut sums) = (x.chunks_exact(8), [0.0; 8]);
+    let chunks = x.chunks_exact(8);
+    let mut sums = [0.0; 8];
     let tail: f64 = chunks.remainder().iter().map(|x| x.abs()).sum();
     for x in chunks {
         for k in 0..8 {
@@ -257,13 +297,14 @@ impl WithSimd for Dot<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> f64 {
         let length = self.x.len().min(self.y.len());
-        let (x, x_tail) = S::as_simd_f64s(&self.x[..length]);
-        let (y, y_tail) = S::as_simd_f64s(&self.y[..length]);
+        let x = SimdSlice::<S>::new(&self.x[..length]);
+        let y = SimdSlice::<S>::new(&self.y[..length]);
+        let tail = x.tail.iter().zip(y.tail);
         // An addition waits for the previous one to the same sum, so there are four sums.
         let mut sums = [simd.splat_f64s(0.0); 4];
-        let (x, y) = (x.chunks_exact(4), y.chunks_exact(4));
+        let x = x.vectors.chunks_exact(4);
+        let y = y.vectors.chunks_exact(4);
         let rest = x.remainder().iter().zip(y.remainder());
-        let tail = x_tail.iter().zip(y_tail);
         let Some(weights) = self.weights else {
             for (x, y) in x.zip(y) {
                 for k in 0..4 {
@@ -275,8 +316,9 @@ impl WithSimd for Dot<'_> {
             }
             return tail.map(|(x, y)| x * y).sum::<f64>() + total(simd, sums);
         };
-        let (w, w_tail) = S::as_simd_f64s(&weights[..length]);
-        let w = w.chunks_exact(4);
+        let weights = SimdSlice::<S>::new(&weights[..length]);
+        let tail = weights.tail.iter().zip(tail).map(|(w, (x, y))| w * x * y);
+        let w = weights.vectors.chunks_exact(4);
         let rest = w.remainder().iter().zip(rest);
         for (w, (x, y)) in w.zip(x.zip(y)) {
             for k in 0..4 {
@@ -286,7 +328,6 @@ impl WithSimd for Dot<'_> {
         for (w, (x, y)) in rest {
             sums[0] = simd.mul_add_e_f64s(simd.mul_f64s(*w, *x), *y, sums[0]);
         }
-        let tail = w_tail.iter().zip(tail).map(|(w, (x, y))| w * x * y);
         tail.sum::<f64>() + total(simd, sums)
     }
 }

@@ -15,8 +15,8 @@ use crate::linalg::elimination::{Elimination, by_columns};
 use crate::linalg::product::symmetric_product;
 use crate::linalg::{SparseMatrix, Triplets};
 
-/// Numbers in right-hand sides that are solved for together.
-const TOGETHER: usize = 1 << 22;
+/// Largest number of values in the right-hand sides of one solve.
+const MAX_SOLVE_BLOCK_VALUES: usize = 1 << 22;
 
 /// Factors of a square sparse matrix, with the workspace of their solves.
 pub(crate) struct SparseFactor {
@@ -31,7 +31,7 @@ enum Factors {
 }
 
 impl Factors {
-    /// Workspace of a solve for so many right-hand sides.
+    /// Workspace of a solve for `columns` right-hand sides.
     fn scratch(&self, columns: usize) -> StackReq {
         match self {
             Self::Cholesky { symbolic, .. } => {
@@ -54,11 +54,13 @@ impl SparseFactor {
         matrix: &SparseMatrix,
         elimination: &Elimination,
     ) -> Result<Self> {
-        let singular = || Error::Singular { matrix: name, order: matrix.order() };
         let columns = by_columns(matrix);
         let symmetric = matrix.asymmetry() <= 1e-13;
         let factor = if symmetric { Self::cholesky(&columns, elimination).ok() } else { None };
-        factor.or_else(|| Self::lu(&columns)).and_then(Self::probed).ok_or_else(singular)
+        factor
+            .or_else(|| Self::lu(&columns))
+            .and_then(Self::probed)
+            .ok_or_else(|| Error::Singular { matrix: name, order: matrix.order() })
     }
 
     /// Cholesky factors of the lower triangle; an error unless the matrix is positive definite.
@@ -74,8 +76,9 @@ impl SparseFactor {
         matches!(self.factors, Factors::Cholesky { .. })
     }
 
-    /// Returns `None` if a solve is not finite: LU may accept a singular matrix with a pivot of rounding
-    /// size.
+    /// This factor, or `None` if a solve is not finite.
+    ///
+    /// LU may accept a singular matrix with a pivot of rounding size.
     fn probed(mut self) -> Option<Self> {
         let mut probe = vec![1.0; self.order];
         self.solve(&mut probe);
@@ -153,30 +156,32 @@ impl SparseFactor {
     /// Overwrites many right-hand sides, one after the other in `rhs`, with A⁻¹ rhs; allocates its workspace.
     pub(crate) fn solve_many(&self, rhs: &mut [f64]) {
         let order = self.order.max(1);
-        let columns = (rhs.len() / order).min((TOGETHER / order).max(8));
+        let columns = (rhs.len() / order).min((MAX_SOLVE_BLOCK_VALUES / order).max(8));
         let mut buffer = MemBuffer::new(self.factors.scratch(columns));
-        for some in rhs.chunks_mut(columns.max(1) * order) {
-            let columns = some.len() / order;
-            Self::solve_with(&self.factors, self.order, columns, false, some, &mut buffer);
+        for block in rhs.chunks_mut(columns.max(1) * order) {
+            let columns = block.len() / order;
+            Self::solve_with(&self.factors, self.order, columns, false, block, &mut buffer);
         }
     }
 
-    /// The matrix condensed on `last`, row-major: the product L Lᵀ of its last rows.
+    /// The matrix condensed on the rows `last`, row-major: L Lᵀ of its last rows.
     ///
     /// `None` unless `last` are the last rows in the order of elimination, of a factor by Cholesky in blocks.
     pub(crate) fn condensed(&self, last: &[usize]) -> Option<Vec<f64>> {
         let count = last.len();
         let Factors::Cholesky { symbolic, values } = &self.factors else { return None };
         let mut lower = vec![0.0; count * count];
-        for (own, at) in last_entries(symbolic, last)? {
-            lower[own] = values[at];
+        for (place, at) in last_entries(symbolic, last)? {
+            lower[place] = values[at];
         }
         let lower = MatRef::from_row_major_slice(&lower, count, count);
         let shapes = [BlockStructure::TriangularLower, BlockStructure::TriangularUpper];
         Some(symmetric_product([lower, lower.transpose()], shapes))
     }
 
-    /// The factor of the matrix that differs from this one only on its rows `last`, where it is condensed to `matrix`.
+    /// Factor of the matrix whose condensation on the rows `last` is `matrix`.
+    ///
+    /// Elsewhere the matrix is the same as this factor's.
     ///
     /// `matrix`: row-major, of which the lower triangle is read. `None` where [`SparseFactor::condensed`] is, and for a
     /// matrix that is not positive definite.
@@ -185,12 +190,12 @@ impl SparseFactor {
         let Factors::Cholesky { symbolic, values } = &mut self.factors else { return None };
         let lower = MatRef::from_row_major_slice(matrix, count, count).llt(Side::Lower).ok()?;
         let entries = last_entries(symbolic, last)?;
-        // Zeros outside the pattern may have become others.
+        // Entries outside the pattern are zero in this factor, and may not be in the new one.
         if 2 * entries.len() != count * (count + 1) {
             return None;
         }
-        for (own, at) in entries {
-            values[at] = lower.L()[(own / count, own % count)];
+        for (place, at) in entries {
+            values[at] = lower.L()[(place / count, place % count)];
         }
         Some(self)
     }
@@ -222,25 +227,30 @@ impl SparseFactor {
     }
 }
 
-/// Places in the lower triangle of the rows `last`, row-major, and among the values of a factor.
+/// Places of the last rows' lower triangle: in their matrix, and among a factor's values.
+///
+/// The matrix is row-major.
 ///
 /// `None` unless `last` are the last rows in the order of elimination, of a factor in blocks.
 fn last_entries(symbolic: &SymbolicCholesky<usize>, last: &[usize]) -> Option<Vec<(usize, usize)>> {
     let SymbolicCholeskyRaw::Supernodal(blocks) = symbolic.raw() else { return None };
-    let (count, first) = (last.len(), symbolic.nrows().checked_sub(last.len())?);
+    let count = last.len();
+    let first = symbolic.nrows().checked_sub(count)?;
     if symbolic.perm()?.arrays().0[first..] != *last {
         return None;
     }
     let mut entries = Vec::new();
     for k in (0..blocks.n_supernodes()).rev() {
-        let (begin, end) = (blocks.supernode_begin()[k], blocks.supernode_end()[k]);
+        let begin = blocks.supernode_begin()[k];
+        let end = blocks.supernode_end()[k];
         let pattern = blocks.supernode(k).pattern();
-        let (start, height) = (blocks.col_ptr_for_val()[k], end - begin + pattern.len());
+        let start = blocks.col_ptr_for_val()[k];
+        let height = end - begin + pattern.len();
         for column in begin.max(first)..end {
             let rows = (begin..end).chain(pattern.iter().copied()).enumerate();
-            entries.extend(rows.filter(|(_, row)| *row >= column).map(|(place, row)| {
-                let own = (row - first) * count + column - first;
-                (own, start + (column - begin) * height + place)
+            entries.extend(rows.filter(|(_, row)| *row >= column).map(|(offset, row)| {
+                let place = (row - first) * count + column - first;
+                (place, start + (column - begin) * height + offset)
             }));
         }
     }
@@ -259,29 +269,35 @@ pub(crate) fn indefinite_row(
     floor: f64,
     elimination: &Elimination,
 ) -> Option<usize> {
-    let given = matrix.diagonal();
-    let negative = (0..given.len()).min_by(|i, j| given[*i].total_cmp(&given[*j]));
-    if let Some(row) = negative.filter(|row| given[*row] < -floor) {
+    let diagonal_entries = matrix.diagonal();
+    let smallest = (0..diagonal_entries.len())
+        .min_by(|i, j| diagonal_entries[*i].total_cmp(&diagonal_entries[*j]));
+    if let Some(row) = smallest.filter(|row| diagonal_entries[*row] < -floor) {
         return Some(row);
     }
-    let diagonal: Vec<f64> = given.iter().map(|value| value.max(floor)).collect();
+    let diagonal: Vec<f64> = diagonal_entries.iter().map(|value| value.max(floor)).collect();
     let scale = |row: usize, column: usize| diagonal[row].sqrt() * diagonal[column].sqrt();
     let mut coupled = false;
     for (row, column, value) in matrix.entries() {
         if row != column && value != 0.0 {
             coupled = true;
             if value.abs() > (1.0 + tolerance) * scale(row, column) {
-                return Some(if given[column] < given[row] { column } else { row });
+                return Some(if diagonal_entries[column] < diagonal_entries[row] {
+                    column
+                } else {
+                    row
+                });
             }
         }
     }
     if !coupled {
         return None;
     }
-    let scaled = SparseMatrix::by_rows(matrix.order(), |row, own| {
-        let beside = matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
-        own.extend(beside.map(|(column, value)| (column, value / scale(row, column))));
-        own.push((row, 1.0 + tolerance));
+    let scaled = SparseMatrix::by_rows(matrix.order(), |row, entries| {
+        let off_diagonal =
+            matrix.row(row).filter(|(column, value)| *column != row && *value != 0.0);
+        entries.extend(off_diagonal.map(|(column, value)| (column, value / scale(row, column))));
+        entries.push((row, 1.0 + tolerance));
     });
     SparseFactor::cholesky(&by_columns(&scaled), elimination).err()
 }

@@ -2,43 +2,56 @@
 
 use super::matrix::SparseMatrix;
 
+/// A stored entry a_ij, and a_ji.
+struct MirroredEntry {
+    row: usize,
+    column: usize,
+    value: f64,
+    mirrored: f64,
+}
+
 impl SparseMatrix {
     /// Largest |a_ij − a_ji| relative to the largest |a_ij|.
     pub(crate) fn asymmetry(&self) -> f64 {
         let mut largest = 0.0_f64;
         let mut difference = 0.0_f64;
-        self.mirrored().for_each(|(_, _, value, mirrored)| {
-            largest = largest.max(value.abs());
-            difference = difference.max((value - mirrored).abs());
-        });
+        for entry in self.mirrored_entries() {
+            largest = largest.max(entry.value.abs());
+            difference = difference.max((entry.value - entry.mirrored).abs());
+        }
         if largest > 0.0 { difference / largest } else { 0.0 }
     }
 
-    /// Row, column, a_ij and a_ji of the pair whose difference most exceeds the difference `allowed` in its row and
-    /// column.
+    /// The pair whose difference exceeds the allowed one by the most.
+    ///
+    /// `allowed(row, column)`: allowed difference. Returns row, column, and a_ij with a_ji.
     pub(crate) fn unsymmetric_pair(
         &self,
         allowed: impl Fn(usize, usize) -> f64,
     ) -> Option<(usize, usize, [f64; 2])> {
-        let pairs = self.mirrored().map(|(row, column, value, mirrored)| {
-            let pair = [value, mirrored];
-            let excess = (pair[0] - pair[1]).abs() - allowed(row, column);
-            (excess, (row, column, pair))
-        });
-        let beyond = pairs.filter(|(excess, _)| *excess > 0.0);
-        // Of equal ones the first.
-        beyond.reduce(|most, own| if own.0 > most.0 { own } else { most }).map(|(_, pair)| pair)
+        let mut largest_excess = 0.0;
+        let mut found = None;
+        for MirroredEntry { row, column, value, mirrored } in self.mirrored_entries() {
+            let excess = (value - mirrored).abs() - allowed(row, column);
+            // The first of equal pairs.
+            if excess > largest_excess {
+                largest_excess = excess;
+                found = Some((row, column, [value, mirrored]));
+            }
+        }
+        found
     }
 
-    /// All stored entries: (row, column, a_ij, a_ji).
-    fn mirrored(&self) -> impl Iterator<Item = (usize, usize, f64, f64)> {
-        // Rows ascend: the place in a row where the search for the mirrored entry starts moves forward.
+    /// All stored entries with their mirrored ones.
+    fn mirrored_entries(&self) -> impl Iterator<Item = MirroredEntry> {
+        // Rows ascend, so that the search in each column's row starts where the previous one ended.
         let mut next = self.row_start.clone();
         self.entries().map(move |(row, column, value)| {
             let places = next[column]..self.row_start[column + 1];
             next[column] += self.column[places.clone()].iter().take_while(|j| **j < row).count();
             let is_stored = places.end > next[column] && self.column[next[column]] == row;
-            (row, column, value, if is_stored { self.value[next[column]] } else { 0.0 })
+            let mirrored = if is_stored { self.value[next[column]] } else { 0.0 };
+            MirroredEntry { row, column, value, mirrored }
         })
     }
 }
@@ -56,15 +69,17 @@ mod tests {
         let matrix = SparseMatrix::new("test", &triplets).unwrap();
         let mut dense = [[0.0; 7]; 7];
         matrix.entries().for_each(|(i, j, value)| dense[i][j] = value);
-        let (mut most, mut apart) = (0.0_f64, 0.0_f64);
+        let mut largest = 0.0_f64;
+        let mut difference = 0.0_f64;
         for (i, j, value) in matrix.entries() {
-            most = most.max(value.abs());
-            apart = apart.max((value - dense[j][i]).abs());
+            largest = largest.max(value.abs());
+            difference = difference.max((value - dense[j][i]).abs());
         }
-        assert!(apart > 0.0);
-        assert_eq!(matrix.asymmetry(), apart / most);
-        let (i, j, pair) = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
-        assert_eq!(pair, [dense[i][j], dense[j][i]]);
-        assert_eq!((pair[0] - pair[1]).abs(), apart);
+        assert!(difference > 0.0);
+        assert_eq!(matrix.asymmetry(), difference / largest);
+        let found = matrix.unsymmetric_pair(|_, _| 0.0).unwrap();
+        let pair = found.2;
+        assert_eq!(pair, [dense[found.0][found.1], dense[found.1][found.0]]);
+        assert_eq!((pair[0] - pair[1]).abs(), difference);
     }
 }

@@ -1,35 +1,37 @@
-//! A square matrix whose products leave out what they can.
+//! A square matrix with products by its diagonal, its sparse entries or FFT where that is cheaper.
 
 use std::ops::Deref;
 
 use super::{LatticeProduct, LatticeScratch, SparseMatrix, Triplets, dense_multiply_add};
 
 /// Smallest number of elements on a lattice for which products transform along the surface.
-const LATTICE_FROM: usize = 36;
+const MIN_LATTICE_ELEMENTS: usize = 36;
 
 /// A square matrix: all entries, row by row, or a diagonal.
 ///
-/// If most entries are zero, the others are stored as sparse. Three components of many elements on a lattice are
-/// multiplied by transforms along the surface. As a slice it is all entries, of a diagonal matrix the diagonal.
+/// If most entries are zero, products use a sparse copy of the others. For three components of many elements on a
+/// lattice, products use Fourier transforms along the surface.
+///
+/// As a slice it is all entries, or the diagonal of a diagonal matrix.
 #[derive(Debug)]
-pub(crate) struct Thinned {
+pub(crate) struct CompressedMatrix {
     values: Vec<f64>,
     is_diagonal: bool,
     entries: Option<SparseMatrix>,
     lattice: Option<LatticeProduct>,
 }
 
-impl Thinned {
+impl CompressedMatrix {
     pub(crate) fn new(values: Vec<f64>, order: usize) -> Self {
-        let filled = values.iter().filter(|value| **value != 0.0).count();
+        let nonzeros = values.iter().filter(|value| **value != 0.0).count();
         // A product with a sparse entry costs about as much as with four dense ones.
-        let entries = (filled <= values.len() / 8)
+        let entries = (nonzeros <= values.len() / 8)
             .then(|| {
                 let mut entries = Triplets::new(order);
                 for (place, &value) in values.iter().enumerate().filter(|(_, v)| **v != 0.0) {
                     entries.add(place / order, place % order, value);
                 }
-                SparseMatrix::new("instantaneous operator of the ground", &entries).ok()
+                SparseMatrix::new("step compliance of the ground", &entries).ok()
             })
             .flatten();
         Self { entries, ..Self::full(values) }
@@ -63,22 +65,22 @@ impl Thinned {
         all
     }
 
-    /// Matrix of three components of elements with these `areas` on `cells` of a lattice, component by component.
+    /// Matrix of three components of elements on a lattice, component by component.
     ///
-    /// Products are as in [`Thinned::new`] unless blocks over the area of their source depend on the offset alone.
+    /// `areas`: of the elements; `cells`: their columns and rows. Products use transforms only if blocks divided by
+    /// the area of their source depend on the offset alone.
     pub(crate) fn on_lattice(values: Vec<f64>, cells: &[[usize; 2]], areas: &[f64]) -> Self {
         let count = areas.len();
-        let mut all = Self::new(values, 3 * count);
-        if count >= LATTICE_FROM {
-            let entry = |row: usize, column: usize| all.values[row * 3 * count + column];
-            all.lattice = LatticeProduct::new(cells, areas, |receiver, source| {
+        let mut matrix = Self::new(values, 3 * count);
+        if count >= MIN_LATTICE_ELEMENTS {
+            matrix.lattice = LatticeProduct::new(cells, areas, |receiver, source| {
                 [0, 1, 2].map(|r| {
-                    [0, 1, 2]
-                        .map(|c| entry(r * count + receiver, c * count + source) / areas[source])
+                    let row = &matrix.values[(r * count + receiver) * 3 * count..];
+                    [0, 1, 2].map(|c| row[c * count + source] / areas[source])
                 })
             });
         }
-        all
+        matrix
     }
 
     /// Cells of many elements whose blocks depend on the offset alone.
@@ -86,7 +88,7 @@ impl Thinned {
         self.lattice.as_ref().map(LatticeProduct::cells)
     }
 
-    /// Scratch for [`Thinned::multiply_add_with`].
+    /// Scratch for [`CompressedMatrix::multiply_add_with`].
     pub(crate) fn scratch(&self) -> LatticeScratch {
         self.lattice.as_ref().map(LatticeProduct::scratch).unwrap_or_default()
     }
@@ -108,7 +110,7 @@ impl Thinned {
         }
     }
 
-    /// y ← y + A x, by transforms along the surface where that is quicker.
+    /// y ← y + A x, by transforms along the surface where that is faster.
     pub(crate) fn multiply_add_with(&self, scratch: &mut LatticeScratch, x: &[f64], y: &mut [f64]) {
         match &self.lattice {
             Some(lattice) if self.entries.is_none() => {
@@ -120,7 +122,7 @@ impl Thinned {
     }
 }
 
-impl Deref for Thinned {
+impl Deref for CompressedMatrix {
     type Target = [f64];
 
     fn deref(&self) -> &[f64] {

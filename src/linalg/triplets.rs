@@ -50,9 +50,9 @@ impl Triplets {
     /// [`Error::Size`](crate::Error::Size) unless there are `order` times `order` values.
     pub fn from_dense(order: usize, values: &[f64]) -> Result<Self> {
         same_length("dense matrix", values.len(), order.saturating_mul(order))?;
-        let entries = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
-        let places = entries.map(|(place, &value)| (place / order, place % order, value));
-        Ok(Self::from_entries(order, places))
+        let nonzeros = values.iter().enumerate().filter(|(_, value)| **value != 0.0);
+        let entries = nonzeros.map(|(place, &value)| (place / order, place % order, value));
+        Ok(Self::from_entries(order, entries))
     }
 
     /// Matrix of `order` rows and columns in compressed sparse rows, as SciPy's `csr_matrix` has them.
@@ -101,13 +101,17 @@ impl Triplets {
 
     /// Adds `value` at (`row`, `column`).
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        let place = |index: usize| match self.shift {
+        self.entries.push((self.shifted(row), self.shifted(column), value));
+    }
+
+    /// Index in the whole matrix of an index in the block that is being written.
+    fn shifted(&self, index: usize) -> usize {
+        match self.shift {
             None => index,
             Some(shift) if index < self.order => index + shift,
             // An index beyond the block must not become a valid index of the whole matrix.
             Some(_) => usize::MAX,
-        };
-        self.entries.push((place(row), place(column), value));
+        }
     }
 
     /// Adds a dense block (row-major) at rows and columns `indices`.
@@ -154,15 +158,18 @@ impl Triplets {
         order: usize,
         write: impl FnOnce(&mut Self) -> T,
     ) -> T {
-        let outer = (self.order, self.shift);
-        let inner = (order, Some(self.shift.unwrap_or(0) + first));
-        (self.order, self.shift) = inner;
-        let written = write(self);
-        // A block that was replaced keeps its order, which is refused.
-        if (self.order, self.shift) == inner {
-            (self.order, self.shift) = outer;
+        let outer_order = self.order;
+        let outer_shift = self.shift;
+        let block_shift = Some(outer_shift.unwrap_or(0) + first);
+        self.order = order;
+        self.shift = block_shift;
+        let result = write(self);
+        // If `write` replaced the triplets, they keep their order, which a later check finds.
+        if self.order == order && self.shift == block_shift {
+            self.order = outer_order;
+            self.shift = outer_shift;
         }
-        written
+        result
     }
 
     /// Removes all entries, and keeps the memory allocated.
@@ -171,8 +178,9 @@ impl Triplets {
     }
 }
 
-/// Triplets whose order follows from the largest index. Rows without entries at the end are therefore lost;
-/// [`Triplets::from_entries`] keeps them.
+/// Triplets whose order follows from the largest index.
+///
+/// Rows without entries at the end are therefore lost; [`Triplets::from_entries`] keeps them.
 impl FromIterator<(usize, usize, f64)> for Triplets {
     fn from_iter<I: IntoIterator<Item = (usize, usize, f64)>>(entries: I) -> Self {
         let entries: Vec<_> = entries.into_iter().collect();

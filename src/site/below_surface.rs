@@ -19,73 +19,106 @@
 use crate::linalg::Complex;
 use crate::soil::Soil;
 
-/// u_x, u_z, τ, σ.
-pub(super) type Field = [Complex; 4];
+/// Displacements and impulses of stresses at one depth.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct WaveField {
+    /// u_x.
+    pub(super) right: Complex,
+    /// u_z.
+    pub(super) down: Complex,
+    /// τ.
+    pub(super) shear: Complex,
+    /// σ.
+    pub(super) normal: Complex,
+}
 
-/// Part of the series of an exponential that counts as rounding.
-const ROUNDING: f64 = 1e-17;
+impl WaveField {
+    fn times(self, factor: Complex) -> Self {
+        Self {
+            right: self.right * factor,
+            down: self.down * factor,
+            shear: self.shear * factor,
+            normal: self.normal * factor,
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        Self {
+            right: self.right + other.right,
+            down: self.down + other.down,
+            shear: self.shear + other.shear,
+            normal: self.normal + other.normal,
+        }
+    }
+}
+
+/// Size of a term at which the series of an exponential ends: rounding.
+const SERIES_TOLERANCE: f64 = 1e-17;
 
 /// Soil at one s, for waves of one horizontal slowness.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Medium {
+pub(super) struct FieldMedium {
     density: f64,
     slowness: f64,
     /// 1/μ and 1/c.
-    softness: [Complex; 2],
+    compliances: [Complex; 2],
     /// λ/c.
-    to_the_sides: f64,
+    lateral_ratio: f64,
     /// E.
-    stretching: Complex,
+    plane_strain_modulus: Complex,
 }
 
-impl Medium {
+impl FieldMedium {
     pub(super) fn new(soil: Soil, modulus: Complex, slowness: f64) -> Self {
         let ratio = soil.speed_ratio_squared();
         let shear = modulus.inverse();
         Self {
             density: soil.density(),
             slowness,
-            softness: [shear, shear.scale(ratio)],
-            to_the_sides: 1.0 - 2.0 * ratio,
-            stretching: modulus.scale(4.0 * (1.0 - ratio)),
+            compliances: [shear, shear.scale(ratio)],
+            lateral_ratio: 1.0 - 2.0 * ratio,
+            plane_strain_modulus: modulus.scale(4.0 * (1.0 - ratio)),
         }
     }
 
     /// q.
-    pub(super) fn sideways(&self, [x, _, _, pressing]: Field) -> Complex {
-        pressing.scale(self.to_the_sides) - self.stretching * x.scale(self.slowness)
+    pub(super) fn horizontal_stress(&self, field: WaveField) -> Complex {
+        field.normal.scale(self.lateral_ratio)
+            - self.plane_strain_modulus * field.right.scale(self.slowness)
     }
 
     /// Derivative of a field over depth, over s.
-    fn rate(&self, field: Field) -> Field {
-        let ([x, z, shear, normal], p) = (field, self.slowness);
-        let [by_shear, by_normal] = self.softness;
-        [
-            shear * by_shear + z.scale(p),
-            normal * by_normal + x.scale(p * self.to_the_sides),
-            x.scale(self.density) + self.sideways(field).scale(p),
-            z.scale(self.density) + shear.scale(p),
-        ]
+    fn rate(&self, field: WaveField) -> WaveField {
+        let WaveField { right, down, shear, normal } = field;
+        let p = self.slowness;
+        WaveField {
+            right: shear * self.compliances[0] + down.scale(p),
+            down: normal * self.compliances[1] + right.scale(p * self.lateral_ratio),
+            shear: right.scale(self.density) + self.horizontal_stress(field).scale(p),
+            normal: down.scale(self.density) + shear.scale(p),
+        }
     }
 
     /// The field `height` (m) below `field`.
-    pub(super) fn below(&self, s: Complex, height: f64, mut field: Field) -> Field {
-        let slowness = (self.density * self.softness[0].abs()).sqrt() + self.slowness.abs();
+    pub(super) fn below(&self, s: Complex, height: f64, mut field: WaveField) -> WaveField {
+        let slowness = (self.density * self.compliances[0].abs()).sqrt() + self.slowness.abs();
         let travel = s.abs() * height * slowness;
-        let mut rest = travel;
-        while rest > 0.0 {
-            // Series of the exponential, in parts of at most one.
-            let part = rest.min(1.0);
-            let length = s.scale(height * (part / travel));
-            let (mut term, mut size, mut order) = (field, 1.0, 0.0);
-            while size > ROUNDING {
+        let mut remaining = travel;
+        while remaining > 0.0 {
+            // Series of the exponential, in steps of at most one.
+            let step = remaining.min(1.0);
+            let length = s.scale(height * (step / travel));
+            let mut term = field;
+            let mut term_size = 1.0;
+            let mut order = 0.0;
+            while term_size > SERIES_TOLERANCE {
                 order += 1.0;
-                size *= part / order;
+                term_size *= step / order;
                 let factor = length.scale(1.0 / order);
-                term = self.rate(term).map(|own| own * factor);
-                field.iter_mut().zip(term).for_each(|(sum, own)| *sum += own);
+                term = self.rate(term).times(factor);
+                field = field.plus(term);
             }
-            rest -= part;
+            remaining -= step;
         }
         field
     }
@@ -102,41 +135,51 @@ mod tests {
     fn fields_are_sums_of_plane_waves() {
         let soil = Soil::new(2.0, 0.3, 1.5).unwrap();
         let modulus = Complex::new(2.0, 0.13);
-        let slow = |ratio: f64, p: f64| {
+        let slowness = |ratio: f64, p: f64| {
             ((modulus.inverse().scale(1.5 * ratio)) - Complex::real(p * p)).sqrt()
         };
         for p in [0.0, 0.31, -0.55, 1.2] {
-            let (a, b) = (slow(soil.speed_ratio_squared(), p), slow(1.0, p));
+            let a = slowness(soil.speed_ratio_squared(), p);
+            let b = slowness(1.0, p);
             let g = b * b - Complex::real(p * p);
             let s = Complex::new(0.4, 1.9);
-            let [x, z] = [Complex::new(0.7, -0.2), Complex::new(-0.3, 0.5)];
+            let x = Complex::new(0.7, -0.2);
+            let z = Complex::new(-0.3, 0.5);
             let speed = modulus.scale(1.0 / 1.5);
-            let (even, odd) = (x * speed / b, -(z * speed) / a);
-            let (p_even, s_even) = (b * even.scale(2.0 * p), g * even);
-            let (p_odd, s_odd) = (g * odd, -(a * odd.scale(2.0 * p)));
-            let medium = Medium::new(soil, modulus, p);
-            let upper = medium.below(s, 1.1, [x, z, Complex::default(), Complex::default()]);
+            let even = x * speed / b;
+            let odd = -(z * speed) / a;
+            let p_even = b * even.scale(2.0 * p);
+            let s_even = g * even;
+            let p_odd = g * odd;
+            let s_odd = -(a * odd.scale(2.0 * p));
+            let medium = FieldMedium::new(soil, modulus, p);
+            let surface = WaveField { right: x, down: z, ..WaveField::default() };
+            let upper = medium.below(s, 1.1, surface);
             let found = medium.below(s, 0.6, upper);
             // Σ over waves up (e = 1) and down (e = −1).
-            let (mut wanted, mut sideways) = ([Complex::default(); 4], Complex::default());
+            let mut wanted = [Complex::default(); 4];
+            let mut horizontal_stress = Complex::default();
             let c = modulus.scale(1.0 / soil.speed_ratio_squared());
             let pressing = c.scale(p * p) + (c - modulus.scale(2.0)) * a * a;
             for e in [1.0, -1.0] {
-                let along = |eta: Complex| (s * eta.scale(1.7 * e)).exp();
-                let pressure = (p_even + p_odd.scale(e)).scale(0.5) * along(a);
-                let shear = (s_even + s_odd.scale(e)).scale(0.5) * along(b);
+                let p_travel = (s * a.scale(1.7 * e)).exp();
+                let s_travel = (s * b.scale(1.7 * e)).exp();
+                let pressure = (p_even + p_odd.scale(e)).scale(0.5) * p_travel;
+                let shear = (s_even + s_odd.scale(e)).scale(0.5) * s_travel;
                 wanted[0] += pressure.scale(p) + shear * b;
                 wanted[1] += shear.scale(e * p) - pressure * a.scale(e);
                 wanted[2] += modulus * (pressure * a.scale(2.0 * p * e) + shear * g.scale(e));
                 wanted[3] += modulus * (shear * b.scale(2.0 * p) - pressure * g);
-                sideways += -(pressure * pressing) - shear * modulus * b.scale(2.0 * p);
+                horizontal_stress += -(pressure * pressing) - shear * modulus * b.scale(2.0 * p);
             }
-            for (found, wanted) in found.iter().zip(wanted) {
-                assert!((*found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
+            let values = [found.right, found.down, found.shear, found.normal];
+            for (found, wanted) in values.into_iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-12, "{p}: {found:?} {wanted:?}");
             }
-            assert!((medium.sideways(found) - sideways).abs() < 1e-12);
+            assert!((medium.horizontal_stress(found) - horizontal_stress).abs() < 1e-12);
         }
     }
+
     /// Below layers, the only wave upwards is the incident one, of unit displacement.
     #[test]
     fn inclined_waves_of_layers_come_from_below() {
@@ -151,19 +194,22 @@ mod tests {
         for (kind, wave) in waves.into_iter().enumerate() {
             let wave = wave.unwrap();
             let p = 1.0 / wave.apparent_velocity();
-            let [x, up] = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
+            let motion = wave.transfer(InclinedControl::Incident, 0.8).unwrap();
             let s = Complex::new(0.0, 0.8 * std::f64::consts::TAU);
-            let mut field = [x, -up, Complex::default(), Complex::default()];
+            let mut field =
+                WaveField { right: motion[0], down: -motion[1], ..WaveField::default() };
             for ((soil, _), layer) in profile.soils().zip(profile.layers()) {
-                let medium = Medium::new(soil, Complex::real(soil.shear_modulus()), p);
+                let medium = FieldMedium::new(soil, Complex::real(soil.shear_modulus()), p);
                 field = medium.below(s, layer.thickness, field);
             }
-            let [x, z, shear, normal] = field;
-            let slow = |c: f64| (c.powi(-2) - p * p).sqrt();
-            let (a, b) = (slow(rock.pressure_wave_speed()), slow(rock.shear_wave_speed()));
-            let [shear, normal] = [shear, normal].map(|own| own.scale(1.0 / rock.shear_modulus()));
+            let WaveField { right: x, down: z, .. } = field;
+            let a = (rock.pressure_wave_speed().powi(-2) - p * p).sqrt();
+            let b = (rock.shear_wave_speed().powi(-2) - p * p).sqrt();
+            let shear = field.shear.scale(1.0 / rock.shear_modulus());
+            let normal = field.normal.scale(1.0 / rock.shear_modulus());
             // P along (p, −a), S along (b, p), upwards.
-            let (g, c) = (b * b - p * p, 0.5 * rock.shear_wave_speed().powi(2));
+            let g = b * b - p * p;
+            let c = 0.5 * rock.shear_wave_speed().powi(2);
             let along = (x.scale(2.0 * p) - normal) + (shear.scale(p) - z.scale(g)).scale(1.0 / a);
             let across = (x.scale(g) + normal.scale(p)).scale(1.0 / b) + (z.scale(2.0 * p) + shear);
             let found = [

@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 use std::fmt;
 
 use super::SiteWarning;
-use super::iteration::{Converged, EquivalentLinearOptions, Iteration};
-use super::pace::Pace;
+use super::iteration::{
+    ColumnAccelerations, Converged, EquivalentLinearOptions, Iteration, LayerProperties,
+};
+use super::part_progress::PartProgress;
 use super::soil_column::SoilColumn;
 use crate::error::{Observer, Result, Watch};
 use crate::linalg::{Complex, largest};
@@ -41,8 +43,8 @@ pub struct EquivalentLinear {
     /// Motion of the free surface, the input of a simulation.
     ///
     /// For [`VerticalIncidence`](crate::motion::VerticalIncidence) or a builder's `motion`. Use this record:
-    /// `profile` disperses, and the peak of its own surface motion ([`SoilColumn::to_surface`]) differs by up to 5
-    /// %.
+    /// `profile` disperses, and the peak of the surface motion computed with it ([`SoilColumn::to_surface`]) differs by
+    /// up to 5 %.
     pub surface: Record,
     /// Properties and strains from the surface down.
     pub layers: Vec<LayerResponse>,
@@ -110,23 +112,26 @@ impl SoilColumn {
         options: &EquivalentLinearOptions,
         observer: &mut Observer<'_>,
     ) -> Result<EquivalentLinear> {
-        let total = options.most_iterations.saturating_add(1).saturating_mul(Pace::PARTS);
+        let total =
+            options.most_iterations.saturating_add(1).saturating_mul(PartProgress::STEPS_PER_PART);
         let mut watch = Watch::new("equivalent-linear response", total, observer);
         let mut iteration = Iteration::new(self, motion, curves, options)?;
         let Converged { properties, strains, iterations, last_change } =
             iteration.converged(&mut watch)?;
-        let mut pace = Pace::part(&mut watch, iterations);
-        let (surface, accelerations) = iteration.accelerations(&properties, &mut pace)?;
-        let peak_accelerations = accelerations.iter().map(|own| largest(own)).collect();
+        let mut progress = PartProgress::part(&mut watch, iterations);
+        let ColumnAccelerations { surface, tops } =
+            iteration.accelerations(&properties, &mut progress)?;
+        let peak_accelerations = tops.iter().map(|series| largest(series)).collect();
         let cut_off = surface.before.max(surface.after) / surface.peak();
-        let (mut depth, mut layers) = (0.0, Vec::with_capacity(strains.len()));
-        let given = self.profile.layers().iter().zip(&properties).zip(&strains);
-        for ((layer, [modulus_ratio, damping]), strain) in given {
+        let mut depth = 0.0;
+        let mut layers = Vec::with_capacity(strains.len());
+        let converged_layers = self.profile.layers().iter().zip(&properties).zip(&strains);
+        for ((layer, properties), strain) in converged_layers {
             layers.push(LayerResponse {
                 depth,
-                shear_modulus: modulus_ratio * layer.soil.shear_modulus(),
-                modulus_ratio: *modulus_ratio,
-                damping: *damping,
+                shear_modulus: properties.modulus_ratio * layer.soil.shear_modulus(),
+                modulus_ratio: properties.modulus_ratio,
+                damping: properties.damping_ratio,
                 largest_strain: *strain,
                 effective_strain: options.strain_ratio * strain,
             });
@@ -136,7 +141,7 @@ impl SoilColumn {
             layers,
             profile: self.causal(&properties, options)?,
             surface: Record::new(motion.time_step(), surface.samples)?,
-            accelerations,
+            accelerations: tops,
             peak_accelerations,
             iterations,
             last_change,
@@ -150,19 +155,19 @@ impl SoilColumn {
     /// Profile with these properties by causal damping laws, with the same moduli at its first frequency.
     fn causal(
         &self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         options: &EquivalentLinearOptions,
     ) -> Result<SoilProfile> {
         let EquivalentLinearOptions { band, complex_modulus, .. } = *options;
         let soft = self.compatible(properties, complex_modulus, |_| Ok(Elastic))?;
         let reference = soft.first_frequency().unwrap_or(band[0]).clamp(band[0], band[1]);
-        let law = |ratio| GeneralizedMaxwell::constant_q(ratio, band, reference);
-        let profile = self.compatible(properties, complex_modulus, law)?;
+        let causal_law = |ratio| GeneralizedMaxwell::constant_q(ratio, band, reference);
+        let profile = self.compatible(properties, complex_modulus, causal_law)?;
         match profile.bedrock() {
             Bedrock::HalfPlane { damping, .. } if !damping.is_causal() => {
                 let modulus = damping.modulus(Complex::new(0.0, TAU * reference));
-                let law = law(0.5 * modulus.im / modulus.re)?;
-                Ok(profile.with_bedrock_damping(law))
+                let bedrock_law = causal_law(0.5 * modulus.im / modulus.re)?;
+                Ok(profile.with_bedrock_damping(bedrock_law))
             }
             _ => Ok(profile),
         }
@@ -172,18 +177,22 @@ impl SoilColumn {
 impl EquivalentLinear {
     fn warn(&mut self, tolerance: f64, curves: &[ResolvedCurves], cut_off: f64) {
         for (k, (response, curves)) in self.layers.iter().zip(curves).enumerate() {
-            let (layer, largest) = (k + 1, curves.largest());
-            let (most, effective) = (response.largest_strain, response.effective_strain);
-            if most > SiteWarning::STRAIN_LIMIT {
-                self.warnings.push(SiteWarning::LargeStrain { layer, strain: most });
+            let layer = k + 1;
+            let largest = curves.largest();
+            let strain = response.largest_strain;
+            if strain > SiteWarning::STRAIN_LIMIT {
+                self.warnings.push(SiteWarning::LargeStrain { layer, strain });
             }
-            if effective > largest {
-                self.warnings.push(SiteWarning::Extrapolated { layer, strain: effective, largest });
+            let strain = response.effective_strain;
+            if strain > largest {
+                self.warnings.push(SiteWarning::Extrapolated { layer, strain, largest });
             }
         }
         if self.last_change > tolerance {
-            let (change, iterations) = (self.last_change, self.iterations);
-            self.warnings.push(SiteWarning::NotConverged { change, iterations });
+            self.warnings.push(SiteWarning::NotConverged {
+                change: self.last_change,
+                iterations: self.iterations,
+            });
         }
         if cut_off > 0.01 {
             self.warnings.push(SiteWarning::CutOff { share: cut_off });
@@ -200,22 +209,23 @@ impl fmt::Display for EquivalentLinear {
             "top (m)", "c_S (m/s)", "G/Gmax", "damping %", "strain %", "effective %", "peak (g)"
         )?;
         let mut peaks = self.peak_accelerations.iter().map(|peak| peak / STANDARD_GRAVITY);
-        for (own, layer) in self.layers.iter().zip(self.profile.layers()) {
+        for (response, layer) in self.layers.iter().zip(self.profile.layers()) {
             writeln!(
                 f,
                 "{:>9.2} {:>9.1} {:>7.3} {:>9.2} {:>11.4} {:>11.4} {:>8.3}",
-                own.depth,
-                (own.shear_modulus / layer.soil.density()).sqrt(),
-                own.modulus_ratio,
-                100.0 * own.damping,
-                100.0 * own.largest_strain,
-                100.0 * own.effective_strain,
+                response.depth,
+                (response.shear_modulus / layer.soil.density()).sqrt(),
+                response.modulus_ratio,
+                100.0 * response.damping,
+                100.0 * response.largest_strain,
+                100.0 * response.effective_strain,
                 peaks.next().unwrap_or(f64::NAN)
             )?;
         }
         let bedrock = peaks.next().unwrap_or(f64::NAN);
         writeln!(f, "{:>9.2} {:>60} {bedrock:>8.3}", self.profile.depth(), "bedrock, within")?;
-        let (count, change) = (self.iterations, 100.0 * self.last_change);
+        let count = self.iterations;
+        let change = 100.0 * self.last_change;
         write!(f, "{count} iterations, to {change:.2} % of strain-compatible properties")?;
         self.warnings.iter().try_for_each(|warning| write!(f, "\n{warning}"))
     }

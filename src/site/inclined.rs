@@ -2,10 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::oblique::{InclinedControl, Surface, WaveKind};
-use super::pace::Pace;
-use super::sampled::{Functions, evaluate};
+use super::oblique::{InclinedControl, SurfaceFunctions, WaveKind};
+use super::part_progress::PartProgress;
+use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
+use super::slowness::IncidentWave;
 use super::transform::{Contour, ContourPoint};
 use crate::error::{Error, Observer, Result, SoilError, Watch, finite, not_negative, positive};
 use crate::linalg::Complex;
@@ -47,8 +48,7 @@ pub struct InclinedWave {
     base: Soil,
     kind: WaveKind,
     slowness: f64,
-    /// Elastic slowness of the wave, and the cosine of its angle.
-    own: [f64; 2],
+    incident: IncidentWave,
     /// Plane wave in the base without layers.
     outcrop: PlaneWave,
 }
@@ -107,13 +107,17 @@ impl InclinedWave {
                           (site::SoilColumn takes the motion of rigid bedrock to the surface)";
             return Err(Error::Scene { quantity: "inclined wave", needed });
         };
-        let (outcrop, speed) = match kind {
-            WaveKind::Sv => (PlaneWave::sv(base, angle)?, base.shear_wave_speed()),
-            WaveKind::P => (PlaneWave::p(base, angle)?, base.pressure_wave_speed()),
-            WaveKind::Sh => (PlaneWave::sh(base, angle)?, base.shear_wave_speed()),
+        let outcrop = match kind {
+            WaveKind::Sv => PlaneWave::sv(base, angle)?,
+            WaveKind::P => PlaneWave::p(base, angle)?,
+            WaveKind::Sh => PlaneWave::sh(base, angle)?,
         };
-        let own = [1.0 / speed, angle.cos()];
-        Ok(Self { profile, base, kind, slowness: angle.sin() / speed, own, outcrop })
+        let speed = match kind {
+            WaveKind::Sv | WaveKind::Sh => base.shear_wave_speed(),
+            WaveKind::P => base.pressure_wave_speed(),
+        };
+        let incident = IncidentWave { slowness: 1.0 / speed, cosine: angle.cos() };
+        Ok(Self { profile, base, kind, slowness: angle.sin() / speed, incident, outcrop })
     }
 
     /// Velocity (m/s) of the wave along the surface, positive to the right.
@@ -135,8 +139,8 @@ impl InclinedWave {
         not_negative("frequency of a transfer function", frequency)?;
         self.check(control)?;
         let mut found = [Complex::default(); 2];
-        let place = ContourPoint::alone(Complex::new(0.0, TAU * frequency));
-        self.functions(control).at(&place, &mut found)?;
+        let place = ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency));
+        self.functions(control).evaluate_at(&place, &mut found)?;
         check_motion(&found)?;
         Ok(found)
     }
@@ -156,7 +160,8 @@ impl InclinedWave {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<[SiteMotion; 2]> {
-        let watch = &mut Watch::new("motion of the surface", Pace::PARTS, observer);
+        let watch =
+            &mut Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
         let mut found = self.filtered(control, time_step, motion, watch)?;
         for found in &mut found {
             found.cut(motion.len());
@@ -179,7 +184,7 @@ impl InclinedWave {
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
         let functions = self.functions(control).sampled(contour.end()?)?;
         let mut moduli = vec![];
-        contour.filtered(motion, &mut Pace::whole(watch), |places, found| {
+        contour.filtered(motion, &mut PartProgress::whole(watch), |places, found| {
             evaluate(&functions, places, &mut moduli, found)?;
             check_motion(found)
         })
@@ -215,7 +220,7 @@ impl InclinedWave {
         record: &Record,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
+        let mut watch = Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
         self.surface(control, record, &mut watch)
     }
 
@@ -241,8 +246,9 @@ impl InclinedWave {
 
     /// Error if the prescribed component of the outcrop is too small.
     fn check(&self, control: InclinedControl) -> Result<()> {
-        let [x, up] = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
-        let x = x + self.outcrop.amplification_across();
+        let amplification = self.outcrop.amplification().map(|[re, im]| re.hypot(im));
+        let x = amplification[0] + self.outcrop.amplification_across();
+        let up = amplification[1];
         match control {
             InclinedControl::OutcropHorizontal => {
                 check_prescribed("horizontal motion of the outcrop over the largest", x, up)
@@ -254,7 +260,7 @@ impl InclinedWave {
         }
     }
 
-    /// Error if waves with a part in the motion are evanescent in a layer: motion would precede its cause.
+    /// Error if waves are evanescent in a layer: motion would precede its cause.
     ///
     /// Layers stiffen with frequency, so the highest frequency decides.
     fn check_beginning(&self, highest: f64) -> Result<()> {
@@ -274,9 +280,9 @@ impl InclinedWave {
     }
 
     /// Motion of the surface, horizontal and up, as functions of s.
-    fn functions(&self, control: InclinedControl) -> Surface<'_> {
-        let Self { profile, base, kind, slowness, own, .. } = self;
-        Surface::exact(profile, *base, *kind, control, [*slowness, own[0], own[1]])
+    fn functions(&self, control: InclinedControl) -> SurfaceFunctions<'_> {
+        let Self { profile, base, kind, slowness, incident, .. } = self;
+        SurfaceFunctions::exact(profile, *base, *kind, control, *slowness, *incident)
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use super::pace::Pace;
+use super::part_progress::PartProgress;
 use super::site_motion::SiteMotion;
 use super::soil_column::SoilColumn;
 use super::transform::Transform;
-use super::vertical::{ControlPoint, Sought, VerticalWave};
+use super::vertical::{ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Error, Result, Watch, positive, require, require_part, same_length};
 use crate::motion::Record;
 use crate::soil::{
@@ -14,12 +14,14 @@ use crate::soil::{
     SoilProfile, StrainCurves, layer_name,
 };
 
-/// Smallest effective strain of the iteration; it replaces zero.
-const LEAST_STRAIN: f64 = 1e-12;
-/// Limit of ξ for [`ComplexModulus::Magnitude`]: there the equivalent ratio ξ' is nearly 1, the limit of damping laws.
-const MOST_DAMPED: f64 = 0.52;
+/// Smallest effective strain of the iteration, in place of zero.
+const MIN_EFFECTIVE_STRAIN: f64 = 1e-12;
+/// Limit of ξ for [`ComplexModulus::Magnitude`].
+///
+/// There the equivalent ratio ξ' is nearly 1, the limit of damping laws.
+const MAX_MAGNITUDE_DAMPING: f64 = 0.52;
 /// Smallest and largest relaxation factor.
-const FACTORS: [f64; 2] = [0.3, 20.0];
+const RELAXATION_RANGE: [f64; 2] = [0.3, 20.0];
 
 /// Options of [`SoilColumn::equivalent_linear`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +30,7 @@ pub struct EquivalentLinearOptions {
     pub control: ControlPoint,
     /// Ratio of the effective strain to the largest strain, at most 1.
     pub strain_ratio: f64,
-    /// Largest relative change of a modulus or damping ratio that is left at the end.
+    /// Largest remaining relative change of a modulus or damping ratio.
     ///
     /// It is estimated for all further iterations together.
     pub tolerance: f64,
@@ -55,35 +57,50 @@ pub enum ComplexModulus {
     Magnitude,
 }
 
+/// Properties of a layer at one effective strain.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LayerProperties {
+    /// Ratio of the shear modulus to that at small strain.
+    pub(super) modulus_ratio: f64,
+    pub(super) damping_ratio: f64,
+}
+
 impl ComplexModulus {
-    /// Modulus G' and damping ratio ξ' for which G'(1 + 2iξ') is a layer's complex modulus; layers count from 0.
-    fn real_part_and_ratio(self, index: usize, [modulus, damping]: [f64; 2]) -> Result<[f64; 2]> {
+    /// The G' and ξ' for which G'(1 + 2iξ') is the complex modulus of a layer.
+    ///
+    /// `index`: of the layer, from 0.
+    fn equivalent(self, index: usize, properties: LayerProperties) -> Result<LayerProperties> {
         if self == Self::RealPart {
-            return Ok([modulus, damping]);
+            return Ok(properties);
         }
-        if damping >= MOST_DAMPED {
+        let LayerProperties { modulus_ratio, damping_ratio } = properties;
+        if damping_ratio >= MAX_MAGNITUDE_DAMPING {
             let quantity = "strain-compatible damping ratio";
             let needed = "below 0.52 for a complex modulus by its magnitude";
-            return Err(Error::Input { quantity, value: damping, needed }.within(layer_name(index)));
+            let error = Error::Input { quantity, value: damping_ratio, needed };
+            return Err(error.within(layer_name(index)));
         }
-        let square = damping * damping;
+        let square = damping_ratio * damping_ratio;
         let real = 1.0 - 2.0 * square;
-        Ok([modulus * real, damping * (1.0 - square).sqrt() / real])
+        Ok(LayerProperties {
+            modulus_ratio: modulus_ratio * real,
+            damping_ratio: damping_ratio * (1.0 - square).sqrt() / real,
+        })
     }
 }
 
-/// Outcrop of the rock, 0.65 of the largest strain, 1e-3 in at most 50 iterations, 0.1 to 30 Hz, G(1 + 2iξ).
+/// Outcrop of the rock, and G(1 + 2iξ) over 0.1 to 30 Hz.
+///
+/// 0.65 of the largest strain, and a tolerance of 1e-3 in at most 50 iterations.
 impl Default for EquivalentLinearOptions {
     fn default() -> Self {
-        let (control, band) = (ControlPoint::Outcrop, [0.1, 30.0]);
-        let complex_modulus = ComplexModulus::RealPart;
         Self {
-            control,
+            control: ControlPoint::Outcrop,
             strain_ratio: 0.65,
             tolerance: 1e-3,
             most_iterations: 50,
-            band,
-            complex_modulus,
+            band: [0.1, 30.0],
+            complex_modulus: ComplexModulus::RealPart,
         }
     }
 }
@@ -95,34 +112,36 @@ impl EquivalentLinearOptions {
     }
 
     fn check(&self) -> Result<()> {
-        let (ratio, most) = (self.strain_ratio, self.most_iterations);
+        let ratio = self.strain_ratio;
         let needed = "above 0 and at most 1 (a magnitude above 1 and at most 11)";
         require("effective strain ratio", ratio, ratio > 0.0 && ratio <= 1.0, needed)?;
-        require("most iterations of a site", most as f64, most > 0, "at least 1")?;
+        let iterations = self.most_iterations;
+        require("most iterations of a site", iterations as f64, iterations > 0, "at least 1")?;
         positive("tolerance of strain-compatible properties", self.tolerance)?;
         GeneralizedMaxwell::constant_q(0.0, self.band, self.band[0]).map(drop)
     }
 }
 
 impl SoilColumn {
-    /// Profile with the given modulus and damping ratios; `law` makes a damping law from a ratio.
+    /// Profile with the given properties of the layers; `law` makes a damping law from a ratio.
     pub(super) fn compatible<L: Relaxation + 'static>(
         &self,
-        properties: &[[f64; 2]],
+        properties: &[LayerProperties],
         complex_modulus: ComplexModulus,
         law: impl Fn(f64) -> Result<L>,
     ) -> Result<SoilProfile> {
-        let layer = |(k, (layer, [modulus, damping])): (usize, (&SoilLayer, &[f64; 2]))| {
-            let SoilLayer { soil, thickness, .. } = layer;
-            let [modulus, damping] =
-                complex_modulus.real_part_and_ratio(k, [*modulus, *damping])?;
-            let made = Soil::new(modulus * soil.shear_modulus(), soil.poisson(), soil.density());
-            let made = made.and_then(|soil| Ok((soil, law(damping)?)));
-            let (soil, damping) = made.map_err(|error| of_layer(k, damping, error))?;
-            Ok(SoilLayer { soil, thickness: *thickness, damping: Arc::new(damping) })
-        };
-        let layers = self.profile.layers().iter().zip(properties).enumerate().map(layer);
-        SoilProfile::new(layers.collect::<Result<_>>()?, self.profile.bedrock().clone())
+        let mut layers = Vec::with_capacity(properties.len());
+        for (k, (layer, properties)) in self.profile.layers().iter().zip(properties).enumerate() {
+            let LayerProperties { modulus_ratio, damping_ratio } =
+                complex_modulus.equivalent(k, *properties)?;
+            let shear_modulus = modulus_ratio * layer.soil.shear_modulus();
+            let soil = Soil::new(shear_modulus, layer.soil.poisson(), layer.soil.density());
+            let soil = soil.map_err(|error| layer_error(k, damping_ratio, error))?;
+            let law = law(damping_ratio).map_err(|error| layer_error(k, damping_ratio, error))?;
+            let thickness = layer.thickness;
+            layers.push(SoilLayer { soil, thickness, damping: Arc::new(law) });
+        }
+        SoilProfile::new(layers, self.profile.bedrock().clone())
     }
 }
 
@@ -136,12 +155,19 @@ pub(super) struct Iteration<'a> {
     transform: Option<Transform>,
 }
 
-/// Result of an iteration: modulus ratio and damping ratio of each layer, and its largest strain.
+/// Result of an iteration: properties of each layer, and its largest strain.
 pub(super) struct Converged {
-    pub(super) properties: Vec<[f64; 2]>,
+    pub(super) properties: Vec<LayerProperties>,
     pub(super) strains: Vec<f64>,
     pub(super) iterations: usize,
     pub(super) last_change: f64,
+}
+
+/// Accelerations in a column, over the length of its input.
+pub(super) struct ColumnAccelerations {
+    pub(super) surface: SiteMotion,
+    /// At the tops of the layers and of the base.
+    pub(super) tops: Vec<Vec<f64>>,
 }
 
 impl<'a> Iteration<'a> {
@@ -152,83 +178,90 @@ impl<'a> Iteration<'a> {
         options: &'a EquivalentLinearOptions,
     ) -> Result<Self> {
         options.check()?;
-        let shear = column.wave == VerticalWave::Shear;
-        require_part(
-            "soil column",
-            shear,
-            "strain curves are those of shear: shear waves are needed",
-        )?;
+        let is_shear = column.wave == VerticalWave::Shear;
+        let needed = "strain curves are those of shear: shear waves are needed";
+        require_part("soil column", is_shear, needed)?;
         let layers = column.profile.layers().len();
         same_length("list of strain curves, one for each layer,", curves.len(), layers)?;
         let base = column.profile.bedrock();
-        let reflects = matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
-        let resolved = |(index, curves): (usize, &StrainCurves)| {
+        let reflects_all =
+            matches!(base, Bedrock::Rigid) || options.control == ControlPoint::Within;
+        let mut layer_curves = Vec::with_capacity(layers);
+        for (index, curves) in curves.iter().enumerate() {
             let resolved = curves.resolved().map_err(|error| error.within(layer_name(index)))?;
-            if reflects && resolved.at(0.0)[1] == 0.0 {
+            if reflects_all && resolved.at(0.0)[1] == 0.0 {
                 let quantity = "damping ratio at small strain";
                 let needed = "above 0 on rigid bedrock or under a motion within: nothing leaves";
                 return Err(Error::Input { quantity, value: 0.0, needed }.within(layer_name(index)));
             }
-            Ok(resolved)
-        };
-        let curves = curves.iter().enumerate().map(resolved).collect::<Result<_>>()?;
-        Ok(Self { column, motion, curves, options, transform: None })
+            layer_curves.push(resolved);
+        }
+        Ok(Self { column, motion, curves: layer_curves, options, transform: None })
     }
 
-    /// Modulus ratios and damping ratios at the logarithms of effective strains.
-    fn read(&self, logs: &[f64]) -> Vec<[f64; 2]> {
-        self.curves.iter().zip(logs).map(|(curves, log)| curves.at(log.exp())).collect()
+    /// Properties of the layers at the logarithms of effective strains.
+    fn properties_at(&self, logs: &[f64]) -> Vec<LayerProperties> {
+        let mut properties = Vec::with_capacity(logs.len());
+        for (curves, log) in self.curves.iter().zip(logs) {
+            let [modulus_ratio, damping_ratio] = curves.at(log.exp());
+            properties.push(LayerProperties { modulus_ratio, damping_ratio });
+        }
+        properties
     }
 
-    /// Spectra in the linear column with these properties.
-    fn inside(
+    /// Spectra of a quantity in the linear column with these properties.
+    fn response(
         &mut self,
-        properties: &[[f64; 2]],
-        sought: Sought,
-        pace: &mut Pace<'_, '_>,
+        properties: &[LayerProperties],
+        quantity: ColumnQuantity,
+        progress: &mut PartProgress<'_, '_>,
     ) -> Result<&mut Transform> {
         let profile =
             self.column.compatible(properties, self.options.complex_modulus, Hysteretic::new)?;
         let column = SoilColumn { profile, wave: self.column.wave };
-        let (step, samples) = (self.motion.time_step(), self.motion.accelerations());
-        let contour = column.contour(step, samples.len())?;
+        let samples = self.motion.accelerations();
+        let contour = column.contour(self.motion.time_step(), samples.len())?;
         let transform = match self.transform.take() {
-            Some(own) if *own.contour() == contour => own,
+            Some(transform) if *transform.contour() == contour => transform,
             _ => Transform::new(contour, samples)?,
         };
         let transform = self.transform.insert(transform);
-        column.inside(sought, self.options.control, transform, pace)?;
+        column.response(quantity, self.options.control, transform, progress)?;
         Ok(transform)
     }
 
     /// Largest strains of the layers with these properties.
-    fn strains(&mut self, properties: &[[f64; 2]], pace: &mut Pace<'_, '_>) -> Result<Vec<f64>> {
+    fn strains(
+        &mut self,
+        properties: &[LayerProperties],
+        progress: &mut PartProgress<'_, '_>,
+    ) -> Result<Vec<f64>> {
         let count = properties.len();
-        let transform = self.inside(properties, Sought::Strains, pace)?;
+        let transform = self.response(properties, ColumnQuantity::Strains, progress)?;
         let mut strains = Vec::with_capacity(count);
         for k in 0..count {
             strains.push(transform.peak(k)?);
-            pace.reach(0.5 + 0.5 * (k + 1) as f64 / count as f64)?;
+            progress.reach(0.5 + 0.5 * (k + 1) as f64 / count as f64)?;
         }
         Ok(strains)
     }
 
-    /// Motion of the surface, and accelerations at the tops of layers and base, as long as the given motion.
+    /// Accelerations of the column with these properties.
     pub(super) fn accelerations(
         &mut self,
-        properties: &[[f64; 2]],
-        pace: &mut Pace<'_, '_>,
-    ) -> Result<(SiteMotion, Vec<Vec<f64>>)> {
+        properties: &[LayerProperties],
+        progress: &mut PartProgress<'_, '_>,
+    ) -> Result<ColumnAccelerations> {
         let samples = self.motion.len();
-        let transform = self.inside(properties, Sought::Accelerations, pace)?;
+        let transform = self.response(properties, ColumnQuantity::Accelerations, progress)?;
         let mut surface = transform.motion(0)?;
         surface.cut(samples);
-        let mut accelerations = vec![surface.samples.clone()];
+        let mut tops = vec![surface.samples.clone()];
         for k in 1..=properties.len() {
-            accelerations.push(transform.samples(k)?);
-            pace.reach(0.5 + 0.5 * k as f64 / properties.len() as f64)?;
+            tops.push(transform.samples(k)?);
+            progress.reach(0.5 + 0.5 * k as f64 / properties.len() as f64)?;
         }
-        Ok((surface, accelerations))
+        Ok(ColumnAccelerations { surface, tops })
     }
 
     /// Iterates moduli and damping ratios, starting at small strain.
@@ -236,17 +269,22 @@ impl<'a> Iteration<'a> {
         let EquivalentLinearOptions { strain_ratio, tolerance, most_iterations, .. } =
             *self.options;
         let mut logs = vec![f64::NEG_INFINITY; self.curves.len()];
-        let (mut properties, mut aitken) = (self.read(&logs), Aitken::default());
+        let mut properties = self.properties_at(&logs);
+        let mut aitken = Aitken::default();
         let mut iterations = 0;
         loop {
-            let strains = self.strains(&properties, &mut Pace::part(watch, iterations))?;
+            let strains = self.strains(&properties, &mut PartProgress::part(watch, iterations))?;
             iterations += 1;
-            let log = |strain: &f64| (strain_ratio * strain).max(LEAST_STRAIN).ln();
-            let found: Vec<f64> = strains.iter().map(log).collect();
-            logs = if iterations == 1 { found.clone() } else { aitken.next(&logs, &found) };
-            let [plain, next] = [self.read(&found), self.read(&logs)];
-            let changes = [plain, next.clone()].map(|other| largest_change(&properties, &other));
-            let last_change = changes[0].max(changes[1]);
+            let trial_logs: Vec<f64> = strains
+                .iter()
+                .map(|strain| (strain_ratio * strain).max(MIN_EFFECTIVE_STRAIN).ln())
+                .collect();
+            logs =
+                if iterations == 1 { trial_logs.clone() } else { aitken.next(&logs, &trial_logs) };
+            let unrelaxed = self.properties_at(&trial_logs);
+            let next = self.properties_at(&logs);
+            let last_change =
+                largest_change(&properties, &unrelaxed).max(largest_change(&properties, &next));
             if last_change <= tolerance || iterations == most_iterations {
                 return Ok(Converged { properties, strains, iterations, last_change });
             }
@@ -269,12 +307,17 @@ impl Aitken {
     /// Next argument after `old`; `new` is the image of `old`.
     fn next(&mut self, old: &[f64], new: &[f64]) -> Vec<f64> {
         let residual: Vec<f64> = old.iter().zip(new).map(|(old, new)| new - old).collect();
-        let pairs =
-            || self.residual.iter().zip(&residual).map(|(before, now)| [*before, now - before]);
-        let [along, size] = pairs().fold([0.0; 2], |[a, b], [r, d]| [a + r * d, b + d * d]);
-        let factor = -self.factor * along / size;
-        // Without an earlier residual, or if the last step diverged: a plain step.
-        self.factor = if factor > 0.0 { factor.clamp(FACTORS[0], FACTORS[1]) } else { 1.0 };
+        let mut product = 0.0;
+        let mut change_square = 0.0;
+        for (before, now) in self.residual.iter().zip(&residual) {
+            let change = now - before;
+            product += before * change;
+            change_square += change * change;
+        }
+        let factor = -self.factor * product / change_square;
+        // Without an earlier residual, or if the last step diverged, the step is not relaxed.
+        self.factor =
+            if factor > 0.0 { factor.clamp(RELAXATION_RANGE[0], RELAXATION_RANGE[1]) } else { 1.0 };
         let next = old.iter().zip(&residual).map(|(old, r)| old + self.factor * r).collect();
         self.residual = residual;
         next
@@ -282,17 +325,28 @@ impl Aitken {
 }
 
 /// Largest change of a modulus or damping ratio, relative to the new one.
-fn largest_change(old: &[[f64; 2]], new: &[[f64; 2]]) -> f64 {
-    let pairs = old.as_flattened().iter().zip(new.as_flattened());
-    let changes = pairs.map(|(old, new)| if old == new { 0.0 } else { (new - old).abs() / new });
-    changes.fold(0.0, f64::max)
+fn largest_change(old: &[LayerProperties], new: &[LayerProperties]) -> f64 {
+    let mut largest = 0.0;
+    for (old, new) in old.iter().zip(new) {
+        let modulus_change = relative_change(old.modulus_ratio, new.modulus_ratio);
+        let damping_change = relative_change(old.damping_ratio, new.damping_ratio);
+        largest = modulus_change.max(damping_change).max(largest);
+    }
+    largest
 }
 
-/// Adds the layer (`index` from 0) to an error; for a damping ratio that no law represents, also the ratio.
-fn of_layer(index: usize, ratio: f64, error: Error) -> Error {
-    let unfit = matches!(error, Error::Accuracy { .. });
+/// Change of a value relative to the new one; 0 for equal values, also if they are 0.
+fn relative_change(old: f64, new: f64) -> f64 {
+    if old == new { 0.0 } else { (new - old).abs() / new }
+}
+
+/// Adds the layer (`index` from 0) to an error.
+///
+/// For a damping ratio that no law represents, it adds the ratio too.
+fn layer_error(index: usize, ratio: f64, error: Error) -> Error {
+    let has_no_law = matches!(error, Error::Accuracy { .. });
     let quantity = "strain-compatible damping ratio";
     let needed = "one that `constant_q` reproduces over the band (a shorter band helps)";
-    let error = if unfit { Error::Input { quantity, value: ratio, needed } } else { error };
+    let error = if has_no_law { Error::Input { quantity, value: ratio, needed } } else { error };
     error.within(layer_name(index))
 }

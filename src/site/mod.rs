@@ -10,7 +10,7 @@ mod equivalent_linear;
 mod inclined;
 mod iteration;
 mod oblique;
-mod pace;
+mod part_progress;
 mod sampled;
 mod site_motion;
 mod slowness;
@@ -61,7 +61,7 @@ pub enum SiteWarning {
         /// Iterations made.
         iterations: usize,
     },
-    /// The surface moves before the motion's first sample or after its last, by more than 1 % of its peak.
+    /// Motion of the surface outside the record's time above 1 % of its peak.
     ///
     /// The record needs quiet time around it ([`Record::padded`](crate::motion::Record::padded)), or the site more
     /// damping.
@@ -85,30 +85,29 @@ impl SiteWarning {
 
 impl fmt::Display for SiteWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |strain: f64| 100.0 * strain;
         match *self {
             Self::LargeStrain { layer, strain } => write!(
                 f,
                 "layer {layer} strains by {:.2} %, beyond {} %: equivalent-linear response is doubtful",
-                percent(strain),
-                percent(Self::STRAIN_LIMIT)
+                100.0 * strain,
+                100.0 * Self::STRAIN_LIMIT
             ),
             Self::Extrapolated { layer, strain, largest } => write!(
                 f,
                 "effective strain of layer {layer}, {:.2} %, is beyond its curves, which end at {:.2} %",
-                percent(strain),
-                percent(largest)
+                100.0 * strain,
+                100.0 * largest
             ),
             Self::NotConverged { change, iterations } => write!(
                 f,
                 "properties are {:.2} % from strain-compatible ones after {iterations} iterations",
-                percent(change)
+                100.0 * change
             ),
             Self::CutOff { share } => write!(
                 f,
                 "motion of the surface outside the record's time, {:.1} % of its peak, is cut off: give \
                  the record quiet time (padded)",
-                percent(share)
+                100.0 * share
             ),
             Self::Amplified { frequency } => write!(
                 f,

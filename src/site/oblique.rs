@@ -2,10 +2,12 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::sampled::{At, Functions, Highest};
-use super::slowness::{Medium, surface_motion, surface_motion_across};
+use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
+use super::slowness::{
+    IncidentWave, LayerWaves, WaveMedium, surface_motion, surface_motion_across,
+};
 use crate::error::Result;
-use crate::linalg::{Complex, Number};
+use crate::linalg::{Complex, ComplexArithmetic};
 use crate::soil::{Soil, SoilProfile};
 
 /// Prescribed motion of an inclined wave, at the depth of the base's top.
@@ -32,52 +34,50 @@ pub(super) enum WaveKind {
 }
 
 /// Motion of the surface, horizontal and up, for a unit motion of the control point.
-pub(super) struct Surface<'a> {
+pub(super) struct SurfaceFunctions<'a> {
     profile: &'a SoilProfile,
     base: Soil,
     kind: WaveKind,
     control: InclinedControl,
     /// Horizontal slowness of the wave.
     slowness: f64,
-    /// Elastic slowness of the wave, and the cosine of its angle.
-    own: [f64; 2],
-    highest: Highest<2>,
+    incident: IncidentWave,
+    nyquist: NyquistLayers<2>,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> SurfaceFunctions<'a> {
     /// Functions of the unmodified layers.
-    ///
-    /// `slownesses`: the horizontal one, the elastic one, and the cosine of the angle.
     pub(super) fn exact(
         profile: &'a SoilProfile,
         base: Soil,
         kind: WaveKind,
         control: InclinedControl,
-        [slowness, elastic, cosine]: [f64; 3],
+        slowness: f64,
+        incident: IncidentWave,
     ) -> Self {
-        let own = [elastic, cosine];
-        Self { profile, base, kind, control, slowness, own, highest: Highest::default() }
+        Self { profile, base, kind, control, slowness, incident, nyquist: NyquistLayers::default() }
     }
 
     /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
-        let travels = |index: usize, modulus| self.travels(index, end, modulus);
-        Ok(Self { highest: Highest::new(self.profile, end, travels)?, ..self })
+        let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
+            self.travels(index, end, modulus)
+        })?;
+        Ok(Self { nyquist, ..self })
     }
 
     #[inline(always)]
-    fn travels<C: Number>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
+    fn travels<C: ComplexArithmetic>(&self, index: usize, s: C, modulus: C) -> [C; 2] {
         let layer = &self.profile.layers()[index];
-        let medium = Medium::layer(layer.soil, modulus, s, self.slowness);
-        let [a, b] = medium.slownesses();
+        let medium = WaveMedium::layer(layer.soil, modulus, s, self.slowness);
         let time = s.scale(layer.thickness);
-        [time * a, time * b]
+        let slownesses = medium.slownesses();
+        [time * slownesses[0], time * slownesses[1]]
     }
 }
 
-impl Functions for Surface<'_> {
-    /// A layer and its travels.
-    type LayerValues<C: Number> = (Medium<C>, [C; 2]);
+impl SiteFunctions for SurfaceFunctions<'_> {
+    type LayerValues<C: ComplexArithmetic> = LayerWaves<C>;
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -88,48 +88,85 @@ impl Functions for Surface<'_> {
     }
 
     #[inline(always)]
-    fn evaluate<C: Number>(
+    fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &At<C>,
+        contour: &ContourLanes<C>,
         moduli: &[C],
-        kept: &mut Vec<(Medium<C>, [C; 2])>,
-        found: &mut [C],
+        layer_values: &mut Vec<LayerWaves<C>>,
+        results: &mut [C],
     ) {
-        let Self { profile, base, kind, control, slowness, own, highest } = self;
-        let (s, p) = (at.direction, *slowness);
+        let Self { profile, base, kind, control, slowness, incident, nyquist } = self;
+        let s = contour.direction;
+        let p = *slowness;
         let last = moduli.len() - 1;
-        let base = Medium::base(*base, highest.modulus(last, at, moduli[last]), s, p, *own);
-        kept.clear();
+        let base =
+            WaveMedium::base(*base, nyquist.modulus(last, contour, moduli[last]), s, p, *incident);
+        layer_values.clear();
         for (index, (layer, modulus)) in profile.layers().iter().zip(moduli).enumerate() {
-            let time = at.s.scale(layer.thickness);
-            let mut medium = Medium::layer(layer.soil, *modulus, s, p);
-            let [a, b] = medium.slownesses();
-            let mut travels = [time * a, time * b];
-            if at.is_near() {
-                travels = highest.travels(index, at, travels);
-                medium = Medium::layer(layer.soil, highest.modulus(index, at, *modulus), s, p);
+            let time = contour.s.scale(layer.thickness);
+            let mut medium = WaveMedium::layer(layer.soil, *modulus, s, p);
+            let slownesses = medium.slownesses();
+            let mut travels = [time * slownesses[0], time * slownesses[1]];
+            if contour.is_in_band() {
+                travels = nyquist.travels(index, contour, travels);
+                medium =
+                    WaveMedium::layer(layer.soil, nyquist.modulus(index, contour, *modulus), s, p);
             }
-            kept.push((medium, travels));
+            layer_values.push(LayerWaves { medium, travels });
         }
-        // The surface and the outcrop by unit amplitudes, and the amplitude of a unit displacement. The amplitudes
-        // of SV and P belong to the vectors (b, p) and (p, a), whose length is 1/c.
-        let (none, one) = (s.like_real(0.0), s.like_real(1.0));
-        let (motion, outcrop, unit) = if *kind == WaveKind::Sh {
-            ([surface_motion_across(kept, &base), none], [one + one, none], one)
-        } else {
-            let [px, sx, pz, sz] = surface_motion(kept, &base);
-            let [px0, sx0, pz0, sz0] = base.free_surface();
-            match kind {
-                WaveKind::P => ([px, pz], [px0, pz0], base.pressure.sqrt().inverse()),
-                _ => ([sx, sz], [sx0, sz0], base.shear.sqrt().inverse()),
-            }
+        // Motions of surface and outcrop due to unit amplitudes.
+        let response = match kind {
+            WaveKind::Sh => across_response(layer_values, &base),
+            WaveKind::P => in_plane_response(layer_values, &base, 0),
+            WaveKind::Sv => in_plane_response(layer_values, &base, 1),
         };
         let scale = match control {
-            InclinedControl::OutcropHorizontal => outcrop[0].inverse(),
-            InclinedControl::OutcropVertical => outcrop[1].inverse(),
-            InclinedControl::Incident => unit,
+            InclinedControl::OutcropHorizontal => response.outcrop[0].inverse(),
+            InclinedControl::OutcropVertical => response.outcrop[1].inverse(),
+            InclinedControl::Incident => response.unit_amplitude,
         };
-        found[0] = motion[0] * scale;
-        found[1] = motion[1] * scale;
+        results[0] = response.surface[0] * scale;
+        results[1] = response.surface[1] * scale;
+    }
+}
+
+/// Motions, horizontal and up, due to an incident wave of unit amplitude.
+struct UnitResponse<C> {
+    surface: [C; 2],
+    outcrop: [C; 2],
+    /// Amplitude of a wave of unit displacement.
+    unit_amplitude: C,
+}
+
+#[inline(always)]
+fn across_response<C: ComplexArithmetic>(
+    layers: &[LayerWaves<C>],
+    base: &WaveMedium<C>,
+) -> UnitResponse<C> {
+    let zero = base.shear.like_real(0.0);
+    let one = base.shear.like_real(1.0);
+    UnitResponse {
+        surface: [surface_motion_across(layers, base), zero],
+        outcrop: [one + one, zero],
+        unit_amplitude: one,
+    }
+}
+
+/// Response to P (`wave` 0) or SV (`wave` 1).
+///
+/// Their amplitudes belong to the vectors (p, a) and (b, p), whose length is 1/c.
+#[inline(always)]
+fn in_plane_response<C: ComplexArithmetic>(
+    layers: &[LayerWaves<C>],
+    base: &WaveMedium<C>,
+    wave: usize,
+) -> UnitResponse<C> {
+    let surface = surface_motion(layers, base);
+    let outcrop = base.free_surface();
+    let squared_slowness = if wave == 0 { base.pressure } else { base.shear };
+    UnitResponse {
+        surface: [surface[wave], surface[2 + wave]],
+        outcrop: [outcrop[wave], outcrop[2 + wave]],
+        unit_amplitude: squared_slowness.sqrt().inverse(),
     }
 }

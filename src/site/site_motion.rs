@@ -8,7 +8,7 @@ use crate::linalg::largest;
 /// Ratio to the given motion above which a motion counts as amplified.
 pub(super) const AMPLIFICATION_LIMIT: f64 = 100.0;
 
-/// A motion that has passed through a site, and the size of its lost parts.
+/// A motion that has passed through a site, and the magnitude of its lost parts.
 ///
 /// It has the times of the given motion. Motions count as zero outside their samples, so a part that is cut off
 /// here is missing on the way back: [`Record::padded`](crate::motion::Record::padded) makes room for it. A record
@@ -82,13 +82,13 @@ impl SiteMotion {
         self.amplified_from.map(|frequency| SiteWarning::Amplified { frequency })
     }
 
-    /// Number of samples up to the last one that is not rest.
+    /// Number of samples up to the last one above [`SiteMotion::LIMIT`] of the peak.
     pub(super) fn duration(&self) -> usize {
-        let least = Self::LIMIT * self.peak();
-        self.samples.iter().rposition(|x| x.abs() > least).map_or(0, |last| last + 1)
+        let rest_limit = Self::LIMIT * self.peak();
+        self.samples.iter().rposition(|x| x.abs() > rest_limit).map_or(0, |last| last + 1)
     }
 
-    /// Keeps the first `count` samples.
+    /// Truncates the motion after `count` samples.
     pub(super) fn cut(&mut self, count: usize) {
         let count = count.min(self.samples.len());
         self.after = largest(&self.samples[count..]);

@@ -5,8 +5,8 @@
 //!
 //! U↓ = [[p, b], [a, −p]],  T↓ = μ [[2pa, g], [g, −2pb]];  U↑ = diag(1, −1) U↓,  T↑ = diag(−1, 1) T↓
 //!
-//! The reflection R from A to B is carried down from the free surface, with decaying exponentials only. So is the
-//! surface motion by A (Kennett 1983, ch. 6).
+//! The reflection R (B = R A) is computed from the free surface downwards, with decaying exponentials only. So is the
+//! surface motion due to A (Kennett 1983, ch. 6).
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -17,42 +17,53 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use crate::linalg::Number;
+use crate::linalg::ComplexArithmetic;
 use crate::soil::Soil;
 
-/// Squared vertical slowness of a layer, relative to the value at vertical incidence, that counts as zero.
+/// Smallest squared vertical slowness of a layer, relative to the value at vertical incidence.
 ///
-/// Up-going and down-going waves are the same there. Results are even in a and b, so they change by this fraction;
-/// rounding divided by its root is not larger.
-const GRAZING: f64 = 4e-11;
-/// Fraction of a number that counts as rounding.
-const ROUNDING: f64 = 1e-12;
+/// At zero, up-going and down-going waves are the same. Results are even in a and b, so this limit changes them by its
+/// value; rounding divided by its square root is not larger.
+const GRAZING_SLOWNESS_RATIO: f64 = 4e-11;
+/// Relative size up to which the sign of a real part is rounding.
+const SIGN_ROUNDING: f64 = 1e-12;
+
+/// Incident wave in the base, by its elastic constants.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct IncidentWave {
+    /// 1/c of the wave, s/m.
+    pub(super) slowness: f64,
+    /// Cosine of its angle from the vertical.
+    pub(super) cosine: f64,
+}
 
 /// A layer or half-plane at one p, and at one s in each lane.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Medium<C> {
+pub(super) struct WaveMedium<C> {
     modulus: C,
     density: f64,
     p: f64,
     a: C,
     b: C,
     g: C,
-    /// 1/c₂², 1/c₁².
+    /// 1/c₂².
     pub(super) shear: C,
+    /// 1/c₁².
     pub(super) pressure: C,
 }
 
 /// A 2 × 2 matrix, row by row.
 type Square<C> = [C; 4];
 
-impl<C: Number> Medium<C> {
+impl<C: ComplexArithmetic> WaveMedium<C> {
     /// Slownesses of a finite layer.
     #[inline(always)]
     pub(super) fn layer(soil: Soil, modulus: C, s: C, p: f64) -> Self {
-        let [shear, pressure] = squares(soil, modulus);
-        let flat = modulus.like_real(p * p);
-        let pressure = (pressure - flat).at_least(pressure.scale(GRAZING));
-        let shear = (shear - flat).at_least(shear.scale(GRAZING));
+        let shear = squared_shear_slowness(soil, modulus);
+        let pressure = shear.scale(soil.speed_ratio_squared());
+        let horizontal = modulus.like_real(p * p);
+        let pressure = (pressure - horizontal).at_least(pressure.scale(GRAZING_SLOWNESS_RATIO));
+        let shear = (shear - horizontal).at_least(shear.scale(GRAZING_SLOWNESS_RATIO));
         Self::new(soil, modulus, s, p, [pressure, shear])
     }
 
@@ -70,37 +81,40 @@ impl<C: Number> Medium<C> {
 
     /// Slownesses of the half-plane below, from which the wave comes.
     ///
-    /// `own`: elastic slowness of this wave and the cosine of its angle, which give its vertical slowness without
-    /// cancellation.
+    /// `incident` gives the vertical slowness of this wave without cancellation.
     #[inline(always)]
-    pub(super) fn base(soil: Soil, modulus: C, s: C, p: f64, own: [f64; 2]) -> Self {
+    pub(super) fn base(soil: Soil, modulus: C, s: C, p: f64, incident: IncidentWave) -> Self {
         let elastic = modulus.like_real(soil.shear_modulus());
         let change = (elastic - modulus) * modulus.inverse();
-        let mut below = [change; 2];
+        let mut squares = [change; 2];
         let speeds = [soil.pressure_wave_speed(), soil.shear_wave_speed()];
-        for (below, speed) in below.iter_mut().zip(speeds) {
-            let flat = if own[0] == 1.0 / speed {
-                (own[0] * own[1]).powi(2)
+        for (square, speed) in squares.iter_mut().zip(speeds) {
+            let elastic_square = if incident.slowness == 1.0 / speed {
+                (incident.slowness * incident.cosine).powi(2)
             } else {
                 speed.powi(-2) - p * p
             };
-            *below = change.scale(speed.powi(-2)) + change.like_real(flat);
+            *square = change.scale(speed.powi(-2)) + change.like_real(elastic_square);
         }
-        Self::new(soil, modulus, s, p, below)
+        Self::new(soil, modulus, s, p, squares)
     }
 
-    /// Medium with these squares of vertical slownesses; frequency zero is the limit from above, s = i.
+    /// Medium with these squares of vertical slownesses (of P, of S).
+    ///
+    /// Frequency zero is the limit from above, s = i.
     #[inline(always)]
-    fn new(soil: Soil, modulus: C, s: C, p: f64, below: [C; 2]) -> Self {
-        let [shear, pressure] = squares(soil, modulus);
-        let (a, b) = (below[0].sqrt(), below[1].sqrt());
-        let a = a.negated_where_negative(s * a, ROUNDING);
-        let b = b.negated_where_negative(s * b, ROUNDING);
-        let g = below[1] - s.like_real(p * p);
+    fn new(soil: Soil, modulus: C, s: C, p: f64, vertical_squares: [C; 2]) -> Self {
+        let shear = squared_shear_slowness(soil, modulus);
+        let pressure = shear.scale(soil.speed_ratio_squared());
+        let a = vertical_squares[0].sqrt();
+        let b = vertical_squares[1].sqrt();
+        let a = a.negated_where_negative(s * a, SIGN_ROUNDING);
+        let b = b.negated_where_negative(s * b, SIGN_ROUNDING);
+        let g = vertical_squares[1] - s.like_real(p * p);
         Self { modulus, density: soil.density(), p, a, b, g, shear, pressure }
     }
 
-    /// Motion of a free surface, to the right and up, by the waves A below it.
+    /// Motion of a free surface, to the right and up, due to the waves A below it.
     #[inline(always)]
     pub(super) fn free_surface(&self) -> Square<C> {
         let Self { p, a, b, g, .. } = *self;
@@ -120,8 +134,9 @@ impl<C: Number> Medium<C> {
         let Self { p, a, b, g, .. } = *self;
         let scale = self.rayleigh().inverse();
         let difference = (a * b).scale(4.0 * p * p) - g * g;
-        let [right, left] = [(b * g).scale(4.0 * p), (a * g).scale(4.0 * p)];
-        scaled([difference, right, left, -difference], scale)
+        let p_by_sv = (b * g).scale(4.0 * p);
+        let sv_by_p = (a * g).scale(4.0 * p);
+        scaled([difference, p_by_sv, sv_by_p, -difference], scale)
     }
 
     /// Displacements (x, z) and stresses of these waves (P, SV) up and down.
@@ -146,103 +161,133 @@ impl<C: Number> Medium<C> {
         let sums = [a * ((modulus * x).scale(2.0 * p) + normal), modulus * g * x - normal.scale(p)];
         let differences =
             [modulus * g * z + shear.scale(p), b * (shear - (modulus * z).scale(2.0 * p))];
-        let [[s, t], [d, e]] = [sums, differences];
-        [[(s - d).scale(half), (t - e).scale(half)], [(s + d).scale(half), (t + e).scale(half)]]
+        let up_p = (sums[0] - differences[0]).scale(half);
+        let up_sv = (sums[1] - differences[1]).scale(half);
+        let down_p = (sums[0] + differences[0]).scale(half);
+        let down_sv = (sums[1] + differences[1]).scale(half);
+        [[up_p, up_sv], [down_p, down_sv]]
     }
 }
 
-/// 1/c₂² and 1/c₁².
+/// 1/c₂².
 #[inline(always)]
-fn squares<C: Number>(soil: Soil, modulus: C) -> [C; 2] {
-    let shear = modulus.inverse().scale(soil.density());
-    [shear, shear.scale(soil.speed_ratio_squared())]
+fn squared_shear_slowness<C: ComplexArithmetic>(soil: Soil, modulus: C) -> C {
+    modulus.inverse().scale(soil.density())
 }
 
 #[inline(always)]
-fn times<C: Number>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
+fn times<C: ComplexArithmetic>([a, b, c, d]: Square<C>, [e, f, g, h]: Square<C>) -> Square<C> {
     [a * e + b * g, a * f + b * h, c * e + d * g, c * f + d * h]
 }
 
 #[inline(always)]
-fn scaled<C: Number>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
+fn scaled<C: ComplexArithmetic>([a, b, c, d]: Square<C>, scale: C) -> Square<C> {
     [a * scale, b * scale, c * scale, d * scale]
 }
 
 #[inline(always)]
-fn inverse<C: Number>([a, b, c, d]: Square<C>) -> Square<C> {
+fn inverse<C: ComplexArithmetic>([a, b, c, d]: Square<C>) -> Square<C> {
     let scale = (a * d - b * c).inverse();
     scaled([d, -b, -c, a], scale)
 }
 
-/// Surface motion by the waves A at a place, and R there, for a medium that ends at the place.
-struct Above<C> {
-    medium: Medium<C>,
+/// A layer, and the exponents s h a and s h b of the waves through it.
+#[derive(Clone, Copy)]
+pub(super) struct LayerWaves<C> {
+    pub(super) medium: WaveMedium<C>,
+    pub(super) travels: [C; 2],
+}
+
+/// Surface motion due to the waves A at one depth of a medium, and R there.
+struct SurfaceTransfer<C> {
+    medium: WaveMedium<C>,
     surface: Square<C>,
     reflection: Square<C>,
 }
 
-impl<C: Number> Above<C> {
-    /// The same at the top of the next medium down; without `above`, at the free surface.
+impl<C: ComplexArithmetic> SurfaceTransfer<C> {
+    /// At the top of `medium`, from the bottom of the one `above`; without one, at the free surface.
     #[inline(always)]
     #[allow(clippy::needless_pass_by_value, reason = "a value that is not used again")]
-    fn enter(above: Option<Self>, medium: &Medium<C>) -> [Square<C>; 2] {
+    fn at_next_medium(above: Option<Self>, medium: WaveMedium<C>) -> Self {
         let Some(Self { medium: upper, surface, reflection }) = above else {
-            return [medium.free_surface(), medium.surface_reflection()];
+            let surface = medium.free_surface();
+            return Self { medium, surface, reflection: medium.surface_reflection() };
         };
-        let (one, none) = (medium.a.like_real(1.0), medium.a.like_real(0.0));
-        let [p, q, r, t] = reflection;
-        let first = medium.waves(upper.state([one, none], [p, r]));
-        let second = medium.waves(upper.state([none, one], [q, t]));
+        let one = medium.a.like_real(1.0);
+        let zero = medium.a.like_real(0.0);
+        // Waves (up, down) in the medium due to unit P and unit SV upwards above it.
+        let by_p = medium.waves(upper.state([one, zero], [reflection[0], reflection[2]]));
+        let by_sv = medium.waves(upper.state([zero, one], [reflection[1], reflection[3]]));
         // A' = diag(1/a, 1/b) M A, and B' in the same way.
-        let [up, down] = [0, 1];
-        let back = inverse([first[up][0], second[up][0], first[up][1], second[up][1]]);
-        let below = [first[down][0], second[down][0], first[down][1], second[down][1]];
-        let [p, q, r, t] = times(below, back);
+        let up_inverse = inverse([by_p[0][0], by_sv[0][0], by_p[0][1], by_sv[0][1]]);
+        let down = [by_p[1][0], by_sv[1][0], by_p[1][1], by_sv[1][1]];
+        let [pp, ps, sp, ss] = times(down, up_inverse);
         let ratio = medium.a * medium.b.inverse();
-        let reflection = [p, q * ratio.inverse(), r * ratio, t];
-        let [k, l, m, n] = times(surface, back);
-        [[k * medium.a, l * medium.b, m * medium.a, n * medium.b], reflection]
+        let reflection = [pp, ps * ratio.inverse(), sp * ratio, ss];
+        let [xp, xs, zp, zs] = times(surface, up_inverse);
+        let surface = [xp * medium.a, xs * medium.b, zp * medium.a, zs * medium.b];
+        Self { medium, surface, reflection }
+    }
+
+    /// From the top to the bottom of a layer.
+    #[inline(always)]
+    fn through_layer(self, travels: [C; 2]) -> Self {
+        let p_decay = (-travels[0]).exp();
+        let s_decay = (-travels[1]).exp();
+        let [xp, xs, zp, zs] = self.surface;
+        let [pp, ps, sp, ss] = self.reflection;
+        Self {
+            medium: self.medium,
+            surface: [xp * p_decay, xs * s_decay, zp * p_decay, zs * s_decay],
+            reflection: [
+                pp * p_decay * p_decay,
+                ps * p_decay * s_decay,
+                sp * p_decay * s_decay,
+                ss * s_decay * s_decay,
+            ],
+        }
     }
 }
 
-/// Motion of the surface, to the right and up, by the waves A in `base`.
+/// Motion of the surface, to the right and up, due to the waves A in `base`.
 ///
-/// `layers` from the surface down, each with s h a and s h b.
+/// `layers` from the surface down.
 #[inline(always)]
-pub(super) fn surface_motion<C: Number>(
-    layers: &[(Medium<C>, [C; 2])],
-    base: &Medium<C>,
+pub(super) fn surface_motion<C: ComplexArithmetic>(
+    layers: &[LayerWaves<C>],
+    base: &WaveMedium<C>,
 ) -> Square<C> {
     let mut above = None;
-    for &(medium, travels) in layers {
-        let [[k, l, m, n], [p, q, r, t]] = Above::enter(above, &medium);
-        let [e, f] = [(-travels[0]).exp(), (-travels[1]).exp()];
-        let surface = [k * e, l * f, m * e, n * f];
-        let reflection = [p * e * e, q * e * f, r * e * f, t * f * f];
-        above = Some(Above { medium, surface, reflection });
+    for layer in layers {
+        let top = SurfaceTransfer::at_next_medium(above, layer.medium);
+        above = Some(top.through_layer(layer.travels));
     }
-    Above::enter(above, base)[0]
+    SurfaceTransfer::at_next_medium(above, *base).surface
 }
 
 /// Motion of the surface across p by an SH wave of unit displacement in `base`.
 ///
-/// `layers` from the surface down, each with s h a and s h b. Displacement u = (1 + R) A and stress μ b (1 − R) A
+/// `layers` from the surface down. Displacement u = (1 + R) A and stress μ b (1 − R) A
 /// are continuous between layers.
 #[inline(always)]
-pub(super) fn surface_motion_across<C: Number>(
-    layers: &[(Medium<C>, [C; 2])],
-    base: &Medium<C>,
+pub(super) fn surface_motion_across<C: ComplexArithmetic>(
+    layers: &[LayerWaves<C>],
+    base: &WaveMedium<C>,
 ) -> C {
-    let (none, one) = (base.a.like_real(0.0), base.a.like_real(1.0));
-    let (mut surface, mut reflection) = (one + one, one);
-    let mut above: Option<Medium<C>> = None;
-    for &(medium, [_, travel]) in layers.iter().chain(&[(*base, [none; 2])]) {
+    let zero = base.a.like_real(0.0);
+    let one = base.a.like_real(1.0);
+    let mut surface = one + one;
+    let mut reflection = one;
+    let mut above: Option<WaveMedium<C>> = None;
+    let at_base = LayerWaves { medium: *base, travels: [zero; 2] };
+    for &LayerWaves { medium, travels: [_, travel] } in layers.iter().chain(&[at_base]) {
         if let Some(upper) = above.replace(medium) {
-            let sum = one + reflection;
-            let rest = (one - reflection) * upper.impedance() * medium.impedance().inverse();
-            let scale = (sum + rest).inverse();
+            let displacement = one + reflection;
+            let stress = (one - reflection) * upper.impedance() * medium.impedance().inverse();
+            let scale = (displacement + stress).inverse();
             surface = surface.scale(2.0) * scale;
-            reflection = (sum - rest) * scale;
+            reflection = (displacement - stress) * scale;
         }
         let decay = (-travel).exp();
         surface = surface * decay;

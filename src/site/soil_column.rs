@@ -2,18 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use super::pace::Pace;
-use super::sampled::{Functions, evaluate};
+use super::part_progress::PartProgress;
+use super::sampled::{SiteFunctions, evaluate};
 use super::site_motion::SiteMotion;
 use super::transform::{Contour, ContourPoint, Transform};
-use super::vertical::{Column, ControlPoint, Sought, VerticalWave};
+use super::vertical::{ColumnFunctions, ColumnQuantity, ControlPoint, VerticalWave};
 use crate::error::{Observer, Result, Watch, not_negative};
 use crate::linalg::Complex;
 use crate::motion::{Record, Triaxial};
 use crate::soil::SoilProfile;
 
 /// Number of frequencies of a transfer function that are computed together.
-const BLOCK: usize = 256;
+const FREQUENCIES_PER_BLOCK: usize = 256;
 
 /// A soil profile as a column for vertical waves.
 ///
@@ -57,9 +57,13 @@ impl SoilColumn {
     /// that are not passive; infinite at a resonance without damping.
     pub fn transfer(&self, control: ControlPoint, frequency: f64) -> Result<Complex> {
         not_negative("frequency of a transfer function", frequency)?;
-        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
+        let functions =
+            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
         let mut found = [Complex::default(); 2];
-        functions.at(&ContourPoint::alone(Complex::new(0.0, TAU * frequency)), &mut found)?;
+        functions.evaluate_at(
+            &ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)),
+            &mut found,
+        )?;
         Ok(upwards(found[0], found[1]))
     }
 
@@ -90,19 +94,21 @@ impl SoilColumn {
         observer: &mut Observer<'_>,
     ) -> Result<Vec<Complex>> {
         let mut watch = Watch::new("transfer function", frequencies.len(), observer);
-        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
-        let (mut found, mut moduli) = (Vec::with_capacity(frequencies.len()), vec![]);
-        for block in frequencies.chunks(BLOCK) {
+        let functions =
+            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
+        let mut found = Vec::with_capacity(frequencies.len());
+        let mut moduli = vec![];
+        for block in frequencies.chunks(FREQUENCIES_PER_BLOCK) {
             for frequency in block {
                 not_negative("frequency of a transfer function", *frequency)?;
             }
-            let place = |frequency: &f64| ContourPoint::alone(Complex::new(0.0, TAU * frequency));
-            let places: Vec<ContourPoint> = block.iter().map(place).collect();
+            let places: Vec<ContourPoint> = block
+                .iter()
+                .map(|frequency| ContourPoint::at_frequency(Complex::new(0.0, TAU * frequency)))
+                .collect();
             let mut values = vec![Complex::default(); 2 * block.len()];
             evaluate(&functions, &places, &mut moduli, &mut values)?;
-            let (values, travels) = values.split_at(block.len());
-            found
-                .extend(values.iter().zip(travels).map(|(value, travel)| upwards(*value, *travel)));
+            found.extend((0..block.len()).map(|k| upwards(values[k], values[block.len() + k])));
             watch.reach(found.len())?;
         }
         Ok(found)
@@ -125,7 +131,7 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch = Watch::new("motion of the surface", Pace::PARTS, observer);
+        let mut watch = Watch::new("motion of the surface", PartProgress::STEPS_PER_PART, observer);
         self.filtered(control, time_step, motion, upwards, &mut watch)
     }
 
@@ -166,7 +172,7 @@ impl SoilColumn {
         motion: &[f64],
         observer: &mut Observer<'_>,
     ) -> Result<SiteMotion> {
-        let mut watch = Watch::new("motion at depth", Pace::PARTS, observer);
+        let mut watch = Watch::new("motion at depth", PartProgress::STEPS_PER_PART, observer);
         self.filtered(control, time_step, motion, downwards, &mut watch)
     }
 
@@ -205,24 +211,37 @@ impl SoilColumn {
         motion: &Triaxial,
         observer: &mut Observer<'_>,
     ) -> Result<Triaxial> {
-        let watch = &mut Watch::new("motion of the surface", 3 * Pace::PARTS, observer);
-        let mut through = |part, wave, record: &Option<Record>| -> Result<Option<Record>> {
-            let mut pace = Pace::part(watch, part);
-            let Some(record) = record else {
-                pace.reach(1.0)?;
-                return Ok(None);
-            };
-            let (step, motion) = (record.time_step(), record.accelerations());
-            let own = Self::new(profile.clone(), wave)?;
-            let mut found = own.whole(control, step, motion, upwards, &mut pace)?;
-            found.cut(found.duration().max(motion.len()));
-            Record::new(step, found.samples).map(Some)
+        let steps = 3 * PartProgress::STEPS_PER_PART;
+        let watch = &mut Watch::new("motion of the surface", steps, observer);
+        let mut surface_record = |part, wave, record: &Option<Record>| {
+            let mut progress = PartProgress::part(watch, part);
+            Self::surface_record(profile, wave, control, record, &mut progress)
         };
         Ok(Triaxial {
-            x: through(0, VerticalWave::Shear, &motion.x)?,
-            y: through(1, VerticalWave::Shear, &motion.y)?,
-            up: through(2, VerticalWave::Pressure, &motion.up)?,
+            x: surface_record(0, VerticalWave::Shear, &motion.x)?,
+            y: surface_record(1, VerticalWave::Shear, &motion.y)?,
+            up: surface_record(2, VerticalWave::Pressure, &motion.up)?,
         })
+    }
+
+    /// Record of the surface until the layers are at rest; `None` without a record at `control`.
+    fn surface_record(
+        profile: &SoilProfile,
+        wave: VerticalWave,
+        control: ControlPoint,
+        record: &Option<Record>,
+        progress: &mut PartProgress<'_, '_>,
+    ) -> Result<Option<Record>> {
+        let Some(record) = record else {
+            progress.reach(1.0)?;
+            return Ok(None);
+        };
+        let step = record.time_step();
+        let motion = record.accelerations();
+        let column = Self::new(profile.clone(), wave)?;
+        let mut found = column.whole(control, step, motion, upwards, progress)?;
+        found.cut(found.duration().max(motion.len()));
+        Record::new(step, found.samples).map(Some)
     }
 
     /// `motion` times a function of the inverse transfer function and its exponent.
@@ -234,7 +253,8 @@ impl SoilColumn {
         filter: Filter,
         watch: &mut Watch<'_>,
     ) -> Result<SiteMotion> {
-        let mut found = self.whole(control, time_step, motion, filter, &mut Pace::whole(watch))?;
+        let mut found =
+            self.whole(control, time_step, motion, filter, &mut PartProgress::whole(watch))?;
         found.cut(motion.len());
         Ok(found)
     }
@@ -246,19 +266,20 @@ impl SoilColumn {
         time_step: f64,
         motion: &[f64],
         filter: Filter,
-        pace: &mut Pace<'_, '_>,
+        progress: &mut PartProgress<'_, '_>,
     ) -> Result<SiteMotion> {
         self.profile.check_causal()?;
         let contour = Contour::new(time_step, motion.len(), self.profile.travel_time())?;
-        let functions = Column::exact(&self.profile, self.wave, control, Sought::Inverse);
+        let functions =
+            ColumnFunctions::exact(&self.profile, self.wave, control, ColumnQuantity::Inverse);
         let functions = functions.sampled(contour.end()?)?;
-        let (mut moduli, mut values) = (vec![], vec![]);
-        let [found] = contour.filtered(motion, pace, |places, found| {
+        let mut moduli = vec![];
+        let mut values = vec![];
+        let [found] = contour.filtered(motion, progress, |places, found| {
             values.resize(2 * places.len(), Complex::default());
             evaluate(&functions, places, &mut moduli, &mut values)?;
-            let (values, travels) = values.split_at(places.len());
-            for (found, (value, travel)) in found.iter_mut().zip(values.iter().zip(travels)) {
-                *found = filter(*value, *travel);
+            for (k, found) in found.iter_mut().enumerate() {
+                *found = filter(values[k], values[places.len() + k]);
             }
             Ok(())
         })?;
@@ -266,17 +287,17 @@ impl SoilColumn {
     }
 
     /// Spectra inside the column from the motion at `control` in `transform`, for any damping law.
-    pub(super) fn inside(
+    pub(super) fn response(
         &self,
-        sought: Sought,
+        quantity: ColumnQuantity,
         control: ControlPoint,
         transform: &mut Transform,
-        pace: &mut Pace<'_, '_>,
+        progress: &mut PartProgress<'_, '_>,
     ) -> Result<()> {
-        let functions = Column::exact(&self.profile, self.wave, control, sought);
+        let functions = ColumnFunctions::exact(&self.profile, self.wave, control, quantity);
         let functions = functions.sampled(transform.contour().end()?)?;
         let mut moduli = vec![];
-        transform.filter(functions.count(), false, pace, |places, found| {
+        transform.filter(functions.count(), false, progress, |places, found| {
             evaluate(&functions, places, &mut moduli, found)
         })
     }

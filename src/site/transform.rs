@@ -1,41 +1,41 @@
 //! Motions through transfer functions, by Fourier transform.
 //!
 //! All transforms run at Re s = η > 0: the window e^(−ηt) makes wrap-around negligible and undamped profiles
-//! regular. The transform has four times the samples of the motion. The window thus reduces the last of these
-//! samples by e^(−6) and is undone afterwards, which increases the transform's rounding by e^6. Filters that are
-//! real at the highest frequency, with all their slopes along the contour even about it, have responses that end.
-//! Other responses would alternate and, without the window, grow.
+//! regular. The transform has four times the samples of the motion. The window therefore reduces the last of these
+//! samples by e^(−6). Undoing the window increases the transform's rounding by e^6. A filter has a response that ends
+//! if it is real at the highest frequency, and if all its slopes along the contour are even about that frequency. Other
+//! responses would alternate and, without the window, grow.
 
 use std::sync::Arc;
 
 use realfft::num_complex::Complex64;
 use realfft::{ComplexToReal, RealFftPlanner};
 
-use super::pace::Pace;
+use super::part_progress::PartProgress;
 use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
 use crate::error::{Error, Result, finite, memory, positive, require, same_length};
 use crate::linalg::{Complex, largest};
 
 /// ηT: wrap-around is reduced to e^(−24).
-const WINDOW: f64 = 24.0;
+const WINDOW_EXPONENT: f64 = 24.0;
 /// Length of the transform, relative to the number of samples of the motion.
-const PADDING: usize = 4;
+const LENGTH_PER_SAMPLE: usize = 4;
 /// Largest number of samples of a motion, and of time steps of waves through a site.
-const MOST_SAMPLES: usize = 1 << 24;
-/// Fraction of the frequencies, the highest, over which filters become real.
+const MAX_SAMPLES: usize = 1 << 24;
+/// Fraction of the frequencies, below the highest, over which filters become real.
 ///
-/// Narrow, since the transfer function is exact only below. Not narrower, since a narrow band makes responses last
-/// longer.
-pub(super) const BAND: f64 = 0.02;
-/// Exponent of the transition's slope, e^(β(√(1 − x²) − 1)) over the band (Barnett, Magland & af
-/// Klinteberg 2019): its transform is e^(−β) from 2β/(π · band) samples on.
-const SHARPNESS: f64 = 24.0;
-/// Frequency used for zero, in steps of the transform.
-const BESIDE_REST: f64 = 1e-3;
-/// Number of frequencies that are computed together.
-const BLOCK: usize = 64;
-/// Samples after which responses of the transition end.
-const TRANSITION: usize = 2000;
+/// The transfer function is exact only below this band. A narrower band would make responses last longer.
+pub(super) const BAND_FRACTION: f64 = 0.02;
+/// Exponent β of the transition's slope, e^(β(√(1 − x²) − 1)) over the band.
+///
+/// Its transform is e^(−β) from 2β/(π · band) samples on (Barnett, Magland & af Klinteberg 2019).
+const TRANSITION_SHARPNESS: f64 = 24.0;
+/// Frequency used in place of zero, in frequency steps of the transform.
+const ZERO_FREQUENCY_STEPS: f64 = 1e-3;
+/// Number of frequencies per call of a filter.
+const FREQUENCIES_PER_BLOCK: usize = 64;
+/// Number of samples after which responses of the transition end.
+const TRANSITION_SAMPLES: usize = 2000;
 
 /// A place on the contour.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +49,7 @@ pub(super) struct ContourPoint {
 
 impl ContourPoint {
     /// A single frequency, without samples.
-    pub(super) fn alone(s: Complex) -> Self {
+    pub(super) fn at_frequency(s: Complex) -> Self {
         Self { s, nearness: 0.0, ratio: 0.0 }
     }
 }
@@ -68,16 +68,17 @@ impl Contour {
     /// Contour for `samples`, `time_step` seconds apart, and waves that take `travel` seconds through the site.
     pub(super) fn new(time_step: f64, samples: usize, travel: f64) -> Result<Self> {
         positive("time step of a motion", time_step)?;
-        same_length("motion through a site", samples, samples.clamp(1, MOST_SAMPLES))?;
+        same_length("motion through a site", samples, samples.clamp(1, MAX_SAMPLES))?;
         let steps = travel / time_step;
         let quantity = "time that waves take through a site, in time steps of the motion";
-        require(quantity, steps, (0.0..=MOST_SAMPLES as f64).contains(&steps), "at most 2^24")?;
+        require(quantity, steps, (0.0..=MAX_SAMPLES as f64).contains(&steps), "at most 2^24")?;
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0..=2^24")]
         let travel = steps.ceil() as usize;
         // There and back, and longer for damping that slows long waves.
-        let length = (PADDING * (samples + 2 * travel + TRANSITION)).next_power_of_two();
-        let decay = positive("decay of the window", WINDOW / (length as f64 * time_step))?;
-        Ok(Self { time_step, length, window: WINDOW, decay })
+        let length =
+            (LENGTH_PER_SAMPLE * (samples + 2 * travel + TRANSITION_SAMPLES)).next_power_of_two();
+        let decay = positive("decay of the window", WINDOW_EXPONENT / (length as f64 * time_step))?;
+        Ok(Self { time_step, length, window: WINDOW_EXPONENT, decay })
     }
 
     /// This transform along real frequencies, for filters that exist only there.
@@ -105,38 +106,41 @@ impl Contour {
 
     /// Weight of the modified layers at each frequency of the band, in ascending order.
     fn transition(&self) -> Vec<f64> {
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share")]
-        let count = (BAND * (self.length / 2) as f64) as usize;
-        let slope = |l: usize| {
-            let x = 2.0 * (l as f64 + 0.5) / count as f64 - 1.0;
-            (SHARPNESS * ((1.0 - x * x).sqrt() - 1.0)).exp()
-        };
-        let total: f64 = (0..count).map(slope).sum();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a fraction")]
+        let count = (BAND_FRACTION * (self.length / 2) as f64) as usize;
+        let slopes: Vec<f64> = (0..count)
+            .map(|l| {
+                let x = 2.0 * (l as f64 + 0.5) / count as f64 - 1.0;
+                (TRANSITION_SHARPNESS * ((1.0 - x * x).sqrt() - 1.0)).exp()
+            })
+            .collect();
+        let total: f64 = slopes.iter().sum();
         let mut sum = 0.0;
-        let add = |l: usize| {
-            sum += slope(l);
-            sum / total
-        };
-        (0..count).map(add).collect()
+        let mut weights = Vec::with_capacity(count);
+        for slope in slopes {
+            sum += slope;
+            weights.push(sum / total);
+        }
+        weights
     }
 
     /// `motion` times each of N functions of s, including the motion after its end.
     ///
-    /// `filters` writes the values of one function at places, then of the next. The motion reaches as far as the
-    /// window.
+    /// `filters` writes the values of the first function at all places, then of the next. The result has the length of
+    /// the window.
     pub(super) fn filtered<const N: usize>(
         self,
         motion: &[f64],
-        pace: &mut Pace<'_, '_>,
+        progress: &mut PartProgress<'_, '_>,
         filters: impl FnMut(&[ContourPoint], &mut [Complex]) -> Result<()>,
     ) -> Result<[SiteMotion; N]> {
         let mut transform = Transform::new(self, motion)?;
-        transform.filter(N, true, pace, filters)?;
+        transform.filter(N, true, progress, filters)?;
         let mut found = [(); N].map(|()| SiteMotion::default());
         for (k, found) in found.iter_mut().enumerate() {
             *found = transform.motion(k)?;
         }
-        pace.reach(1.0)?;
+        progress.reach(1.0)?;
         Ok(found)
     }
 }
@@ -147,15 +151,18 @@ pub(super) struct Transform {
     /// Number of samples of the motion.
     samples: usize,
     spectrum: Vec<Complex64>,
-    /// √Σx² of the windowed samples, for rounding.
-    size: f64,
+    /// √Σx² of the windowed samples, for the estimate of rounding.
+    norm: f64,
     /// Weight of the modified layers at each frequency of the band.
     transition: Vec<f64>,
     inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Windowed samples of the motion that was transformed last.
     values: Vec<f64>,
     scratch: Vec<Complex64>,
+    /// Spectrum of the product with each function.
     filtered: Vec<Vec<Complex64>>,
-    sums: Vec<Sums>,
+    /// Sums over the spectrum of each product.
+    sums: Vec<SpectrumSums>,
 }
 
 impl Transform {
@@ -163,30 +170,28 @@ impl Transform {
     pub(super) fn new(contour: Contour, motion: &[f64]) -> Result<Self> {
         let length = contour.length;
         let mut planner = RealFftPlanner::<f64>::new();
-        let (forward, inverse) =
-            (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let forward = planner.plan_fft_forward(length);
+        let inverse = planner.plan_fft_inverse(length);
         let mut values = forward.make_input_vec();
         for (i, (value, sample)) in values.iter_mut().zip(motion).enumerate() {
             *value = finite("sample of a motion", *sample)? * contour.window_at(i as f64);
         }
-        let size = values.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let norm = values.iter().map(|value| value * value).sum::<f64>().sqrt();
         let quantity = "largest sample of a motion through a site";
-        require(quantity, largest(motion), size.is_finite(), "at most 1e150")?;
+        require(quantity, largest(motion), norm.is_finite(), "at most 1e150")?;
         let mut spectrum = forward.make_output_vec();
         forward.process(&mut values, &mut spectrum).map_err(|_| contour.failed())?;
-        let (transition, scratch) = (contour.transition(), inverse.make_scratch_vec());
-        let (samples, filtered, sums) = (motion.len(), vec![], vec![]);
         Ok(Self {
+            transition: contour.transition(),
             contour,
-            samples,
+            samples: motion.len(),
             spectrum,
-            size,
-            transition,
+            norm,
+            scratch: inverse.make_scratch_vec(),
             inverse,
             values,
-            scratch,
-            filtered,
-            sums,
+            filtered: vec![],
+            sums: vec![],
         })
     }
 
@@ -197,13 +202,13 @@ impl Transform {
 
     /// Multiplies the spectrum by `count` functions.
     ///
-    /// `filters` writes the values of one function at places, then of the next. With `measured`, rounding and
+    /// `filters` writes the values of the first function at all places, then of the next. With `measured`, rounding and
     /// amplification of the motions are computed too.
     pub(super) fn filter(
         &mut self,
         count: usize,
         measured: bool,
-        pace: &mut Pace<'_, '_>,
+        progress: &mut PartProgress<'_, '_>,
         mut filters: impl FnMut(&[ContourPoint], &mut [Complex]) -> Result<()>,
     ) -> Result<()> {
         let Contour { length, decay, .. } = self.contour;
@@ -217,26 +222,30 @@ impl Transform {
             filtered.resize(last + 1, Complex64::default());
         }
         self.sums.clear();
-        self.sums.resize(count, Sums::default());
-        let mut products = vec![Complex::default(); count * BLOCK];
-        let mut places = Vec::with_capacity(BLOCK);
-        let place = |l: usize, transition: &[f64]| {
-            let ratio = l as f64 / last as f64;
-            let nearness = if l < below { 0.0 } else { transition[l - below] };
-            // Slightly above s = 0, where strains are 0/0 and some laws have no modulus.
-            let beside = if l == 0 && decay == 0.0 { BESIDE_REST / last as f64 } else { ratio };
-            ContourPoint { s: Complex::new(decay, end * beside), nearness, ratio }
-        };
-        for begin in (0..=last).step_by(BLOCK) {
-            let stop = (begin + BLOCK).min(last + 1);
+        self.sums.resize(count, SpectrumSums::default());
+        let mut products = vec![Complex::default(); count * FREQUENCIES_PER_BLOCK];
+        let mut places = Vec::with_capacity(FREQUENCIES_PER_BLOCK);
+        for begin in (0..=last).step_by(FREQUENCIES_PER_BLOCK) {
+            let stop = (begin + FREQUENCIES_PER_BLOCK).min(last + 1);
             places.clear();
-            places.extend((begin..stop).map(|l| place(l, &self.transition)));
+            for l in begin..stop {
+                let ratio = l as f64 / last as f64;
+                let nearness = if l < below { 0.0 } else { self.transition[l - below] };
+                // Slightly above s = 0, where strains are 0/0 and some laws have no modulus.
+                let is_singular = l == 0 && decay == 0.0;
+                let shifted = if is_singular { ZERO_FREQUENCY_STEPS / last as f64 } else { ratio };
+                places.push(ContourPoint {
+                    s: Complex::new(decay, end * shifted),
+                    nearness,
+                    ratio,
+                });
+            }
             let products = &mut products[..count * places.len()];
             filters(&places, products)?;
             let functions = products.chunks_exact(places.len()).zip(&mut self.filtered);
             for ((products, filtered), sums) in functions.zip(&mut self.sums) {
-                let own = self.spectrum[begin..stop].iter().zip(products).zip(&places);
-                for (((value, filter), place), filtered) in own.zip(&mut filtered[begin..stop]) {
+                let inputs = self.spectrum[begin..stop].iter().zip(products).zip(&places);
+                for (((value, filter), place), filtered) in inputs.zip(&mut filtered[begin..stop]) {
                     let product = Complex::new(value.re, value.im) * *filter;
                     *filtered = Complex64::new(product.re, product.im);
                     if measured {
@@ -244,7 +253,7 @@ impl Transform {
                     }
                 }
             }
-            pace.reach(0.5 * stop as f64 / (last + 1) as f64)?;
+            progress.reach(0.5 * stop as f64 / (last + 1) as f64)?;
         }
         // Real in theory; this removes rounding.
         for filtered in &mut self.filtered {
@@ -254,14 +263,14 @@ impl Transform {
         Ok(())
     }
 
-    /// Samples of motion `k`, as many as the given motion has; call it once.
+    /// Samples of motion `k`, as many as the original motion has; call it once.
     pub(super) fn samples(&mut self, k: usize) -> Result<Vec<f64>> {
         self.invert(k)?;
-        let own = self.values[..self.samples].iter().enumerate();
-        own.map(|(i, value)| self.at(*value, i as f64)).collect()
+        let values = self.values[..self.samples].iter().enumerate();
+        values.map(|(i, value)| self.unwindowed(*value, i as f64)).collect()
     }
 
-    /// Largest sample of motion `k`, including the time after the end of the given motion; call it once.
+    /// Largest sample of motion `k`, including the time after the end of the original motion; call it once.
     pub(super) fn peak(&mut self, k: usize) -> Result<f64> {
         let length = self.contour.length;
         self.invert(k)?;
@@ -274,11 +283,12 @@ impl Transform {
         }
     }
 
-    /// Motion `k`, including the time after the end of the given motion; call it once.
+    /// Motion `k`, including the time after the end of the original motion; call it once.
     pub(super) fn motion(&mut self, k: usize) -> Result<SiteMotion> {
         let mut found = SiteMotion::default();
         let length = self.contour.length;
         let below = self.spectrum.len() - self.transition.len();
+        // The part of the motion in the band alone.
         let mut band = self.filtered[k].clone();
         band[..below].fill(Complex64::default());
         for (value, nearness) in band[below..].iter_mut().zip(&self.transition) {
@@ -287,27 +297,29 @@ impl Transform {
         std::mem::swap(&mut band, &mut self.filtered[k]);
         self.invert(k)?;
         for (i, value) in self.values[..self.samples].iter().enumerate() {
-            found.near_nyquist = found.near_nyquist.max(self.at(*value, i as f64)?.abs());
+            found.near_nyquist = found.near_nyquist.max(self.unwindowed(*value, i as f64)?.abs());
         }
+        // The whole motion.
         self.filtered[k] = band;
         self.invert(k)?;
-        let (first, others) = self.values.split_at(length / 2);
-        let first = first.iter().enumerate();
-        found.samples = first.map(|(i, x)| self.at(*x, i as f64)).collect::<Result<_>>()?;
-        for (i, value) in others.iter().rev().take(length / 4).enumerate() {
-            found.before = found.before.max(self.at(*value, -1.0 - i as f64)?.abs());
+        let first_half = self.values[..length / 2].iter().enumerate();
+        found.samples =
+            first_half.map(|(i, x)| self.unwindowed(*x, i as f64)).collect::<Result<_>>()?;
+        // Wrapped around: the end of the transform is the time before the first sample.
+        for (i, value) in self.values[length / 2..].iter().rev().take(length / 4).enumerate() {
+            found.before = found.before.max(self.unwindowed(*value, -1.0 - i as f64)?.abs());
         }
-        let Sums { gain, power, amplified, lowest } = self.sums[k];
+        let SpectrumSums { gain, power, amplified, lowest } = self.sums[k];
         let is_mostly_amplified = amplified > 0.5 * power;
         found.amplified_from = lowest.filter(|_| is_mostly_amplified);
         let error = f64::EPSILON * (length as f64).log2().sqrt() / length as f64;
-        let error = error * (self.size * gain.sqrt() + power.sqrt());
+        let error = error * (self.norm * gain.sqrt() + power.sqrt());
         found.rounding = error / self.contour.window_at(self.samples as f64);
         Ok(found)
     }
 
     /// Sample of a motion at a time in samples, which may be before the first sample.
-    fn at(&self, value: f64, time: f64) -> Result<f64> {
+    fn unwindowed(&self, value: f64, time: f64) -> Result<f64> {
         let scale = 1.0 / self.contour.length as f64;
         finite("motion through a site", value * scale / self.contour.window_at(time))
     }
@@ -315,25 +327,27 @@ impl Transform {
     /// Overwrites the values with motion `k`, and its spectrum with scratch of the transform.
     fn invert(&mut self, k: usize) -> Result<()> {
         let Self { filtered, values, scratch, .. } = self;
-        let made = self.inverse.process_with_scratch(&mut filtered[k], values, scratch);
-        made.map_err(|_| self.contour.failed())
+        let result = self.inverse.process_with_scratch(&mut filtered[k], values, scratch);
+        result.map_err(|_| self.contour.failed())
     }
 }
 
 /// Σ|F|² and Σ|FX|² of a function and the spectrum.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
+struct SpectrumSums {
     gain: f64,
     power: f64,
-    /// Part of the power at frequencies with |F| above the limit of amplification, and the lowest of these, Hz.
+    /// Part of the power at frequencies with |F| above the limit of amplification.
     amplified: f64,
+    /// Lowest of these frequencies, Hz.
     lowest: Option<f64>,
 }
 
-impl Sums {
+impl SpectrumSums {
     /// Adds the next frequency, ω in rad/s.
     fn add(&mut self, filter: Complex, product: Complex, omega: f64) {
-        let (gain, power) = (filter.square(), product.square());
+        let gain = filter.square();
+        let power = product.square();
         self.gain += gain;
         self.power += power;
         if gain > AMPLIFICATION_LIMIT * AMPLIFICATION_LIMIT {

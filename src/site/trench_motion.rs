@@ -1,7 +1,7 @@
 //! Waves from below at the faces of a trench.
 
-use super::pace::Pace;
-use super::trench_waves::{Level, VALUES, Waves};
+use super::part_progress::PartProgress;
+use super::trench_waves::{LevelRecords, SurfaceRecords, TrenchWaves, VALUE_COUNT};
 use crate::bem::ContactElement;
 use crate::bem::embedded::TrenchGround;
 use crate::error::{Observer, Result, Watch};
@@ -14,7 +14,7 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 /// surface. A run starts from rest, so the record should begin with rest for as long as waves take from the base to the
 /// surface ([`Record::padded`]).
 ///
-/// A run on another ground is refused: other elements, soils or backfill. Soils with a damping law of your own are
+/// A run on a ground with other elements, soils or backfill returns an error. Soils with a user's damping law are
 /// compared only if the law has an [identity](crate::soil::Relaxation::identity).
 ///
 /// ```
@@ -37,14 +37,17 @@ use crate::motion::{FreeField, Record, TravellingWave, VerticalIncidence};
 /// ```
 #[derive(Debug, Clone)]
 pub struct TrenchMotion {
-    /// Motion of the surface at the origin, by records that begin earlier by `lead` (s).
+    /// Motion of the surface at the origin.
     surface: VerticalIncidence,
+    /// Time by which the surface's records begin earlier than the wave's, s.
     lead: f64,
-    given: Vec<Record>,
+    /// Records of the motion from which the field was made.
+    records: Vec<Record>,
     elements: Vec<ContactElement>,
     soils: Option<Vec<f64>>,
-    /// Horizontal slowness (s/m), and the place (m) of the given motion.
+    /// Horizontal slowness, s/m.
     slowness: f64,
+    /// Place of the surface's motion, m.
     origin: f64,
     components: Vec<Component>,
 }
@@ -54,10 +57,12 @@ pub struct TrenchMotion {
 struct Component {
     /// Time by which the records begin earlier than the motion of the surface, s.
     lead: f64,
-    /// Velocity (m/s) of such a record at the beginning of the surface's motion: not part of the motion.
+    /// Velocity (m/s) that padding leaves at the beginning of the surface's motion.
+    ///
+    /// It is subtracted.
     drift: f64,
-    /// Of the elements of a wall, from the surface down, and of the base.
-    levels: Vec<Level>,
+    /// Records for the elements of a wall, from the surface down, and for the base.
+    levels: Vec<LevelRecords>,
 }
 
 impl TrenchMotion {
@@ -76,24 +81,34 @@ impl TrenchMotion {
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let surface: VerticalIncidence = motion.into();
-        let given = surface.records().into_iter().cloned().collect();
-        let waves = Waves::new(ground, 0.0)?;
-        let records = [&surface.horizontal, &surface.vertical];
-        let count = records.iter().flat_map(|own| own.iter()).count();
-        let mut watch = Watch::new("motion at depth", count * Pace::PARTS, observer);
+        let given_records = surface.records().into_iter().cloned().collect();
+        let waves = TrenchWaves::new(ground, 0.0)?;
+        let components_of_surface = [&surface.horizontal, &surface.vertical];
+        let count = components_of_surface.iter().filter(|record| record.is_some()).count();
+        let mut watch =
+            Watch::new("motion at depth", count * PartProgress::STEPS_PER_PART, observer);
         let mut components = vec![];
-        for (kind, record) in records.into_iter().enumerate() {
+        for (kind, record) in components_of_surface.into_iter().enumerate() {
             let Some(record) = record else { continue };
             let rest = waves.rest(record.time_step());
-            let own = record.padded(rest, rest)?;
-            let lead = (own.len() - record.len()) as f64 / 2.0 * record.time_step();
-            let drift = own.at(lead).velocity;
-            let mut pace = Pace::part(&mut watch, components.len());
-            let levels = waves.levels(kind, &own, &mut pace)?;
+            let padded = record.padded(rest, rest)?;
+            let lead = (padded.len() - record.len()) as f64 / 2.0 * record.time_step();
+            let drift = padded.at(lead).velocity;
+            let mut progress = PartProgress::part(&mut watch, components.len());
+            let levels = waves.levels(kind, &padded, &mut progress)?;
             components.push(Component { lead, drift, levels });
         }
-        let (Waves { elements, soils, slowness, .. }, lead, origin) = (waves, 0.0, 0.0);
-        Ok(Self { surface, lead, given, elements, soils, slowness, origin, components })
+        let TrenchWaves { elements, soils, slowness, .. } = waves;
+        Ok(Self {
+            surface,
+            lead: 0.0,
+            records: given_records,
+            elements,
+            soils,
+            slowness,
+            origin: 0.0,
+            components,
+        })
     }
 
     /// Waves with the motion of `wave` at the surface: inclined ones, or Rayleigh's wave of a half-plane.
@@ -135,32 +150,32 @@ impl TrenchMotion {
         observer: &mut Observer<'_>,
     ) -> Result<Self> {
         let [slowness, origin] = wave.along()?;
-        let waves = Waves::new(ground, slowness)?;
-        let mut watch = Watch::new("motion at depth", 2 * Pace::PARTS, observer);
-        let (lead, surface) = waves.surface(wave, origin)?;
+        let waves = TrenchWaves::new(ground, slowness)?;
+        let mut watch = Watch::new("motion at depth", 2 * PartProgress::STEPS_PER_PART, observer);
+        let SurfaceRecords { lead, records } = waves.surface(wave, origin)?;
         let mut components = vec![];
-        for (kind, record) in surface.iter().enumerate() {
-            let levels = waves.levels(kind, record, &mut Pace::part(&mut watch, kind))?;
+        for (kind, record) in records.iter().enumerate() {
+            let levels = waves.levels(kind, record, &mut PartProgress::part(&mut watch, kind))?;
             components.push(Component { lead, drift: 0.0, levels });
         }
-        let Waves { elements, soils, .. } = waves;
-        let [horizontal, vertical] = surface.map(Some);
+        let TrenchWaves { elements, soils, .. } = waves;
+        let [horizontal, vertical] = records.map(Some);
         let surface = VerticalIncidence { horizontal, vertical };
-        let given = wave.records().into_iter().cloned().collect();
-        Ok(Self { surface, lead, given, elements, soils, slowness, origin, components })
+        let records = wave.records().into_iter().cloned().collect();
+        Ok(Self { surface, lead, records, elements, soils, slowness, origin, components })
     }
 }
 
 impl TrenchMotion {
-    /// Time of the motion at the origin that is at a place at `time`.
-    fn since(&self, x: f64, time: f64) -> f64 {
+    /// Time at which the motion at a place and `time` was at the origin.
+    fn arrival(&self, x: f64, time: f64) -> f64 {
         time - self.slowness * (x - self.origin)
     }
 }
 
 impl FreeField for TrenchMotion {
     fn displacement(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.displacement(x, self.lead + self.since(x, time))
+        self.surface.displacement(x, self.lead + self.arrival(x, time))
     }
 
     fn at_faces(
@@ -180,23 +195,24 @@ impl FreeField for TrenchMotion {
             let half = 0.5 * element.length() * gauss::rule(2).nodes[1];
             let is_wide = is_base && self.slowness != 0.0;
             let points: &[f64] = if is_wide { &[-half, half] } else { &[0.0] };
-            let share = 1.0 / points.len() as f64;
-            let mut sums = [0.0; VALUES];
+            let weight = 1.0 / points.len() as f64;
+            let mut sums = [0.0; VALUE_COUNT];
             for component in &self.components {
                 let level = &component.levels[e.min(count - 1 - e).min(component.levels.len() - 1)];
                 for point in points {
-                    let since = self.since(element.center()[0] + point, time);
+                    let arrival = self.arrival(element.center()[0] + point, time);
                     for (k, (sum, record)) in sums.iter_mut().zip(level).enumerate() {
                         let Some(record) = record else { continue };
-                        let own = record.at(since + component.lead);
-                        let moved = own.displacement - component.drift * since;
-                        *sum += share * if k < 2 { moved } else { own.velocity };
+                        let motion = record.at(arrival + component.lead);
+                        let displacement = motion.displacement - component.drift * arrival;
+                        *sum += weight * if k < 2 { displacement } else { motion.velocity };
                     }
                 }
             }
             let [right, up, shear, pressure] = sums;
-            let [normal, tangential, _] = element.components([right, 0.0, up]);
-            (displacement[e], displacement[count + e]) = (normal, tangential);
+            let components = element.components([right, 0.0, up]);
+            displacement[e] = components[0];
+            displacement[count + e] = components[1];
             // σ_xz acts on the soil below to the left, and on the soil beside the walls along their tangents.
             impulse[e] = pressure;
             impulse[count + e] = if is_base { -shear } else { shear };
@@ -209,10 +225,10 @@ impl FreeField for TrenchMotion {
     }
 
     fn records(&self) -> Vec<&Record> {
-        self.given.iter().collect()
+        self.records.iter().collect()
     }
 
     fn velocity(&self, x: f64, time: f64) -> [f64; 2] {
-        self.surface.velocity(x, self.lead + self.since(x, time))
+        self.surface.velocity(x, self.lead + self.arrival(x, time))
     }
 }

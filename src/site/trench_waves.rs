@@ -5,9 +5,9 @@
 
 use std::f64::consts::PI;
 
-use super::below_surface::{Field, Medium};
-use super::pace::Pace;
-use super::transform::{Contour, ContourPoint, Transform};
+use super::below_surface::{FieldMedium, WaveField};
+use super::part_progress::PartProgress;
+use super::transform::{Contour, Transform};
 use crate::bem::embedded::TrenchGround;
 use crate::bem::{ContactElement, Ground};
 use crate::error::{Result, Watch, memory, require, require_part};
@@ -15,76 +15,95 @@ use crate::linalg::{Complex, gauss};
 use crate::motion::{FreeField, Record, TravellingWave};
 use crate::soil::SoilProfile;
 
-/// Records of mean values: displacement to the right and up, and those whose velocities are the impulses of σ_xz and
-/// of the pressure across the face. Without a record, zero.
-pub(super) type Level = [Option<Record>; VALUES];
+/// Records of mean values at one level; `None` for zero.
+///
+/// The displacements of the first two are to the right and up. The velocities of the others are the impulses of σ_xz and
+/// of the pressure across the face.
+pub(super) type LevelRecords = [Option<Record>; VALUE_COUNT];
 
-pub(super) const VALUES: usize = 4;
+/// Number of records of a level.
+pub(super) const VALUE_COUNT: usize = 4;
 /// Rest before and after a record, in travel times to the base, and in samples.
-const REST: [f64; 2] = [2.0, 32.0];
-/// Part of a record's length over which motion before and after it fades.
-const FADING: f64 = 0.5;
-/// Least velocity along the surface over the lowest shear wave speed: surface waves of layers run at 0.87 or more.
-const SLOWEST: f64 = 0.8;
+const REST_DURATION: [f64; 2] = [2.0, 32.0];
+/// Fraction of a record's length over which motion before and after it fades.
+const FADING_FRACTION: f64 = 0.5;
+/// Smallest velocity along the surface, relative to the lowest shear wave speed.
+///
+/// Surface waves of layers run at 0.87 or more.
+const MIN_VELOCITY_RATIO: f64 = 0.8;
 
 /// Waves of one horizontal slowness in a profile, down to the base of a trench.
-pub(super) struct Waves<'a> {
+pub(super) struct TrenchWaves<'a> {
     profile: &'a SoilProfile,
     pub(super) slowness: f64,
     pub(super) elements: Vec<ContactElement>,
     /// Numbers that are equal only for equal soils, if they are known.
     pub(super) soils: Option<Vec<f64>>,
-    /// Number of elements of a wall: their levels come first, then the level of the base.
+    /// Number of elements of a wall; their levels come first, then the level of the base.
     walls: usize,
     /// Depth of the base, m.
     bottom: f64,
-    /// Points on the way down.
-    points: Vec<Point>,
+    /// Points of integration, from the surface down.
+    points: Vec<DepthPoint>,
 }
 
-/// Point of a rule for the mean over a level.
-struct Point {
+/// Point of a quadrature rule for the mean over a level.
+struct DepthPoint {
     level: usize,
     weight: f64,
-    /// Soil above, and height (m) from the last point.
+    /// Number of the soil above the point.
     soil: usize,
+    /// Height from the previous point, m.
     height: f64,
 }
 
-impl<'a> Waves<'a> {
+/// Records of the surface at the origin.
+pub(super) struct SurfaceRecords {
+    /// Time by which the records begin earlier than the wave's, s.
+    pub(super) lead: f64,
+    /// Accelerations to the right and up.
+    pub(super) records: [Record; 2],
+}
+
+impl<'a> TrenchWaves<'a> {
     pub(super) fn new(ground: &'a TrenchGround, slowness: f64) -> Result<Self> {
         let needed = "a trench without it: waves beside it are not the profile's";
         require_part("backfill", !ground.has_backfill(), needed)?;
-        let (profile, bottom) = (ground.profile(), ground.trench_elements().trench().depth());
+        let profile = ground.profile();
+        let bottom = ground.trench_elements().trench().depth();
         profile.check_causal()?;
         let speeds = profile.soils().map(|(soil, _)| soil.shear_wave_speed());
-        let fits = SLOWEST * speeds.fold(f64::INFINITY, f64::min) * slowness.abs() <= 1.0;
+        let is_fast =
+            MIN_VELOCITY_RATIO * speeds.fold(f64::INFINITY, f64::min) * slowness.abs() <= 1.0;
         let needed = "at least 0.8 of the lowest shear wave speed";
-        require("apparent velocity of a wave", 1.0 / slowness, fits, needed)?;
+        require("apparent velocity of a wave", 1.0 / slowness, is_fast, needed)?;
         let elements = ground.trench_elements().elements();
         let [left, ..] = ContactElement::faces(&elements);
-        let (walls, mut points) = (left.len(), vec![]);
-        for (level, own) in elements[left].iter().enumerate() {
-            let (middle, length) = (-own.center()[2], own.length());
-            let (top, bottom) = (middle - 0.5 * length, middle + 0.5 * length);
-            let mut start = top;
+        let walls = left.len();
+        let mut points = vec![];
+        for (level, element) in elements[left].iter().enumerate() {
+            let middle = -element.center()[2];
+            let length = element.length();
+            let lower_end = middle + 0.5 * length;
+            let mut start = middle - 0.5 * length;
             for (soil, (_, end)) in profile.soils_to().enumerate() {
-                let piece = end.min(bottom) - start;
+                let piece = end.min(lower_end) - start;
                 if piece <= 0.0 {
                     continue;
                 }
-                let mut passed = 0.0;
+                let mut previous = 0.0;
                 for (place, weight) in gauss::rule(4).points_on_unit_interval() {
                     let weight = weight * piece / length;
-                    let height = (place - passed) * piece;
-                    points.push(Point { level, weight, soil, height });
-                    passed = place;
+                    let height = (place - previous) * piece;
+                    points.push(DepthPoint { level, weight, soil, height });
+                    previous = place;
                 }
-                points.push(Point { level, weight: 0.0, soil, height: (1.0 - passed) * piece });
+                let height = (1.0 - previous) * piece;
+                points.push(DepthPoint { level, weight: 0.0, soil, height });
                 start += piece;
             }
         }
-        points.push(Point { level: walls, weight: 1.0, soil: 0, height: 0.0 });
+        points.push(DepthPoint { level: walls, weight: 1.0, soil: 0, height: 0.0 });
         let soils = ground.description().identity;
         Ok(Self { profile, slowness, elements, soils, walls, bottom, points })
     }
@@ -96,117 +115,139 @@ impl<'a> Waves<'a> {
 
     /// Time before and after a record in which waves pass, s.
     pub(super) fn rest(&self, step: f64) -> f64 {
-        REST[0] * self.travel() + REST[1] * step
+        REST_DURATION[0] * self.travel() + REST_DURATION[1] * step
     }
 
-    /// Records of the surface at the origin, to the right and up, and the time by which they begin earlier.
-    pub(super) fn surface(&self, wave: &TravellingWave, origin: f64) -> Result<(f64, [Record; 2])> {
+    /// Records of a wave's motion of the surface at the origin, with rest before and after.
+    pub(super) fn surface(&self, wave: &TravellingWave, origin: f64) -> Result<SurfaceRecords> {
         let records = wave.records();
-        let step = records.iter().map(|own| own.time_step()).fold(f64::INFINITY, f64::min);
+        let step = records.iter().map(|record| record.time_step()).fold(f64::INFINITY, f64::min);
         require_part("record of a wave", step.is_finite(), "one: a wave made of records")?;
-        let end = records.iter().map(|own| own.duration()).fold(0.0, f64::max);
+        let end = records.iter().map(|record| record.duration()).fold(0.0, f64::max);
         let is_quiet = |time: f64| wave.velocity(origin, time) == [0.0; 2];
-        let fading = if is_quiet(-step) && is_quiet(end + step) { 0.0 } else { FADING * end };
+        let is_quiet_outside = is_quiet(-step) && is_quiet(end + step);
+        let fading = if is_quiet_outside { 0.0 } else { FADING_FRACTION * end };
         let lead = ((self.rest(step) + fading) / step).ceil();
         let count = 2.0 * lead + (end / step).ceil();
         memory::check("samples of the record", count, 40.0 * count)?;
-        let record = |k: usize| -> Result<Record> {
-            let at = |i: usize| {
-                let time = (i as f64 - lead) * step;
-                let outside = (-time).max(time - end).max(0.0);
-                let share = if fading > 0.0 { (outside / fading).min(1.0) } else { 0.0 };
-                wave.velocity(origin, time)[k] * 0.5 * (1.0 + (PI * share).cos())
-            };
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "fits into memory"
-            )]
-            let velocity: Vec<f64> = (0..=count as usize).map(at).collect();
-            let contour = Contour::new(step, velocity.len(), 0.0)?;
-            let mut pace = Watch::nobody();
-            let [mut found] =
-                contour.filtered(&velocity, &mut Pace::whole(&mut pace), |places, found| {
-                    // The velocity is the sum of the acceleration by the trapezoidal rule.
-                    let own = |place: &ContourPoint| {
-                        let (back, one) = ((-place.s.scale(step)).exp(), Complex::real(1.0));
-                        ((one - back) / (one + back)).scale(2.0 / step * (1.0 - place.nearness))
-                    };
-                    found.iter_mut().zip(places).for_each(|(found, place)| *found = own(place));
-                    Ok(())
-                })?;
-            found.cut(velocity.len());
-            Record::new(step, found.samples)
-        };
-        Ok((lead * step, [record(0)?, record(1)?]))
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "fits into memory"
+        )]
+        let count = count as usize;
+        let mut velocities = [Vec::with_capacity(count + 1), Vec::with_capacity(count + 1)];
+        for i in 0..=count {
+            let time = (i as f64 - lead) * step;
+            let outside = (-time).max(time - end).max(0.0);
+            let fraction = if fading > 0.0 { (outside / fading).min(1.0) } else { 0.0 };
+            for (samples, velocity) in velocities.iter_mut().zip(wave.velocity(origin, time)) {
+                samples.push(velocity * 0.5 * (1.0 + (PI * fraction).cos()));
+            }
+        }
+        let horizontal = differentiated(&velocities[0], step)?;
+        let vertical = differentiated(&velocities[1], step)?;
+        Ok(SurfaceRecords { lead: lead * step, records: [horizontal, vertical] })
     }
 
-    /// Motion at all levels by a component of the surface's motion, to the right (0) or up (1).
+    /// Motion at all levels due to one component of the surface's motion.
+    ///
+    /// `kind`: 0 for the motion to the right, 1 for the motion up.
     pub(super) fn levels(
         &self,
         kind: usize,
         surface: &Record,
-        pace: &mut Pace<'_, '_>,
-    ) -> Result<Vec<Level>> {
-        let (step, samples) = (surface.time_step(), surface.accelerations());
+        progress: &mut PartProgress<'_, '_>,
+    ) -> Result<Vec<LevelRecords>> {
+        let step = surface.time_step();
+        let samples = surface.accelerations();
         // Vertical waves have one direction.
-        let sought: Vec<usize> =
-            (0..VALUES).filter(|k| self.slowness != 0.0 || k % 2 == kind).collect();
+        let nonzero: Vec<usize> =
+            (0..VALUE_COUNT).filter(|k| self.slowness != 0.0 || k % 2 == kind).collect();
         let contour = Contour::new(step, samples.len(), self.travel())?;
         let mut transform = Transform::new(contour, samples)?;
-        let (mut moduli, mut values) = (vec![], vec![]);
-        transform.filter(sought.len() * (self.walls + 1), true, pace, |places, found| {
+        let mut moduli = vec![];
+        let mut values = vec![];
+        transform.filter(nonzero.len() * (self.walls + 1), true, progress, |places, filters| {
             for (i, place) in places.iter().enumerate() {
                 self.profile.moduli(place.s, &mut moduli)?;
                 self.values(kind, place.s, &moduli, &mut values);
-                let own = values.iter().flat_map(|own| sought.iter().map(|k| own[*k]));
-                let found = found[i..].iter_mut().step_by(places.len());
-                found.zip(own).for_each(|(found, own)| *found = own.scale(1.0 - place.nearness));
+                let level_values =
+                    values.iter().flat_map(|values| nonzero.iter().map(|k| values[*k]));
+                let filters = filters[i..].iter_mut().step_by(places.len());
+                for (filter, value) in filters.zip(level_values) {
+                    *filter = value.scale(1.0 - place.nearness);
+                }
             }
             Ok(())
         })?;
         let mut levels = vec![];
         for level in 0..=self.walls {
-            let mut own = Level::default();
-            for (slot, &k) in sought.iter().enumerate() {
-                let mut found = transform.motion(level * sought.len() + slot)?;
-                if let (Some(frequency), true) = (found.amplified_from, k < 2) {
+            let mut records = LevelRecords::default();
+            for (slot, &k) in nonzero.iter().enumerate() {
+                let mut motion = transform.motion(level * nonzero.len() + slot)?;
+                if let (Some(frequency), true) = (motion.amplified_from, k < 2) {
                     let needed = "none: the soil above the base amplifies this motion on the way down more than a hundredfold";
                     require("frequency of the record (Hz)", frequency, false, needed)?;
                 }
-                found.cut(samples.len());
-                own[k] = Some(Record::new(step, found.samples)?);
+                motion.cut(samples.len());
+                records[k] = Some(Record::new(step, motion.samples)?);
             }
-            levels.push(own);
+            levels.push(records);
         }
-        pace.reach(1.0)?;
+        progress.reach(1.0)?;
         Ok(levels)
     }
 
-    /// Overwrites `values` with the mean values of each level, per unit acceleration of a component of the surface.
+    /// Overwrites `values` with the means of each level.
+    ///
+    /// They are per unit acceleration of a component of the surface.
     fn values(
         &self,
         kind: usize,
         s: Complex,
         moduli: &[Complex],
-        values: &mut Vec<[Complex; VALUES]>,
+        values: &mut Vec<[Complex; VALUE_COUNT]>,
     ) {
         let soils = self.profile.soils().zip(moduli);
-        let media: Vec<Medium> =
-            soils.map(|((soil, _), modulus)| Medium::new(soil, *modulus, self.slowness)).collect();
+        let media: Vec<FieldMedium> = soils
+            .map(|((soil, _), modulus)| FieldMedium::new(soil, *modulus, self.slowness))
+            .collect();
         let zero = Complex::default();
-        let mut field: Field = [zero; 4];
-        field[kind] = Complex::real(if kind == 0 { 1.0 } else { -1.0 });
+        let mut field = if kind == 0 {
+            WaveField { right: Complex::real(1.0), ..WaveField::default() }
+        } else {
+            WaveField { down: Complex::real(-1.0), ..WaveField::default() }
+        };
         values.clear();
-        values.resize(self.walls + 1, [zero; VALUES]);
+        values.resize(self.walls + 1, [zero; VALUE_COUNT]);
         for point in &self.points {
             let medium = &media[point.soil];
             field = medium.below(s, point.height, field);
-            let [right, down, shear, normal] = field;
-            let across = if point.level < self.walls { medium.sideways(field) } else { normal };
-            let own = [right, -down, shear / s, -(across / s)];
-            let sums = values[point.level].iter_mut().zip(own);
-            sums.for_each(|(sum, own)| *sum += own.scale(point.weight));
+            // Normal to the face: the walls are vertical, the base is horizontal.
+            let is_wall = point.level < self.walls;
+            let normal = if is_wall { medium.horizontal_stress(field) } else { field.normal };
+            let point_values = [field.right, -field.down, field.shear / s, -(normal / s)];
+            for (sum, value) in values[point.level].iter_mut().zip(point_values) {
+                *sum += value.scale(point.weight);
+            }
         }
     }
+}
+
+/// Record of the acceleration whose sum by the trapezoidal rule is the velocity.
+fn differentiated(velocity: &[f64], step: f64) -> Result<Record> {
+    let contour = Contour::new(step, velocity.len(), 0.0)?;
+    let mut watch = Watch::nobody();
+    let mut progress = PartProgress::whole(&mut watch);
+    let [mut acceleration] = contour.filtered(velocity, &mut progress, |places, filters| {
+        for (filter, place) in filters.iter_mut().zip(places) {
+            let one = Complex::real(1.0);
+            let delay = (-place.s.scale(step)).exp();
+            *filter = ((one - delay) / (one + delay)).scale(2.0 / step * (1.0 - place.nearness));
+        }
+        Ok(())
+    })?;
+    acceleration.cut(velocity.len());
+    Record::new(step, acceleration.samples)
 }

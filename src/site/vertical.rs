@@ -10,10 +10,10 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
-use super::sampled::{At, Functions, Highest};
+use super::sampled::{ContourLanes, NyquistLayers, SiteFunctions};
 use crate::error::Result;
-use crate::linalg::{Complex, Number};
-use crate::soil::{Bedrock, Soil, SoilProfile};
+use crate::linalg::{Complex, ComplexArithmetic};
+use crate::soil::{Bedrock, SoilProfile};
 
 /// Kind of wave that travels along a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -39,9 +39,9 @@ pub enum ControlPoint {
     Within,
 }
 
-/// Functions of s of a column.
+/// Quantity of a column as a function of s.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Sought {
+pub(super) enum ColumnQuantity {
     /// Control motion by surface motion without its factor e^x, and x.
     Inverse,
     /// Acceleration at the tops of all layers and of the base, by the control motion.
@@ -50,110 +50,159 @@ pub(super) enum Sought {
     Strains,
 }
 
+/// Speed of a wave in a soil, and its reciprocal.
+#[derive(Clone, Copy)]
+pub(super) struct WaveSpeed<C> {
+    speed: C,
+    slowness: C,
+}
+
+/// Amplitudes of the waves up and down at one depth.
+#[derive(Clone, Copy)]
+pub(super) struct WavePair<C> {
+    up: C,
+    down: C,
+}
+
+impl<C: ComplexArithmetic> WavePair<C> {
+    /// Waves below an interface from these waves above it.
+    ///
+    /// `above`: impedance above; `below`: reciprocal of the impedance below.
+    #[inline(always)]
+    fn below_interface(self, above: C, below: C) -> Self {
+        let sum = (self.up + self.down).scale(0.5);
+        let difference = (self.up - self.down).scale(0.5) * above * below;
+        Self { up: sum + difference, down: sum - difference }
+    }
+}
+
+/// Intermediate values of a soil; of the base only the speed is set.
+#[derive(Clone, Copy)]
+pub(super) struct ColumnLayer<C> {
+    /// Speed in the unmodified soil.
+    exact: WaveSpeed<C>,
+    /// Waves at the top of the layer.
+    top: WavePair<C>,
+    /// κh.
+    travel: C,
+    /// e^(−κh/2).
+    half_decay: C,
+}
+
+impl<C: Copy> ColumnLayer<C> {
+    #[inline(always)]
+    fn filled(value: C) -> Self {
+        Self {
+            exact: WaveSpeed { speed: value, slowness: value },
+            top: WavePair { up: value, down: value },
+            travel: value,
+            half_decay: value,
+        }
+    }
+}
+
 /// Functions of a profile for one kind of wave, with unmodified layers or layers modified for samples.
 #[derive(Debug)]
-pub(super) struct Column<'a> {
+pub(super) struct ColumnFunctions<'a> {
     profile: &'a SoilProfile,
     /// Soils from the surface down: density, and M/(μρ) of the wave's stiffness M.
     soils: Vec<[f64; 2]>,
     control: ControlPoint,
-    sought: Sought,
-    highest: Highest<1>,
+    quantity: ColumnQuantity,
+    nyquist: NyquistLayers<1>,
 }
 
-impl<'a> Column<'a> {
+impl<'a> ColumnFunctions<'a> {
     /// Functions of the unmodified layers.
     pub(super) fn exact(
         profile: &'a SoilProfile,
         wave: VerticalWave,
         control: ControlPoint,
-        sought: Sought,
+        quantity: ColumnQuantity,
     ) -> Self {
-        let stiffness = |soil: Soil| match wave {
-            VerticalWave::Shear => 1.0,
-            VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
-        };
-        let of = |soil: Soil| [soil.density(), stiffness(soil) / soil.density()];
-        let soils = profile.soils().map(|(soil, _)| of(soil)).collect();
-        Self { profile, soils, control, sought, highest: Highest::default() }
+        let soils = profile
+            .soils()
+            .map(|(soil, _)| {
+                let stiffness = match wave {
+                    VerticalWave::Shear => 1.0,
+                    VerticalWave::Pressure => 1.0 / soil.speed_ratio_squared(),
+                };
+                [soil.density(), stiffness / soil.density()]
+            })
+            .collect();
+        Self { profile, soils, control, quantity, nyquist: NyquistLayers::default() }
     }
 
     /// These functions for layers modified for samples, on a contour that ends at s = `end`.
     pub(super) fn sampled(self, end: Complex) -> Result<Self> {
-        let travel = |index: usize, modulus| [self.travel(index, end, self.speed(index, modulus))];
-        Ok(Self { highest: Highest::new(self.profile, end, travel)?, ..self })
+        let nyquist = NyquistLayers::new(self.profile, end, |index, modulus| {
+            [self.travel(index, end, self.speed(index, modulus).slowness)]
+        })?;
+        Ok(Self { nyquist, ..self })
     }
 
     #[inline(always)]
-    fn speed<C: Number>(&self, index: usize, modulus: C) -> [C; 2] {
+    fn speed<C: ComplexArithmetic>(&self, index: usize, modulus: C) -> WaveSpeed<C> {
         let speed = modulus.scale(self.soils[index][1]).sqrt();
-        [speed, speed.inverse()]
+        WaveSpeed { speed, slowness: speed.inverse() }
     }
 
+    /// κh of a layer, from the slowness 1/c.
     #[inline(always)]
-    fn travel<C: Number>(&self, index: usize, s: C, [_, slowness]: [C; 2]) -> C {
+    fn travel<C: ComplexArithmetic>(&self, index: usize, s: C, slowness: C) -> C {
         s.scale(self.profile.layers()[index].thickness) * slowness
     }
 
-    /// Waves (up, down) below an interface from the waves above it.
+    /// Overwrites `results` with the functions, from the waves at the bottom.
     ///
-    /// `above`: impedance above; `below`: reciprocal of the impedance below.
+    /// `total`: travel Σ κh through all layers.
     #[inline(always)]
-    fn cross<C: Number>([up, down]: [C; 2], above: C, below: C) -> [C; 2] {
-        let sum = (up + down).scale(0.5);
-        let difference = (up - down).scale(0.5) * above * below;
-        [sum + difference, sum - difference]
-    }
-
-    /// Overwrites `found` with the functions, from the waves (up, down) at the bottom.
-    ///
-    /// `total`: travel Σ κh through all layers. `kept`: values of each soil.
-    #[inline(always)]
-    fn sought<C: Number>(
+    fn quantities<C: ComplexArithmetic>(
         &self,
-        at: &At<C>,
-        waves: [C; 2],
+        contour: &ContourLanes<C>,
+        bottom: WavePair<C>,
         total: C,
-        kept: &[[C; 6]],
-        found: &mut [C],
+        layer_values: &[ColumnLayer<C>],
+        results: &mut [C],
     ) {
-        let ([up, down], layers) = (waves, self.profile.layers().len());
+        let layers = self.profile.layers().len();
         // A rigid base moves like the bottom of the lowest layer.
         let is_outcrop = self.control == ControlPoint::Outcrop
             && matches!(self.profile.bedrock(), Bedrock::HalfPlane { .. });
-        let value = if is_outcrop { up } else { (up + down).scale(0.5) };
+        let value = if is_outcrop { bottom.up } else { (bottom.up + bottom.down).scale(0.5) };
         let mut decay = value.inverse().scale(0.5);
-        match self.sought {
-            Sought::Inverse => {
-                found[0] = value;
-                found[1] = total;
+        match self.quantity {
+            ColumnQuantity::Inverse => {
+                results[0] = value;
+                results[1] = total;
             }
-            Sought::Accelerations => {
-                found[layers] = (up + down) * decay;
-                let kept = found[..layers].iter_mut().zip(&kept[..layers]);
-                for (found, [_, _, up, down, _, half]) in kept.rev() {
-                    decay = decay * *half * *half;
-                    *found = (*up + *down) * decay;
+            ColumnQuantity::Accelerations => {
+                results[layers] = (bottom.up + bottom.down) * decay;
+                let pairs = results[..layers].iter_mut().zip(&layer_values[..layers]);
+                for (result, values) in pairs.rev() {
+                    decay = decay * values.half_decay * values.half_decay;
+                    *result = (values.top.up + values.top.down) * decay;
                 }
             }
-            Sought::Strains => {
-                let square = (at.s * at.s).inverse();
-                let sizes = self.profile.layers().iter().zip(&kept[..layers]);
-                for (found, (layer, own)) in found[..layers].iter_mut().zip(sizes).rev() {
-                    let [_, _, up, down, travel, half] = own;
-                    decay = decay * *half;
-                    let wavenumber = travel.scale(1.0 / layer.thickness) * square;
-                    *found = (*up - *down * *half * *half) * wavenumber * decay;
-                    decay = decay * *half;
+            ColumnQuantity::Strains => {
+                let square = (contour.s * contour.s).inverse();
+                let layer_data = self.profile.layers().iter().zip(&layer_values[..layers]);
+                for (result, (layer, values)) in results[..layers].iter_mut().zip(layer_data).rev()
+                {
+                    let half_decay = values.half_decay;
+                    decay = decay * half_decay;
+                    let wavenumber = values.travel.scale(1.0 / layer.thickness) * square;
+                    let difference = values.top.up - values.top.down * half_decay * half_decay;
+                    *result = difference * wavenumber * decay;
+                    decay = decay * half_decay;
                 }
             }
         }
     }
 }
 
-impl Functions for Column<'_> {
-    /// For a soil: c and 1/c; for a layer also waves up and down at its top, its travel κh and e^(−κh/2).
-    type LayerValues<C: Number> = [C; 6];
+impl SiteFunctions for ColumnFunctions<'_> {
+    type LayerValues<C: ComplexArithmetic> = ColumnLayer<C>;
 
     fn profile(&self) -> &SoilProfile {
         self.profile
@@ -161,68 +210,68 @@ impl Functions for Column<'_> {
 
     fn count(&self) -> usize {
         let layers = self.profile.layers().len();
-        match self.sought {
-            Sought::Inverse => 2,
-            Sought::Accelerations => layers + 1,
-            Sought::Strains => layers,
+        match self.quantity {
+            ColumnQuantity::Inverse => 2,
+            ColumnQuantity::Accelerations => layers + 1,
+            ColumnQuantity::Strains => layers,
         }
     }
 
     #[inline(always)]
-    fn evaluate<C: Number>(
+    fn evaluate<C: ComplexArithmetic>(
         &self,
-        at: &At<C>,
+        contour: &ContourLanes<C>,
         moduli: &[C],
-        kept: &mut Vec<[C; 6]>,
-        found: &mut [C],
+        layer_values: &mut Vec<ColumnLayer<C>>,
+        results: &mut [C],
     ) {
-        let [none, one] = [at.s.like_real(0.0), at.s.like_real(1.0)];
-        let (mut waves, mut total) = ([one; 2], none);
-        let mut above: Option<C> = None;
-        if kept.len() != moduli.len() {
-            kept.clear();
-            kept.resize(moduli.len(), [none; 6]);
+        let zero = contour.s.like_real(0.0);
+        let one = contour.s.like_real(1.0);
+        let mut waves = WavePair { up: one, down: one };
+        let mut total = zero;
+        let mut impedance_above: Option<C> = None;
+        if layer_values.len() != moduli.len() {
+            layer_values.clear();
+            layer_values.resize(moduli.len(), ColumnLayer::filled(zero));
         }
         let layers = self.profile.layers().len();
         for (index, modulus) in moduli.iter().enumerate() {
-            if !at.repeats {
-                let [speed, slowness] = self.speed(index, *modulus);
-                kept[index] = [speed, slowness, none, none, none, none];
+            if !contour.repeats {
+                layer_values[index] = ColumnLayer::filled(zero);
+                layer_values[index].exact = self.speed(index, *modulus);
             }
-            let speeds = [kept[index][0], kept[index][1]];
-            let mut now = speeds;
+            let exact = layer_values[index].exact;
+            let mut modified = exact;
             let is_layer = index < layers;
-            let mut travel = none;
+            let mut travel = zero;
             if is_layer {
-                travel = self.travel(index, at.s, speeds);
+                travel = self.travel(index, contour.s, exact.slowness);
             }
-            if at.is_near() {
-                now = self.speed(index, self.highest.modulus(index, at, *modulus));
+            if contour.is_in_band() {
+                modified = self.speed(index, self.nyquist.modulus(index, contour, *modulus));
                 if is_layer {
-                    [travel] = self.highest.travels(index, at, [travel]);
+                    [travel] = self.nyquist.travels(index, contour, [travel]);
                 }
             }
-            let [speed, slowness] = now;
             let density = self.soils[index][0];
-            if let Some(above) = above {
-                waves = Self::cross(waves, above, slowness.scale(1.0 / density));
+            if let Some(above) = impedance_above {
+                waves = waves.below_interface(above, modified.slowness.scale(1.0 / density));
             }
-            above = Some(speed.scale(density));
+            impedance_above = Some(modified.speed.scale(density));
             if !is_layer {
                 break;
             }
-            let [up, down] = waves;
             total = total + travel;
-            let both = if self.sought == Sought::Inverse {
+            let round_trip = if self.quantity == ColumnQuantity::Inverse {
                 travel.scale(-2.0).exp()
             } else {
-                let half = travel.scale(-0.5).exp();
-                kept[index] = [speeds[0], speeds[1], up, down, travel, half];
-                let once = half * half;
-                once * once
+                let half_decay = travel.scale(-0.5).exp();
+                layer_values[index] = ColumnLayer { exact, top: waves, travel, half_decay };
+                let through = half_decay * half_decay;
+                through * through
             };
-            waves = [up, down * both];
+            waves.down = waves.down * round_trip;
         }
-        self.sought(at, waves, total, kept, found);
+        self.quantities(contour, waves, total, layer_values, results);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::relaxation::{DampingKind, Relaxation, rounded};
 use crate::error::{Error, Result, damping_ratio, not_negative, positive, require, same_length};
-use crate::linalg::{Complex, Lanes, Number, Simd, WithSimd, vectorized};
+use crate::linalg::{Complex, ComplexArithmetic, Lanes, Simd, WithSimd, vectorized};
 
 /// Nearly constant damping over a band: a generalised Maxwell body.
 ///
@@ -192,7 +192,7 @@ impl WithSimd for ModuliAtMany<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { body, s, moduli } = self;
-        let count = Lanes::<S>::COUNT;
+        let count = Lanes::<S>::LANE_COUNT;
         for (s, moduli) in s.chunks(count).zip(moduli.chunks_mut(count)) {
             let s = Lanes::load(simd, s);
             // y s/(s + ω) = y − y ω/(s + ω).

@@ -9,7 +9,7 @@ use super::grid::{Interval, TrenchGrid};
 use super::polynomials::IntervalFunctions;
 use super::stack::{ElementColumn, Elements, Loads, Moduli, Stack, StackElement};
 use crate::error::Result;
-use crate::linalg::Block;
+use crate::linalg::ComplexBlock;
 
 /// Largest number of doublings of the regular columns.
 const MAX_COLUMN_DOUBLINGS: usize = 45;
@@ -20,8 +20,8 @@ const MAX_COLUMN_DOUBLINGS: usize = 45;
 /// vertical for each. Displacements are integrals over the elements, tractions are constant on them.
 #[derive(Debug, Clone)]
 pub(super) struct HalfCompliances {
-    pub(super) symmetric: Block,
-    pub(super) antisymmetric: Block,
+    pub(super) symmetric: ComplexBlock,
+    pub(super) antisymmetric: ComplexBlock,
 }
 
 impl HalfCompliances {
@@ -33,7 +33,7 @@ impl HalfCompliances {
 }
 
 /// Largest difference of two matrices' entries, relative to the largest entry of the first.
-fn relative_difference(one: &Block, other: &Block) -> f64 {
+fn relative_difference(one: &ComplexBlock, other: &ComplexBlock) -> f64 {
     let entries = one.values().iter().zip(other.values());
     entries.map(|(a, b)| (a - b).norm()).fold(0.0, f64::max) / one.largest()
 }
@@ -160,7 +160,7 @@ impl TrenchModel<'_> {
 
 /// Stiffness of the soil beyond a vertical line, bordered by the loads there.
 struct SideStiffness {
-    matrix: Block,
+    matrix: ComplexBlock,
     nodes: usize,
     loads: usize,
 }
@@ -182,8 +182,8 @@ impl SideStiffness {
         let order = 2 * nodes + loads;
         let mut matrix = column.mean(1.0);
         let across = column.mean(-1.0);
-        let mut pivot = self.matrix.part(0..line_order, 0..line_order);
-        let mut coupling = Block::zeros(line_order, order);
+        let mut pivot = self.matrix.submatrix(0..line_order, 0..line_order);
+        let mut coupling = ComplexBlock::zeros(line_order, order);
         let same_nodes: Vec<_>;
         let node_values = if let Some(values) = line_values {
             values
@@ -205,7 +205,7 @@ impl SideStiffness {
                 coupling[(*place, column)] += stiffness * *value;
             }
         }
-        let mut column_stiffness = Block::zeros(line_order, 2 * nodes);
+        let mut column_stiffness = ComplexBlock::zeros(line_order, 2 * nodes);
         for (row, place, value) in &dof_values {
             for column in 0..2 * nodes {
                 let stiffness =
@@ -233,11 +233,11 @@ impl SideStiffness {
     }
 
     /// Compliance of the loads if only the `free` degrees of freedom of this line are not fixed.
-    fn compliance(&self, free: Range<usize>) -> Result<Block> {
+    fn compliance(&self, free: Range<usize>) -> Result<ComplexBlock> {
         let loads = 2 * self.nodes..2 * self.nodes + self.loads;
-        let mut compliance = self.matrix.part(loads.clone(), loads.clone());
-        let pivot = self.matrix.part(free.clone(), free.clone());
-        compliance.eliminate(&pivot, &self.matrix.part(free, loads))?;
+        let mut compliance = self.matrix.submatrix(loads.clone(), loads.clone());
+        let pivot = self.matrix.submatrix(free.clone(), free.clone());
+        compliance.eliminate(&pivot, &self.matrix.submatrix(free, loads))?;
         Ok(compliance.negated())
     }
 }
@@ -248,7 +248,7 @@ fn mirrored(row: usize, nodes: usize, value: Complex64) -> Complex64 {
 }
 
 /// Stiffness of a side of endless equal columns; `None` if waves do not come to rest in 2^45 of them.
-fn far_columns(mut column: ElementColumn, nodes: usize) -> Result<Option<Block>> {
+fn far_columns(mut column: ElementColumn, nodes: usize) -> Result<Option<ComplexBlock>> {
     for _ in 0..MAX_COLUMN_DOUBLINGS {
         let stiffness = column.mean(1.0);
         let across = column.mean(-1.0);
@@ -261,7 +261,11 @@ fn far_columns(mut column: ElementColumn, nodes: usize) -> Result<Option<Block>>
 }
 
 /// Two equal columns as one, from the stiffness of a side of one, and between both sides.
-fn double_column(stiffness: &Block, across: &Block, nodes: usize) -> Result<ElementColumn> {
+fn double_column(
+    stiffness: &ComplexBlock,
+    across: &ComplexBlock,
+    nodes: usize,
+) -> Result<ElementColumn> {
     // In the middle one component is fixed, and the other one is free.
     Ok(ElementColumn {
         symmetric: with_free_middle(stiffness, across, nodes..2 * nodes)?,
@@ -270,10 +274,14 @@ fn double_column(stiffness: &Block, across: &Block, nodes: usize) -> Result<Elem
 }
 
 /// Stiffness of a side with the `free` degrees of freedom of the other side eliminated, all others fixed.
-fn with_free_middle(stiffness: &Block, across: &Block, free: Range<usize>) -> Result<Block> {
+fn with_free_middle(
+    stiffness: &ComplexBlock,
+    across: &ComplexBlock,
+    free: Range<usize>,
+) -> Result<ComplexBlock> {
     let mut side = stiffness.clone();
-    let pivot = stiffness.part(free.clone(), free.clone());
-    side.eliminate(&pivot, &across.part(free, 0..stiffness.rows()))?;
+    let pivot = stiffness.submatrix(free.clone(), free.clone());
+    side.eliminate(&pivot, &across.submatrix(free, 0..stiffness.rows()))?;
     Ok(side)
 }
 

@@ -14,7 +14,7 @@ use crate::bem::layered::{
     StripImpedance, extrapolated_stiffnesses, impedance_watch, laplace_variables,
 };
 use crate::error::{Error, GroundError, Observer, Result, require, require_part};
-use crate::linalg::{Block, Complex, DenseFactor};
+use crate::linalg::{Complex, ComplexBlock, DenseFactor};
 use crate::soil::Bedrock;
 
 /// Motion of a rigid body without mass in a trench, e^(iωt), per unit motion of the surface of the free field.
@@ -298,7 +298,7 @@ const SOLVED_COLUMN_COUNT: usize = RIGID_MOTION_COUNT + 1;
 
 /// Reduces the compliances of a half to the rigid motions.
 fn reduce(
-    compliance: &Block,
+    compliance: &ComplexBlock,
     motions: &[[f64; RIGID_MOTION_COUNT]],
     field: &FaceField,
 ) -> Result<ReducedSystem> {

@@ -6,7 +6,7 @@ use realfft::num_complex::Complex64;
 
 use super::polynomials::{IntervalFunctions, ProductIntegrals, lagrange, nodes};
 use crate::error::Result;
-use crate::linalg::Block;
+use crate::linalg::ComplexBlock;
 
 /// Elastic constants of a soil at a Laplace variable s.
 #[derive(Debug, Clone, Copy)]
@@ -124,8 +124,8 @@ impl Parity {
         width: f64,
         nodes: usize,
         first: usize,
-        sides: &mut Block,
-        coupling: &mut Block,
+        sides: &mut ComplexBlock,
+        coupling: &mut ComplexBlock,
     ) {
         for (component, means) in self.means.iter().enumerate() {
             let side = component * nodes;
@@ -171,17 +171,17 @@ pub(super) struct Elements {
 /// Rows: horizontal and vertical displacement of the nodes of a side, then loads on the top edge. The energy
 /// counts for one side.
 pub(super) struct ElementColumn {
-    pub(super) symmetric: Block,
-    pub(super) antisymmetric: Block,
+    pub(super) symmetric: ComplexBlock,
+    pub(super) antisymmetric: ComplexBlock,
 }
 
 impl ElementColumn {
     /// Half the sum of both matrices, or for a `sign` of −1 of their difference.
     ///
     /// The sum is the stiffness of a side, and the difference the stiffness between a side and the mirrored other one.
-    pub(super) fn mean(&self, sign: f64) -> Block {
+    pub(super) fn mean(&self, sign: f64) -> ComplexBlock {
         let order = self.symmetric.rows();
-        let mut mean = Block::zeros(order, order);
+        let mut mean = ComplexBlock::zeros(order, order);
         for j in 0..order {
             for i in 0..order {
                 mean[(i, j)] = (self.symmetric[(i, j)] + self.antisymmetric[(i, j)] * sign) * 0.5;
@@ -237,14 +237,14 @@ impl Elements {
         stack: &Stack,
         soils: &[Moduli],
         loads: Loads,
-    ) -> Result<Block> {
+    ) -> Result<ComplexBlock> {
         let count = stack.nodes();
         // Functions inside the column, of u_x and then of u_z.
         let inner = parity.counts.iter().sum::<usize>() - 2;
-        let mut sides = Block::zeros(2 * count + loads.count, 2 * count + loads.count);
+        let mut sides = ComplexBlock::zeros(2 * count + loads.count, 2 * count + loads.count);
         let edges = stack.0.len() * inner;
-        let mut pivot = Block::zeros(edges, edges);
-        let mut coupling = Block::zeros(edges, 2 * count + loads.count);
+        let mut pivot = ComplexBlock::zeros(edges, edges);
+        let mut coupling = ComplexBlock::zeros(edges, 2 * count + loads.count);
         let mut node = 0;
         for (k, element) in stack.0.iter().enumerate() {
             let is_stretched = element.degree != self.depth_functions[0].degree;
@@ -342,7 +342,7 @@ impl ColumnElement<'_> {
     }
 
     /// Matrix of the functions that do not vanish on all sides, and these functions.
-    fn condensed(&self) -> Result<(Block, Vec<RetainedFunction>)> {
+    fn condensed(&self) -> Result<(ComplexBlock, Vec<RetainedFunction>)> {
         let degree = self.depth_functions.degree;
         let mut retained = vec![];
         let mut functions = vec![];
@@ -371,8 +371,8 @@ impl ColumnElement<'_> {
     }
 
     /// Stiffness between two lists of functions.
-    fn stiffness_block(&self, rows: &[[usize; 3]], columns: &[[usize; 3]]) -> Block {
-        let mut block = Block::zeros(rows.len(), columns.len());
+    fn stiffness_block(&self, rows: &[[usize; 3]], columns: &[[usize; 3]]) -> ComplexBlock {
+        let mut block = ComplexBlock::zeros(rows.len(), columns.len());
         for (j, column) in columns.iter().enumerate() {
             for (i, row) in rows.iter().enumerate() {
                 block[(i, j)] = self.stiffness(*row, *column);

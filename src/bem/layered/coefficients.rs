@@ -31,7 +31,7 @@ use super::runge_kutta::{CirclePoint, Node, Stages, on_circle};
 use super::threads::on_threads;
 use super::wavenumber::{Compliances, OUTLOOK_COMPONENTS, Wavenumbers};
 use crate::error::{Error, Result, Watch};
-use crate::history::{KINDS as STRIP_KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 

@@ -14,7 +14,7 @@ use super::static_compliance;
 use super::wavenumber::{Compliances, StripWorkspace, Wavenumbers, unresolved};
 use crate::error::{Error, Observer, Result, Watch, not_negative, require};
 use crate::geometry::ContactElement;
-use crate::history::{KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::linalg::DenseFactor;
 use crate::soil::{Bedrock, SoilProfile};
@@ -245,7 +245,7 @@ impl<'a> RigidStripSystem<'a> {
         let compliances = if s == Complex::default() {
             static_compliance::pairs(self.profile, &self.classes)?
         } else {
-            let mut values = vec![[Complex::default(); KINDS]; self.classes.count()];
+            let mut values = vec![[Complex::default(); STRIP_KINDS]; self.classes.count()];
             self.integrals.compliance(
                 self.profile,
                 s,

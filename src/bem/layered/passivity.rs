@@ -75,7 +75,7 @@ pub(crate) fn margin<const KINDS: usize>(
     classes: &PairClasses,
     values: &[[Complex; KINDS]],
 ) -> f64 {
-    classes.least_eigenvalue(self_mobility(values), |_, pair| real(&values[pair.class]))
+    classes.smallest_eigenvalue(self_mobility(values), |_, pair| real(&values[pair.class]))
 }
 
 /// Absolute mobility of a class and component, above zero; for pairs of elements with themselves.

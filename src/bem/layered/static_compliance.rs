@@ -13,7 +13,7 @@ use super::compliance::{LayeredCompliance, SurfaceCompliance};
 use super::wavenumber::{IntegralBuffers, Wavenumbers, deep};
 use crate::error::{Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout};
-use crate::history::{KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::linalg::gauss;
 use crate::soil::SoilProfile;
@@ -51,12 +51,15 @@ pub(in crate::bem) fn static_compliance(
 }
 
 /// Static compliances zz, xx, zx of all classes, integrals over receiver and source.
-pub(super) fn pairs(profile: &SoilProfile, classes: &PairClasses) -> Result<Vec<[Complex; KINDS]>> {
+pub(super) fn pairs(
+    profile: &SoilProfile,
+    classes: &PairClasses,
+) -> Result<Vec<[Complex; STRIP_KINDS]>> {
     let mut compliance = LayeredCompliance::default();
     compliance.set(profile, Complex::default())?;
     let span = classes.span();
     let integrals = Wavenumbers::new(classes, STATIC_TOLERANCE);
-    let mut values = vec![[Complex::default(); KINDS]; classes.count()];
+    let mut values = vec![[Complex::default(); STRIP_KINDS]; classes.count()];
     // (1 − ν)/μ and (1 − 2ν)/2μ of the half-plane below.
     let far_field = compliance.half_plane().map(|soil| {
         let even = 0.5 / (1.0 - soil.a2) / soil.modulus.re;

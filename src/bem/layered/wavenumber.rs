@@ -17,7 +17,7 @@ use super::form_factors::{
 };
 use super::tail::{TAIL_START_RATIO, TAIL_TERMS, Tails, on_grid, surface_series};
 use crate::error::{Error, GroundError, Result, Watch};
-use crate::history::{KINDS, PairClasses};
+use crate::history::{PairClasses, STRIP_KINDS};
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
@@ -31,7 +31,7 @@ const MAX_PANEL_COUNT: f64 = 65_536.0;
 const MAX_PANELS_FOR_SHORT: f64 = 100.0;
 
 /// Element compliances F(s) of classes of pairs, with several kinds for each class.
-pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
+pub(crate) trait Compliances<const STRIP_KINDS: usize>: Send + Sync {
     /// Workspace of one thread.
     type Workspace: Default;
 
@@ -60,7 +60,7 @@ pub(crate) trait Compliances<const KINDS: usize>: Send + Sync {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Self::Workspace,
-        values: &mut [[Complex; KINDS]],
+        values: &mut [[Complex; STRIP_KINDS]],
     ) -> Result<()>;
 
     /// Appends the surface compliance at a few wavenumbers, a cheap substitute for the compliances at `s`.
@@ -124,7 +124,7 @@ pub(super) enum PanelResult<'a> {
 }
 
 /// Compliances zz, xx and zx of each class.
-impl Compliances<KINDS> for Wavenumbers {
+impl Compliances<STRIP_KINDS> for Wavenumbers {
     type Workspace = StripWorkspace;
 
     fn compliance(
@@ -132,7 +132,7 @@ impl Compliances<KINDS> for Wavenumbers {
         profile: &SoilProfile,
         s: Complex,
         work: &mut Self::Workspace,
-        values: &mut [[Complex; KINDS]],
+        values: &mut [[Complex; STRIP_KINDS]],
     ) -> Result<()> {
         let StripWorkspace { compliance, panels: buffers } = work;
         compliance.set(profile, s)?;
@@ -223,7 +223,7 @@ impl Wavenumbers {
         compliance: &LayeredCompliance,
         min_k: f64,
         work: &mut IntegralBuffers,
-        values: &mut [[Complex; KINDS]],
+        values: &mut [[Complex; STRIP_KINDS]],
         surface: &mut dyn FnMut(f64) -> SurfaceCompliance,
     ) -> Result<()> {
         let panels = self.panels(min_k)?;
@@ -293,7 +293,7 @@ impl Wavenumbers {
     }
 
     /// Overwrites the compliances zz, xx and zx of each class with 1/π × the sums; zx with the opposite sign.
-    fn copy_sums(&self, work: &IntegralBuffers, values: &mut [[Complex; KINDS]]) {
+    fn copy_sums(&self, work: &IntegralBuffers, values: &mut [[Complex; STRIP_KINDS]]) {
         for (class, value) in values.iter_mut().enumerate().take(self.forms.shapes.len()) {
             let sums = &work.sums[class / PAIR_LANES];
             let lane = class % PAIR_LANES;

@@ -15,7 +15,7 @@ use crate::geometry::{ContactElement, SERIES_PER_OFFSET};
 #[cfg(feature = "embedded")]
 use crate::history::TRENCH_KINDS;
 use crate::history::{
-    ConvolutionWeights, KINDS as STRIP_KINDS, OTHER_KINDS, PairClasses, SharedSpectra,
+    ConvolutionWeights, PairClasses, STRIP_KINDS, SharedSpectra, UNSUPPORTED_KINDS,
 };
 use crate::soil::SoilProfile;
 
@@ -131,7 +131,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         values: [&mut [f64]; N],
     ) -> Result<()> {
         if N != KINDS {
-            return Err(OTHER_KINDS);
+            return Err(UNSUPPORTED_KINDS);
         }
         in_bounds("class of element pairs", class, self.classes.count())?;
         copy_lags(class, first_lag, values, |number| {

@@ -16,7 +16,7 @@ use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, Patch};
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::dense_multiply_add;
 use crate::linalg::matrix::SparseMatrix;
 use crate::soil::Soil;
@@ -138,7 +138,7 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
-    let operator = Arc::new(Thinned::new(operator, 2 * count));
+    let operator = Arc::new(CompressedMatrix::new(operator, 2 * count));
     let operators =
         Operators::new(&model, &assembled.base, &operator, Factor::Sparse(factor), tangent)
             .unwrap();

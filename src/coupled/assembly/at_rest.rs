@@ -17,7 +17,7 @@ use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, finite};
 use crate::interface::InterfaceLaw;
-use crate::linalg::{Thinned, dense_multiply_add};
+use crate::linalg::{CompressedMatrix, dense_multiply_add};
 use crate::structure::nonlinear_state;
 
 /// The state under weight and the loads at t = 0; trivial without gravity.
@@ -33,7 +33,7 @@ pub(crate) fn solve(
 ) -> Result<StaticState> {
     let mut state = StaticState::weightless(parts.elements.layout(), assembled.dofs());
     let has_p_delta = buckling::has_p_delta(parts.structure.as_ref());
-    let mut soil = Thinned::full(Vec::new());
+    let mut soil = CompressedMatrix::full(Vec::new());
     if parts.given.is_static() {
         soil = compliance(parts)?;
         let [own, weight, load] = loads(parts, assembled)?;
@@ -78,18 +78,18 @@ pub(crate) fn solve(
 }
 
 /// Static compliance of the ground, for tractions inside the outline; a diagonal where the step compliance is one.
-pub(crate) fn compliance(parts: &Parts) -> Result<Thinned> {
+pub(crate) fn compliance(parts: &Parts) -> Result<CompressedMatrix> {
     if parts.soil.as_diagonal().is_some()
         && let Some(own) = parts.ground.diagonal_compliance()?
     {
         let quantity = "diagonal static compliance of the ground";
         let diagonal = bed_compliance::inside(quantity, own.at_rest, &parts.elements)?;
-        return Ok(Thinned::of_diagonal(diagonal));
+        return Ok(CompressedMatrix::of_diagonal(diagonal));
     }
     let mut soil = vec![0.0; parts.elements.layout().square()];
     parts.ground.static_compliance(&mut soil)?;
     parts.elements.refer_inside(&mut soil);
-    Ok(Thinned::full(soil))
+    Ok(CompressedMatrix::full(soil))
 }
 
 /// Weight and loads at t = 0; empty without a static state.
@@ -127,7 +127,7 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
 pub(crate) fn under_loads(
     parts: &Parts,
     assembled: &Assembled,
-    (soil, shared): (&Thinned, &RefCell<Option<Compliance>>),
+    (soil, shared): (&CompressedMatrix, &RefCell<Option<Compliance>>),
     laws: &[Box<dyn InterfaceLaw>],
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {

@@ -18,7 +18,7 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Result, all_finite, not_negative, same_length};
 use crate::geometry::{ContactLayout, Patch};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContact, PreviousContacts, law_of};
-use crate::linalg::{Thinned, dense_multiply_add};
+use crate::linalg::{CompressedMatrix, dense_multiply_add};
 
 /// The state under weight and backfill, and then under the loads at t = 0.
 pub(super) fn state(
@@ -37,7 +37,7 @@ pub(super) fn state(
     for row in &places {
         soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
     }
-    let (soil, shared) = (Thinned::full(soil), RefCell::default());
+    let (soil, shared) = (CompressedMatrix::full(soil), RefCell::default());
     let on_floor = Standing { assembled: &own, soil: &soil, shared: &shared, ..*stage };
 
     let mut traction = at_rest(parts, elements, false)?;

@@ -29,7 +29,7 @@ use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
 use crate::geometry::{axis_name, far_ends, in_a_row};
-use crate::linalg::{Thinned, dot, magnitude};
+use crate::linalg::{CompressedMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
@@ -81,7 +81,7 @@ fn check_on(
     (assembled, [weight, load]): (&Assembled, &[Vec<f64>; 2]),
     at_rest: &StaticState,
     shared: &RefCell<Option<Compliance>>,
-    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, Thinned)>,
+    finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, CompressedMatrix)>,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
     let own_soil = at_rest::compliance(parts)?;
@@ -160,7 +160,7 @@ fn floating(
 /// Base on twice the elements, four times in plan, and their static compliance.
 ///
 /// `None` if the compliance is unknown, or too large for a check.
-fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Thinned)> {
+fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, CompressedMatrix)> {
     let patch = base.elements();
     if patch[0].parts().count() * patch.layout().len() > MOST {
         return None;
@@ -171,7 +171,7 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, Thinned)> {
         return None;
     }
     finer.refer_inside(&mut soil);
-    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, Thinned::full(soil)))
+    Some((PlacedBase::of(parts.structure.as_ref(), &finer).ok()?, CompressedMatrix::full(soil)))
 }
 
 /// The face with the largest difference of its shape between two static states, and the difference.

@@ -12,7 +12,9 @@
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
-use crate::linalg::orthonormal::{Least, OrthonormalRows, independent, transpose};
+use crate::linalg::orthonormal::{
+    MinRemainder, OrthonormalRows, independent_combinations, transpose,
+};
 use crate::linalg::{
     SparseMatrix, add_combined_rows, largest, row_products, symmetric_modes, symmetric_products,
 };
@@ -101,14 +103,14 @@ impl<'a> Subspace<'a> {
     /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
     pub(crate) fn extend(&mut self, block: Vec<f64>, least: f64) {
         let before = self.count();
-        self.rows.extend(block, Least::Fraction(least));
+        self.rows.extend(block, MinRemainder::Fraction(least));
         self.project(before);
     }
 
     /// Adds the directions of `block` with a length of more than `least` outside the subspace.
     pub(crate) fn extend_by_length(&mut self, block: Vec<f64>, least: f64) {
         let before = self.count();
-        self.rows.extend(block, Least::Length(least));
+        self.rows.extend(block, MinRemainder::Length(least));
         self.project(before);
     }
 
@@ -149,7 +151,7 @@ impl<'a> Subspace<'a> {
         // X M Xᵀ without the part inside V.
         let inside = row_products(&shares, &shares, before);
         let apart = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
-        let weights = independent(apart, size, least * least);
+        let weights = independent_combinations(apart, size, least * least);
         // V and D in terms of V and X.
         let all = before + size;
         let mut terms = vec![0.0; before * all];

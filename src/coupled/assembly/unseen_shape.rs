@@ -9,7 +9,7 @@ use crate::coupled::base::PlacedBase;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::statics::compliance::Compliance;
 use crate::geometry::ContactElement;
-use crate::linalg::{DenseFactor, SparseMatrix, Thinned, dot, transposed_multiply_add};
+use crate::linalg::{CompressedMatrix, DenseFactor, SparseMatrix, dot, transposed_multiply_add};
 use crate::structure::{BaseNode, Triplets};
 
 const NAME: &str = "stiffness matrix with its contact elements held";
@@ -20,7 +20,7 @@ const ITERATIONS: usize = 20;
 const CONVERGED: f64 = 0.01;
 
 /// Static compliance of the soil under elements, and the structure's compliance on them.
-pub(super) type OnSoil<'a> = (&'a Thinned, &'a RefCell<Option<Compliance>>);
+pub(super) type OnSoil<'a> = (&'a CompressedMatrix, &'a RefCell<Option<Compliance>>);
 
 /// The softest shape of a base with zero mean displacement on every element.
 pub(super) struct UnseenShape {
@@ -49,7 +49,7 @@ impl UnseenShape {
         assembled: &Assembled,
         base: &PlacedBase,
         (soil, shared): OnSoil<'_>,
-        halves: Option<&(PlacedBase, Thinned)>,
+        halves: Option<&(PlacedBase, CompressedMatrix)>,
     ) -> Option<Self> {
         let (n, layout) = (assembled.dofs(), base.layout());
         let moduli = moduli(base, soil, halves);
@@ -124,7 +124,11 @@ fn held_means(moduli: &[f64], delassus: &[f64], soil: &[f64]) -> Option<DenseFac
 ///
 /// For tractions that change sign from an element to its neighbour, as for waves twice as long as the elements; from one
 /// of its `halves`, a base and its compliance, to the other where a face has one element.
-fn moduli(base: &PlacedBase, soil: &[f64], halves: Option<&(PlacedBase, Thinned)>) -> Vec<f64> {
+fn moduli(
+    base: &PlacedBase,
+    soil: &[f64],
+    halves: Option<&(PlacedBase, CompressedMatrix)>,
+) -> Vec<f64> {
     let layout = base.layout();
     let faces: Vec<_> = faces(base).map(|(.., own)| own).collect();
     let modulus = |i: usize| {

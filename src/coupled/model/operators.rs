@@ -8,7 +8,7 @@ use crate::coupled::base::PlacedBase;
 use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::geometry::check_count;
-use crate::linalg::Thinned;
+use crate::linalg::CompressedMatrix;
 use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_multiply_add};
 
@@ -39,7 +39,7 @@ impl Operators {
     pub(crate) fn new(
         model: &Model,
         base: &PlacedBase,
-        soil: &Arc<Thinned>,
+        soil: &Arc<CompressedMatrix>,
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Result<Self> {
@@ -146,7 +146,7 @@ impl Factor {
 pub(crate) fn condense(
     solve: impl FnOnce(&mut [f64]),
     base: &PlacedBase,
-    soil: &Thinned,
+    soil: &CompressedMatrix,
     dofs: usize,
 ) -> Result<(Vec<f64>, Delassus)> {
     let size = base.layout().len();

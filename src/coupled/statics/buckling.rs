@@ -15,7 +15,9 @@ use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::statics::strength::compliance_at_rest;
 use crate::error::{Error, Result, StabilityError};
 use crate::interface::{InterfaceLaw, law_of};
-use crate::linalg::{SparseFactor, SparseMatrix, Thinned, Triplets, largest, row_products};
+use crate::linalg::{
+    CompressedMatrix, SparseFactor, SparseMatrix, Triplets, largest, row_products,
+};
 use crate::structure::{Structure, Tangent, stiffest};
 
 const NAME: &str = "stiffness matrix on the ground";
@@ -29,7 +31,7 @@ pub(crate) struct Grounded<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground under all elements.
-    pub(crate) soil: &'a Thinned,
+    pub(crate) soil: &'a CompressedMatrix,
     pub(crate) laws: &'a [Box<dyn InterfaceLaw>],
 }
 

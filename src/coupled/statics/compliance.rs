@@ -10,7 +10,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
-use crate::linalg::{SparseFactor, SparseMatrix, Thinned, sparse_condition};
+use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
 
 pub(super) const NAME: &str = "static stiffness matrix";
 /// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
@@ -62,7 +62,11 @@ impl Compliance {
     /// Compliance on a base, over a soil of this static compliance.
     ///
     /// Returns an error for more elements than the entries of W allow.
-    pub(crate) fn new(floating: Rc<Floating>, base: &PlacedBase, soil: &Thinned) -> Result<Self> {
+    pub(crate) fn new(
+        floating: Rc<Floating>,
+        base: &PlacedBase,
+        soil: &CompressedMatrix,
+    ) -> Result<Self> {
         let solve = |rhs: &mut [f64]| floating.factor.solve_many(rhs);
         let (columns, delassus) = condense(solve, base, soil, floating.matrix.order())?;
         Ok(Self { floating, columns, delassus })
@@ -70,7 +74,7 @@ impl Compliance {
 }
 
 /// Initial stiffness of the fictitious springs per mass, ε.
-pub(crate) fn springs(assembled: &Assembled, soil: &Thinned) -> Result<f64> {
+pub(crate) fn springs(assembled: &Assembled, soil: &CompressedMatrix) -> Result<f64> {
     let foundation = vertical_stiffness(soil, &assembled.base);
     let stiffness = PROXIMAL_SHARE * foundation / total_mass(assembled);
     if stiffness.is_finite() {
@@ -86,7 +90,7 @@ fn total_mass(assembled: &Assembled) -> f64 {
 }
 
 /// Vertical force per settlement of the soil under a uniform pressure.
-fn vertical_stiffness(soil: &Thinned, base: &PlacedBase) -> f64 {
+fn vertical_stiffness(soil: &CompressedMatrix, base: &PlacedBase) -> f64 {
     let (areas, size) = (base.areas(), base.layout().len());
     let (count, area) = (areas.len(), areas.iter().sum::<f64>());
     let settled: f64 = match soil.as_diagonal() {

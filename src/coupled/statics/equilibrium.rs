@@ -9,7 +9,7 @@ use crate::coupled::statics::compliance::{Compliance, Floating, NAME, PROXIMAL_S
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
-use crate::linalg::{SparseMatrix, Thinned, dot, largest, transposed_multiply_add};
+use crate::linalg::{CompressedMatrix, SparseMatrix, dot, largest, transposed_multiply_add};
 use crate::structure::{Structure, Tangent, nonlinear_state};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
@@ -49,7 +49,7 @@ pub(crate) struct Standing<'a> {
     pub(crate) assembled: &'a Assembled,
     pub(crate) structure: &'a dyn Structure,
     /// Static compliance of the ground.
-    pub(crate) soil: &'a Thinned,
+    pub(crate) soil: &'a CompressedMatrix,
     /// Whether the laws act without friction and cohesion, in plan.
     pub(crate) frictionless: bool,
     /// Jumps in addition to those by displacements and tractions; empty for none.

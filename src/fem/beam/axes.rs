@@ -1,12 +1,12 @@
 //! Local axes of a beam in space.
 
 use crate::error::{Result, positive, require};
-use crate::fem::vector::{add, cross, direction, dot};
+use crate::fem::vector::{add, cross, dot, length, unit};
 
 /// Smallest sine of the angle between a beam and its orientation.
 ///
-/// Below it rounding errors of the coordinates turn the axes of the section.
-const LEAST_SINE: f64 = 1e-6;
+/// For smaller angles rounding errors of the coordinates rotate the axes of the section.
+const MIN_ORIENTATION_SINE: f64 = 1e-6;
 
 /// Matrix of the twelve degrees of freedom at the ends of a beam.
 ///
@@ -21,15 +21,21 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// Axes of a beam between two `ends`; its y axis lies in the plane of the beam and the `orientation`.
+    /// Axes of a beam between two `ends`.
+    ///
+    /// The y axis lies in the plane of the beam and the `orientation`.
     pub(super) fn new(ends: [[f64; 3]; 2], orientation: [f64; 3]) -> Result<Self> {
-        let (length, along) = direction(add(ends[1], -1.0, ends[0]));
-        positive("length of the beam", length)?;
-        let (_, orientation) = direction(orientation);
-        let (sine, y) = direction(add(orientation, -dot(orientation, along), along));
+        let axis = add(ends[1], -1.0, ends[0]);
+        let beam_length = positive("length of the beam", length(axis))?;
+        let along = unit(axis);
+        let orientation = unit(orientation);
+        let across = add(orientation, -dot(orientation, along), along);
+        let sine = length(across);
         let quantity = "sine of the angle between the beam and its orientation";
-        require(quantity, sine, sine > LEAST_SINE, "above 1e-6: an orientation across the beam")?;
-        Ok(Self { length, axes: [along, y, cross(along, y)] })
+        let needed = "above 1e-6: an orientation across the beam";
+        require(quantity, sine, sine > MIN_ORIENTATION_SINE, needed)?;
+        let y = unit(across);
+        Ok(Self { length: beam_length, axes: [along, y, cross(along, y)] })
     }
 
     /// Local displacements of the ends due to displacements of the nodes, `offsets` away.
@@ -38,7 +44,8 @@ impl Axes {
         for (end, &offset) in offsets.iter().enumerate() {
             for (k, &axis) in self.axes.iter().enumerate() {
                 let row = 6 * end + k;
-                let [displacement, rotation] = [6 * end, 6 * end + 3];
+                let displacement = 6 * end;
+                let rotation = 6 * end + 3;
                 matrix[row][displacement..displacement + 3].copy_from_slice(&axis);
                 // Rigid arm: axis · (θ × offset).
                 matrix[row][rotation..rotation + 3].copy_from_slice(&cross(offset, axis));

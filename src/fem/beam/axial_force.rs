@@ -1,20 +1,22 @@
 //! Axial force of a beam, for its P–Δ effect.
 
-/// Axial compression of a beam in the static state; it varies linearly with the beam's own weight.
+/// Axial compression of a beam in the static state.
+///
+/// It varies linearly along the beam because of the beam's weight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AxialForce {
     /// Mean over the length, N (negative for tension).
     pub(super) compression: f64,
     /// Excess of the first end over the second end, N.
     pub(super) taper: f64,
-    /// Whether the user gave the force. A static state does not change a given force.
-    pub(super) is_given: bool,
+    /// Whether the user prescribed the force; a static state then does not change it.
+    pub(super) is_prescribed: bool,
 }
 
 impl AxialForce {
     /// Constant force from the user, N.
-    pub(super) fn given(compression: f64) -> Self {
-        Self { compression, taper: 0.0, is_given: true }
+    pub(super) fn prescribed(compression: f64) -> Self {
+        Self { compression, taper: 0.0, is_prescribed: true }
     }
 
     /// Whether there is no P–Δ effect.

@@ -12,7 +12,9 @@ pub(super) fn stiffness(stiffness: f64) -> BarMatrix {
     [[stiffness, -stiffness], [-stiffness, stiffness]]
 }
 
-/// Mass matrix of a bar whose displacement varies linearly; `mass` in kg, or kg m² for rotations.
+/// Mass matrix of a bar whose displacement varies linearly.
+///
+/// `mass`: kg, or kg m² for rotations.
 pub(super) fn mass(kind: MassKind, mass: f64) -> BarMatrix {
     if kind == MassKind::Lumped {
         return [[0.5 * mass, 0.0], [0.0, 0.5 * mass]];

@@ -9,7 +9,9 @@ use crate::linalg::gauss;
 /// Rotations are positive from the axis towards the positive deflection.
 pub(super) type EndMatrix = [[f64; 4]; 4];
 
-/// Bending and shear of a straight beam in one plane: the parts of its matrices across its axis.
+/// Bending and shear of a straight beam in one plane.
+///
+/// It gives the parts of the beam's matrices across its axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bending {
     /// E I, N m².
@@ -31,15 +33,15 @@ impl Bending {
     pub(super) fn stiffness(&self, length: f64) -> EndMatrix {
         let ratio = self.shear_ratio(length);
         let k = self.stiffness / (length.powi(3) * (1.0 + ratio));
-        let side = 12.0 * k;
-        let turn = 6.0 * k * length;
-        let own = (4.0 + ratio) * k * length * length;
-        let far = (2.0 - ratio) * k * length * length;
+        let shear = 12.0 * k;
+        let coupling = 6.0 * k * length;
+        let near_end = (4.0 + ratio) * k * length * length;
+        let far_end = (2.0 - ratio) * k * length * length;
         [
-            [side, turn, -side, turn],
-            [turn, own, -turn, far],
-            [-side, -turn, side, -turn],
-            [turn, far, -turn, own],
+            [shear, coupling, -shear, coupling],
+            [coupling, near_end, -coupling, far_end],
+            [-shear, -coupling, shear, -coupling],
+            [coupling, far_end, -coupling, near_end],
         ]
     }
 
@@ -61,10 +63,10 @@ impl Bending {
     pub(super) fn mass(&self, kind: MassKind, mass: f64, length: f64) -> EndMatrix {
         let mut matrix = [[0.0; 4]; 4];
         if kind == MassKind::Lumped {
-            let own =
+            let half_inertia =
                 if self.has_rotary_inertia { 0.5 * self.section_inertia * length } else { 0.0 };
-            let turn = mass * length * length / 78.0 + own;
-            for (i, value) in [0.5 * mass, turn, 0.5 * mass, turn].into_iter().enumerate() {
+            let rotary = mass * length * length / 78.0 + half_inertia;
+            for (i, value) in [0.5 * mass, rotary, 0.5 * mass, rotary].into_iter().enumerate() {
                 matrix[i][i] = value;
             }
             return matrix;
@@ -86,18 +88,24 @@ impl Bending {
 fn deflection(ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + ratio);
-    let near = |s: f64, t: f64| scale * t * (1.0 + s - 2.0 * s * s + ratio);
-    let turn = |s: f64, t: f64| scale * length * s * t * (t + 0.5 * ratio);
-    [near(s, t), turn(s, t), near(t, s), -turn(t, s)]
+    [
+        scale * t * (1.0 + s - 2.0 * s * s + ratio),
+        scale * length * s * t * (t + 0.5 * ratio),
+        scale * s * (1.0 + t - 2.0 * t * t + ratio),
+        -(scale * length * t * s * (s + 0.5 * ratio)),
+    ]
 }
 
 /// Slope of the deflection along the beam, 1/m.
 fn slope(ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (length * (1.0 + ratio));
-    let near = |s: f64, t: f64| scale * (t * (1.0 - 4.0 * s) - (1.0 + s - 2.0 * s * s + ratio));
-    let turn = |s: f64, t: f64| scale * length * ((t - s) * (t + 0.5 * ratio) - s * t);
-    [near(s, t), turn(s, t), -near(t, s), turn(t, s)]
+    [
+        scale * (t * (1.0 - 4.0 * s) - (1.0 + s - 2.0 * s * s + ratio)),
+        scale * length * ((t - s) * (t + 0.5 * ratio) - s * t),
+        -(scale * (s * (1.0 - 4.0 * t) - (1.0 + t - 2.0 * t * t + ratio))),
+        scale * length * ((s - t) * (s + 0.5 * ratio) - t * s),
+    ]
 }
 
 /// Rotation of the section, rad: the slope without the shear strain (Friedman & Kosmatka 1993).
@@ -105,8 +113,7 @@ fn rotation(ratio: f64, length: f64, s: f64) -> [f64; 4] {
     let t = 1.0 - s;
     let scale = 1.0 / (1.0 + ratio);
     let side = 6.0 * scale * s * t / length;
-    let turn = |s: f64, t: f64| scale * t * (t - 2.0 * s + ratio);
-    [-side, turn(s, t), side, turn(t, s)]
+    [-side, scale * t * (t - 2.0 * s + ratio), side, scale * s * (s - 2.0 * t + ratio)]
 }
 
 /// Adds factor · l lᵀ.
@@ -118,7 +125,7 @@ pub(super) fn add_outer<const N: usize>(factor: f64, row: &[f64; N], matrix: &mu
     }
 }
 
-/// Writes a block into the rows and columns of these places.
+/// Copies a block into the rows and columns `places` of a matrix.
 pub(super) fn put<const N: usize, const M: usize>(
     block: &[[f64; N]; N],
     places: [usize; N],

@@ -6,8 +6,8 @@ use super::bending::{Bending, EndMatrix, put};
 use super::end_frame::EndFrame;
 use crate::error::{Result, finite, not_negative, positive};
 use crate::fem::element::{Element, MassKind};
-use crate::fem::line::Line;
-use crate::fem::vector::{add, cross, direction};
+use crate::fem::line::ElementLine;
+use crate::fem::vector::{add, cross, unit};
 use crate::geometry::{Direction, PLANE_DIRECTIONS};
 
 /// Straight prismatic beam of the plane between two nodes that rotate with it.
@@ -103,14 +103,14 @@ impl Beam {
     /// [`Error::Input`](crate::Error::Input) unless it is finite.
     pub fn with_compression(self, compression: f64) -> Result<Self> {
         let compression = finite("axial force of the beam", compression)?;
-        Ok(Self { force: AxialForce::given(compression), ..self })
+        Ok(Self { force: AxialForce::prescribed(compression), ..self })
     }
 
     /// Axes of the beam; its ends lie at its nodes.
     #[expect(clippy::unused_self, reason = "as for beams in space")]
     pub(crate) fn end_frame(&self, coordinates: &[[f64; 3]]) -> Option<EndFrame> {
         let &[first, second] = coordinates else { return None };
-        let (_, along) = direction(add(second, -1.0, first));
+        let along = unit(add(second, -1.0, first));
         let to_reader = [0.0, 0.0, 1.0];
         let axes = [along, cross(to_reader, along), to_reader];
         Some(EndFrame { axes, offsets: [[0.0; 3]; 2] })
@@ -131,7 +131,7 @@ impl Element for Beam {
     }
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let Some(line) = Line::between(coordinates) else {
+        let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
         let bar = bar::stiffness(self.axial_stiffness / line.length);
@@ -139,7 +139,7 @@ impl Element for Beam {
     }
 
     fn geometric_stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
-        let Some(line) = Line::between(coordinates) else {
+        let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
         if !self.force.is_zero() {
@@ -154,21 +154,19 @@ impl Element for Beam {
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let (Some(line), &[x0, y0, _, x1, y1, _]) = (Line::between(coordinates), displacement)
-        else {
-            return None;
-        };
-        if self.force.is_given {
+        let line = ElementLine::between(coordinates)?;
+        let &[x0, y0, _, x1, y1, _] = displacement else { return None };
+        if self.force.is_prescribed {
             return None;
         }
         let lengthening = line.lengthening(&[x0, y0], &[x1, y1]);
-        // Displacements of the nodes are exact, so the compression is the mean over the length. The element's
-        // own weight makes it vary between the nodes.
+        // Displacements of the nodes are exact, so the compression is the mean over the length. It varies between
+        // the nodes because of the element's weight.
         let rise = coordinates[1][1] - coordinates[0][1];
         let force = AxialForce {
             compression: -self.axial_stiffness / line.length * lengthening,
             taper: self.mass_per_length * gravity * rise,
-            is_given: false,
+            is_prescribed: false,
         };
         Some(Box::new(Self { force, ..self.clone() }))
     }
@@ -181,7 +179,7 @@ impl Element for Beam {
     /// consistent diagonal (Hinton, Rock & Zienkiewicz, 1976), and half of the rotary inertia of the
     /// sections.
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        let Some(line) = Line::between(coordinates) else {
+        let Some(line) = ElementLine::between(coordinates) else {
             return;
         };
         let mass = self.mass_per_length * line.length;
@@ -191,7 +189,7 @@ impl Element for Beam {
 
     /// [`Error::Input`](crate::Error::Input) when the two nodes coincide.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
-        Line::check("length of the beam", coordinates)
+        ElementLine::check("length of the beam", coordinates)
     }
 }
 

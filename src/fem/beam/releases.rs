@@ -13,21 +13,23 @@ impl Releases {
     pub(super) fn and(mut self, end: usize, directions: &[Direction]) -> Result<Self> {
         in_bounds("released end of the beam", end, 2)?;
         for &direction in directions {
-            let place = SPACE_DIRECTIONS.iter().position(|&known| known == direction);
+            let place = SPACE_DIRECTIONS.iter().position(|&candidate| candidate == direction);
             let needed = "x, y, z, and rotations about x, y, z, in the axes of the beam";
             require_part("released direction of the beam", place.is_some(), needed)?;
             self.0[6 * end + place.unwrap_or_default()] = true;
         }
         let quantity = "releases of the beam";
-        let both = |place: usize| self.0[place] && self.0[place + 6];
-        require_part(quantity, !both(0), "not both ends along x: the beam would slide off")?;
-        require_part(quantity, !both(3), "not both ends about x: the beam would spin")?;
+        let at_both_ends = |place: usize| self.0[place] && self.0[place + 6];
+        let slides = at_both_ends(0);
+        require_part(quantity, !slides, "not both ends along x: the beam would slide off")?;
+        let spins = at_both_ends(3);
+        require_part(quantity, !spins, "not both ends about x: the beam would spin")?;
         for [side, turn] in [[1, 5], [2, 4]] {
             let released = [side, turn, side + 6, turn + 6].into_iter().filter(|&k| self.0[k]);
-            let stands = released.count() < 3 && !both(side);
+            let is_stable = released.count() < 3 && !at_both_ends(side);
             let needed = "at most two of the displacements along and rotations across one axis of \
                           the section, not both displacements: the beam would be a mechanism";
-            require_part(quantity, stands, needed)?;
+            require_part(quantity, is_stable, needed)?;
         }
         Ok(self)
     }
@@ -43,15 +45,15 @@ impl Releases {
         }
     }
 
-    /// Takes the released displacements in `to_local` from the others, such that their forces vanish.
+    /// Expresses the released displacements in `to_local` by the others, such that their forces vanish.
     ///
-    /// `stiffness` is local.
+    /// `stiffness`: local stiffness without releases.
     pub(super) fn apply(&self, mut stiffness: EndsMatrix, to_local: &mut EndsMatrix) {
         let released: Vec<usize> = (0..12).filter(|&place| self.0[place]).collect();
         let mut rows = Vec::with_capacity(released.len());
         for &place in &released {
-            let own = stiffness[place][place];
-            let mut row = stiffness[place].map(|k| -k / own);
+            let pivot = stiffness[place][place];
+            let mut row = stiffness[place].map(|k| -k / pivot);
             row[place] = 0.0;
             for i in 0..12 {
                 let factor = stiffness[i][place];
@@ -65,7 +67,7 @@ impl Releases {
             }
             rows.push((place, row));
         }
-        // The first row may contain later ones.
+        // Earlier rows may refer to displacements that were released later.
         for (place, row) in rows.into_iter().rev() {
             to_local[place] = std::array::from_fn(|j| {
                 row.iter().zip(to_local.iter()).map(|(factor, other)| factor * other[j]).sum()

@@ -10,7 +10,7 @@ use super::section::BeamSection;
 use crate::error::{Error, Result, all_finite, finite, positive, same_length};
 use crate::fem::element::{Element, MassKind, add_transformed};
 use crate::fem::material::Material;
-use crate::fem::vector::{add, direction, dot};
+use crate::fem::vector::{add, dot, length};
 use crate::geometry::{Direction, SPACE_DIRECTIONS};
 
 /// Straight prismatic beam in space between two nodes that rotate with it.
@@ -56,7 +56,9 @@ pub struct SpaceBeam {
 }
 
 impl SpaceBeam {
-    /// Beam of a material and a section whose y axis lies in the plane of beam and `orientation`.
+    /// Beam of a material and a section.
+    ///
+    /// The section's y axis lies in the plane of the beam and the `orientation`.
     ///
     /// The orientation is a vector in x, y, z of any length. The axes of the section matter even if both second
     /// moments are equal, for releases and forces.
@@ -74,6 +76,7 @@ impl SpaceBeam {
         Self::unnamed(nodes, material, section, orientation).map_err(|fault| named(nodes, fault))
     }
 
+    /// [`SpaceBeam::new`] with errors that do not name the nodes.
     fn unnamed(
         nodes: [usize; 2],
         material: Material,
@@ -81,31 +84,20 @@ impl SpaceBeam {
         orientation: [f64; 3],
     ) -> Result<Self> {
         all_finite("orientation of the beam", &orientation)?;
-        positive("length of the beam's orientation", direction(orientation).0)?;
-        let [young, shear] = [material.young_modulus(), material.shear_modulus()];
-        let [about_y, about_z] = section.second_moments;
-        let bending = |second_moment: f64, axis: usize| -> Result<Bending> {
-            let shear_stiffness = section.shear_areas.map(|areas| shear * areas[axis]);
-            shear_stiffness.map(|k| positive("shear stiffness of the beam", k)).transpose()?;
-            Ok(Bending {
-                stiffness: positive("bending stiffness of the beam", young * second_moment)?,
-                shear_stiffness,
-                section_inertia: finite(
-                    "inertia of the section",
-                    material.density() * second_moment,
-                )?,
-                has_rotary_inertia: false,
-            })
-        };
-        let torsional_stiffness = shear * section.torsion_constant;
+        positive("length of the beam's orientation", length(orientation))?;
+        let axial_stiffness = material.young_modulus() * section.area;
+        let torsional_stiffness = material.shear_modulus() * section.torsion_constant;
         Ok(Self {
             nodes,
             orientation,
             offsets: [[0.0; 3]; 2],
             releases: Releases::default(),
-            axial_stiffness: positive("axial stiffness of the beam", young * section.area)?,
+            axial_stiffness: positive("axial stiffness of the beam", axial_stiffness)?,
             torsional_stiffness: positive("torsional stiffness of the beam", torsional_stiffness)?,
-            bending: [bending(about_z, 0)?, bending(about_y, 1)?],
+            bending: [
+                Self::bending(&material, &section, 0)?,
+                Self::bending(&material, &section, 1)?,
+            ],
             mass_per_length: finite(
                 "mass per length of the beam",
                 material.density() * section.area,
@@ -114,7 +106,25 @@ impl SpaceBeam {
         })
     }
 
-    /// Places the ends of the beam away from its nodes, by rigid arms from node to end (m, along x, y, z).
+    /// Bending along y (`axis` 0, about z) or along z (`axis` 1, about y).
+    fn bending(material: &Material, section: &BeamSection, axis: usize) -> Result<Bending> {
+        let second_moment = section.second_moments[1 - axis];
+        let shear_stiffness =
+            section.shear_areas.map(|areas| material.shear_modulus() * areas[axis]);
+        shear_stiffness.map(|k| positive("shear stiffness of the beam", k)).transpose()?;
+        let stiffness = material.young_modulus() * second_moment;
+        let section_inertia = material.density() * second_moment;
+        Ok(Bending {
+            stiffness: positive("bending stiffness of the beam", stiffness)?,
+            shear_stiffness,
+            section_inertia: finite("inertia of the section", section_inertia)?,
+            has_rotary_inertia: false,
+        })
+    }
+
+    /// Places the ends of the beam away from its nodes, by rigid arms.
+    ///
+    /// `offsets`: from each node to its end along x, y and z, m.
     ///
     /// # Errors
     /// [`Error::NotFinite`] unless all are finite.
@@ -124,7 +134,7 @@ impl SpaceBeam {
         Ok(Self { offsets, ..self })
     }
 
-    /// Releases the first (0) or second (1) end in `directions`, which are in the axes of the beam.
+    /// Releases an end (0 or 1) in `directions`, in the axes of the beam.
     ///
     /// Nothing holds the end in these directions: [`RotationZ`](Direction::RotationZ) is a hinge for bending
     /// along y. Adds to earlier releases. A lumped mass loses the entries of released directions.
@@ -156,7 +166,7 @@ impl SpaceBeam {
     pub fn with_compression(self, compression: f64) -> Result<Self> {
         let compression = finite("axial force of the beam", compression)
             .map_err(|fault| named(self.nodes, fault))?;
-        Ok(Self { force: AxialForce::given(compression), ..self })
+        Ok(Self { force: AxialForce::prescribed(compression), ..self })
     }
 
     /// Places of the ends in x, y and z, m; `None` unless there are two nodes.
@@ -199,7 +209,7 @@ impl SpaceBeam {
         local(&bar::mass(kind, mass), &bar::mass(kind, polar * length), &bending)
     }
 
-    /// Adds the second-order motion of the rigid arms that carry the force to the nodes.
+    /// Adds the geometric stiffness of the rigid arms between nodes and ends.
     fn add_arms(&self, axes: &Axes, matrix: &mut [f64]) {
         let along = axes.axes[0];
         let ends = [(0.0, -1.0), (1.0, 1.0)];
@@ -242,9 +252,9 @@ impl Element for SpaceBeam {
         let Some(axes) = self.axes(coordinates).filter(|_| !self.force.is_zero()) else {
             return;
         };
-        let none = [[0.0; 2]; 2];
+        let zero = [[0.0; 2]; 2];
         let bending = self.bending.map(|plane| plane.geometric_stiffness(&self.force, axes.length));
-        let local = local(&none, &none, &bending);
+        let local = local(&zero, &zero, &bending);
         add_transformed(&local, &self.to_local(&axes), matrix);
         self.add_arms(&axes, matrix);
     }
@@ -255,19 +265,22 @@ impl Element for SpaceBeam {
         displacement: &[f64],
         gravity: f64,
     ) -> Option<Box<dyn Element>> {
-        let (axes, ends) = (self.axes(coordinates)?, self.ends(coordinates)?);
-        if self.force.is_given || displacement.len() != 12 {
+        let axes = self.axes(coordinates)?;
+        let ends = self.ends(coordinates)?;
+        if self.force.is_prescribed || displacement.len() != 12 {
             return None;
         }
         let to_local = self.to_local(&axes);
-        let local =
-            |row: usize| to_local[row].iter().zip(displacement).map(|(a, b)| a * b).sum::<f64>();
-        // Displacements of the nodes are exact, so the compression is the mean over the length. The element's
-        // own weight makes it vary between the ends.
+        let along_at = |end: usize| {
+            let row = to_local[6 * end];
+            row.iter().zip(displacement).map(|(a, b)| a * b).sum::<f64>()
+        };
+        // Displacements of the nodes are exact, so the compression is the mean over the length. It varies between
+        // the ends because of the element's weight.
         let force = AxialForce {
-            compression: -self.axial_stiffness / axes.length * (local(6) - local(0)),
+            compression: -self.axial_stiffness / axes.length * (along_at(1) - along_at(0)),
             taper: self.mass_per_length * gravity * (ends[1][2] - ends[0][2]),
-            is_given: false,
+            is_prescribed: false,
         };
         Some(Box::new(Self { force, ..self.clone() }))
     }
@@ -316,7 +329,12 @@ fn local(axial: &BarMatrix, torsion: &BarMatrix, bending: &[EndMatrix; 2]) -> En
     put(&bending[0], [1, 5, 7, 11], &mut matrix);
     // The slope of a deflection along z is minus the rotation about y.
     let signs = [1.0, -1.0, 1.0, -1.0];
-    let along_z = |i: usize| std::array::from_fn(|j| signs[i] * signs[j] * bending[1][i][j]);
-    put::<4, 12>(&std::array::from_fn(along_z), [2, 4, 8, 10], &mut matrix);
+    let mut along_z = bending[1];
+    for (i, row) in along_z.iter_mut().enumerate() {
+        for (j, value) in row.iter_mut().enumerate() {
+            *value *= signs[i] * signs[j];
+        }
+    }
+    put(&along_z, [2, 4, 8, 10], &mut matrix);
     matrix
 }

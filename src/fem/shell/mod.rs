@@ -21,8 +21,8 @@ use corners::Corners;
 use frame::Frame;
 use quad_bending::QuadBending;
 use quad_membrane::QuadMembrane;
-use section::Section;
-use surface::Surface;
+use section::ShellSection;
+use surface::MiddleSurface;
 use triangle_bending::TriangleBending;
 use triangle_membrane::TriangleMembrane;
 
@@ -87,7 +87,7 @@ pub struct Shell {
     material: Material,
     thickness: f64,
     /// Whether the sides 1–2, 2–3 and 3–1 of a triangle belong to quadrilaterals, too.
-    shared: [bool; 3],
+    shared_sides: [bool; 3],
 }
 
 impl Shell {
@@ -99,20 +99,24 @@ impl Shell {
     /// bending stiffness or mass is not.
     pub fn new(nodes: impl AsRef<[usize]>, material: Material, thickness: f64) -> Result<Self> {
         let nodes = nodes.as_ref();
-        let create = || {
-            let (found, needed) = (nodes.len(), 4);
-            let quantity = "list of nodes of a shell (three, or four)";
-            let corners = Corners::of(nodes).ok_or(Error::Size { quantity, found, needed })?;
-            let differ = (1..found).all(|k| !nodes[..k].contains(&nodes[k]));
-            require_part("nodes of a shell", differ, "each only once")?;
-            positive("thickness of a shell", thickness)?;
-            let shared = [false; 3];
-            let shell = Self { nodes: corners, material, thickness, shared };
-            positive("bending stiffness of a shell", shell.section().bending()[0][0])?;
-            finite("mass per area of a shell", material.density() * thickness)?;
-            Ok(shell)
-        };
-        create().map_err(|error| within(error, nodes))
+        Self::without_context(nodes, material, thickness)
+            .map_err(|error| within_shell(error, nodes))
+    }
+
+    /// [`Shell::new`], but its errors do not name the nodes.
+    fn without_context(nodes: &[usize], material: Material, thickness: f64) -> Result<Self> {
+        let corners = Corners::of(nodes).ok_or(Error::Size {
+            quantity: "list of nodes of a shell (three, or four)",
+            found: nodes.len(),
+            needed: 4,
+        })?;
+        let all_differ = (1..nodes.len()).all(|k| !nodes[..k].contains(&nodes[k]));
+        require_part("nodes of a shell", all_differ, "each only once")?;
+        positive("thickness of a shell", thickness)?;
+        let shell = Self { nodes: corners, material, thickness, shared_sides: [false; 3] };
+        positive("bending stiffness of a shell", shell.section().bending()[0][0])?;
+        finite("mass per area of a shell", material.density() * thickness)?;
+        Ok(shell)
     }
 
     /// Matches triangles to the quadrilaterals with which they share sides.
@@ -148,8 +152,8 @@ impl Shell {
         }
         for shell in shells {
             if let Corners::Three(nodes) = shell.nodes {
-                let is_shared = |k: usize| sides.contains(&side(nodes[k], nodes[(k + 1) % 3]));
-                shell.shared = [0, 1, 2].map(is_shared);
+                shell.shared_sides =
+                    [0, 1, 2].map(|k| sides.contains(&side(nodes[k], nodes[(k + 1) % 3])));
             }
         }
     }
@@ -168,9 +172,9 @@ impl Shell {
     /// As for [`Element::check`].
     pub fn areas(&self, coordinates: &[[f64; 3]]) -> Result<Vec<f64>> {
         self.check(coordinates)?;
-        Ok(match self.points(coordinates)? {
-            Corners::Four(nodes) => Surface::quadrilateral(&nodes).areas().to_vec(),
-            Corners::Three(nodes) => Surface::triangle(&nodes).areas().to_vec(),
+        Ok(match self.corner_points(coordinates)? {
+            Corners::Four(nodes) => MiddleSurface::quadrilateral(&nodes).areas().to_vec(),
+            Corners::Three(nodes) => MiddleSurface::triangle(&nodes).areas().to_vec(),
         })
     }
 
@@ -187,9 +191,9 @@ impl Shell {
         pressure: f64,
     ) -> Result<Vec<[f64; 3]>> {
         self.check(coordinates)?;
-        let vectors = match self.points(coordinates)? {
-            Corners::Four(nodes) => Surface::quadrilateral(&nodes).vectors.to_vec(),
-            Corners::Three(nodes) => Surface::triangle(&nodes).vectors.to_vec(),
+        let vectors = match self.corner_points(coordinates)? {
+            Corners::Four(nodes) => MiddleSurface::quadrilateral(&nodes).vectors.to_vec(),
+            Corners::Three(nodes) => MiddleSurface::triangle(&nodes).vectors.to_vec(),
         };
         Ok(vectors.into_iter().map(|area| area.map(|part| pressure * part)).collect())
     }
@@ -213,40 +217,47 @@ impl Shell {
         same_length("displacement of a shell", displacement.len(), self.order())?;
         all_finite("displacement of a shell", displacement)?;
         let section = &self.section();
-        Ok(match self.points(coordinates)? {
+        Ok(match self.corner_points(coordinates)? {
             Corners::Four(nodes) => {
                 let frame = Frame::quadrilateral(&nodes);
                 let points = &frame.points;
-                let [membrane, bending] = frame.local::<12>(displacement);
-                let membrane = QuadMembrane { points, section }.corner_strains(&membrane);
-                let bending = QuadBending { points, section }.corner_strains(&bending);
+                let local = frame.local::<12>(displacement);
+                let membrane = QuadMembrane { points, section }.corner_strains(&local.membrane);
+                let bending = QuadBending { points, section }.corner_strains(&local.bending);
                 section.resultants(frame.axes, &membrane, &bending)
             }
             Corners::Three(nodes) => {
                 let frame = Frame::triangle(&nodes);
                 let points = &frame.points;
-                let [membrane, bending] = frame.local::<9>(displacement);
-                let membrane = TriangleMembrane { points, section, shared: self.shared }
-                    .corner_strains(&membrane);
-                let bending = TriangleBending { points, section }.corner_strains(&bending);
+                let local = frame.local::<9>(displacement);
+                let membrane =
+                    TriangleMembrane { points, section, shared_sides: self.shared_sides }
+                        .corner_strains(&local.membrane);
+                let bending = TriangleBending { points, section }.corner_strains(&local.bending);
                 section.resultants(frame.axes, &membrane, &bending)
             }
         })
     }
 
-    fn section(&self) -> Section {
-        Section::new(&self.material, self.thickness)
+    fn section(&self) -> ShellSection {
+        ShellSection::new(&self.material, self.thickness)
     }
 
     /// Coordinates of the corners, one for each node.
-    fn points(&self, coordinates: &[[f64; 3]]) -> Result<Corners<[f64; 3]>> {
-        let (quantity, found) = ("coordinates of a shell", coordinates.len());
+    fn corner_points(&self, coordinates: &[[f64; 3]]) -> Result<Corners<[f64; 3]>> {
+        let found = coordinates.len();
         let needed = self.nodes().len();
         let points = Corners::of(coordinates).filter(|_| found == needed);
-        points.ok_or(Error::Size { quantity, found, needed })
+        points.ok_or(Error::Size { quantity: "coordinates of a shell", found, needed })
     }
 
-    fn add_mass<const N: usize>(&self, surface: &Surface<N>, kind: MassKind, matrix: &mut [f64]) {
+    /// Adds the mass matrix of the element over its middle surface.
+    fn add_mass<const N: usize>(
+        &self,
+        surface: &MiddleSurface<N>,
+        kind: MassKind,
+        matrix: &mut [f64],
+    ) {
         let translation = self.material.density() * self.thickness;
         let rotation = translation * self.thickness.powi(2) / 12.0;
         for i in 0..N {
@@ -267,8 +278,8 @@ fn side(from: usize, to: usize) -> [usize; 2] {
     [from.min(to), from.max(to)]
 }
 
-/// The fault of a shell with its nodes.
-fn within(error: Error, nodes: &[usize]) -> Error {
+/// Adds the nodes of a shell to its error.
+fn within_shell(error: Error, nodes: &[usize]) -> Error {
     error.within(format!("shell on nodes {nodes:?}"))
 }
 
@@ -292,7 +303,7 @@ impl Element for Shell {
 
     fn stiffness(&self, coordinates: &[[f64; 3]], matrix: &mut [f64]) {
         let section = &self.section();
-        match self.points(coordinates) {
+        match self.corner_points(coordinates) {
             Ok(Corners::Four(nodes)) => {
                 let frame = Frame::quadrilateral(&nodes);
                 let points = &frame.points;
@@ -304,7 +315,8 @@ impl Element for Shell {
                 let frame = Frame::triangle(&nodes);
                 let points = &frame.points;
                 let membrane =
-                    TriangleMembrane { points, section, shared: self.shared }.stiffness();
+                    TriangleMembrane { points, section, shared_sides: self.shared_sides }
+                        .stiffness();
                 let bending = TriangleBending { points, section }.stiffness();
                 frame.add_stiffness::<9>(&membrane, &leading(&bending), matrix);
             }
@@ -317,11 +329,13 @@ impl Element for Shell {
     }
 
     fn mass(&self, coordinates: &[[f64; 3]], kind: MassKind, matrix: &mut [f64]) {
-        match self.points(coordinates) {
+        match self.corner_points(coordinates) {
             Ok(Corners::Four(nodes)) => {
-                self.add_mass(&Surface::quadrilateral(&nodes), kind, matrix);
+                self.add_mass(&MiddleSurface::quadrilateral(&nodes), kind, matrix);
             }
-            Ok(Corners::Three(nodes)) => self.add_mass(&Surface::triangle(&nodes), kind, matrix),
+            Ok(Corners::Three(nodes)) => {
+                self.add_mass(&MiddleSurface::triangle(&nodes), kind, matrix)
+            }
             Err(_) => (),
         }
     }
@@ -329,10 +343,10 @@ impl Element for Shell {
     /// [`Error::Item`] with the nodes, unless the shape is good: sides of positive length and no two parallel at a
     /// corner, four nodes listed around a convex quadrilateral, its normals at most 45° apart from that in the middle.
     fn check(&self, coordinates: &[[f64; 3]]) -> Result<()> {
-        let checked = self.points(coordinates).and_then(|points| match points {
+        let checked = self.corner_points(coordinates).and_then(|points| match points {
             Corners::Four(nodes) => shape::check_quadrilateral(&nodes),
             Corners::Three(nodes) => shape::check_triangle(&nodes),
         });
-        checked.map_err(|error| within(error, self.nodes()))
+        checked.map_err(|error| within_shell(error, self.nodes()))
     }
 }

@@ -1,10 +1,10 @@
 //! Forces and moments of a shell per unit of width.
 
 use crate::error::{Result, require};
-use crate::fem::vector::{add, cross, direction, dot};
+use crate::fem::vector::{add, cross, dot, length, unit};
 
-/// Sine of an angle below which a direction counts as parallel to another.
-const PARALLEL: f64 = 1e-6;
+/// Smallest sine of the angle between two directions that do not count as parallel.
+const MIN_SINE_TO_AXIS: f64 = 1e-6;
 
 /// Forces and moments of a shell at a point, per metre of width.
 ///
@@ -28,23 +28,24 @@ pub struct ShellResultants {
 impl ShellResultants {
     /// Larger and smaller principal moment, Nm/m.
     pub fn principal_moments(&self) -> [f64; 2] {
-        let [first, second, twist] = self.moments;
-        let (mean, radius) = (0.5 * (first + second), (0.5 * (first - second)).hypot(twist));
+        let mean = 0.5 * (self.moments[0] + self.moments[1]);
+        let radius = (0.5 * (self.moments[0] - self.moments[1])).hypot(self.moments[2]);
         [mean + radius, mean - radius]
     }
 
     /// Membrane forces, moments and shear forces in a row.
     pub(crate) fn values(&self) -> [f64; 8] {
-        let [first, second, shear] = self.membrane;
-        let [about, across, twist] = self.moments;
-        let [along, aside] = self.shears;
-        [first, second, shear, about, across, twist, along, aside]
+        let mut values = [0.0; 8];
+        values[..3].copy_from_slice(&self.membrane);
+        values[3..6].copy_from_slice(&self.moments);
+        values[6..].copy_from_slice(&self.shears);
+        values
     }
 
-    /// Axes in the middle between axes of elements that meet, from the sums of their unit vectors.
+    /// Mean axes of elements that meet, from the sums of their unit vectors.
     pub(crate) fn mean_axes([first, _, normal]: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
-        let (_, normal) = direction(normal);
-        let (_, first) = direction(add(first, -dot(first, normal), normal));
+        let normal = unit(normal);
+        let first = unit(add(first, -dot(first, normal), normal));
         [first, cross(normal, first), normal]
     }
 
@@ -58,31 +59,36 @@ impl ShellResultants {
     /// [`Error::Input`](crate::Error::Input) if `along` is normal to the element or `outward` lies in its plane.
     pub fn in_axes(&self, along: [f64; 3], outward: [f64; 3]) -> Result<Self> {
         let [first, second, normal] = self.axes;
-        let height = dot(normal, direction(outward).1);
+        let height = dot(normal, unit(outward));
         let quantity = "part of the outward direction along a shell's normal, of a unit vector";
         let needed = "at least 1e-6 in size: not in the plane of the shell";
-        require(quantity, height, height.abs() >= PARALLEL, needed)?;
+        require(quantity, height, height.abs() >= MIN_SINE_TO_AXIS, needed)?;
         let side = height.signum();
-        let (_, along) = direction(along);
-        let (part, new_first) = direction(add(along, -dot(along, normal), normal));
+        let along = unit(along);
+        let in_plane = add(along, -dot(along, normal), normal);
+        let part = length(in_plane);
         let quantity = "part of the direction of a shell's axis in its plane, of a unit vector";
-        require(quantity, part, part >= PARALLEL, "at least 1e-6: not along the normal")?;
+        require(quantity, part, part >= MIN_SINE_TO_AXIS, "at least 1e-6: not along the normal")?;
+        let new_first = unit(in_plane);
         let new_normal = normal.map(|value| side * value);
         let new_second = cross(new_normal, new_first);
-        let turn = [new_first, new_second].map(|axis| [dot(axis, first), dot(axis, second)]);
+        let rotation = [new_first, new_second].map(|axis| [dot(axis, first), dot(axis, second)]);
         Ok(Self {
             axes: [new_first, new_second, new_normal],
-            membrane: turned(self.membrane, &turn),
-            moments: turned(self.moments, &turn).map(|moment| side * moment),
-            shears: turn.map(|[a, b]| side * (a * self.shears[0] + b * self.shears[1])),
+            membrane: rotated(self.membrane, &rotation),
+            moments: rotated(self.moments, &rotation).map(|moment| side * moment),
+            shears: rotation.map(|[a, b]| side * (a * self.shears[0] + b * self.shears[1])),
         })
     }
 }
 
-/// Symmetric tensor [11, 22, 12] in new axes, whose components in the old ones are the rows of `turn`.
-fn turned([xx, yy, xy]: [f64; 3], turn: &[[f64; 2]; 2]) -> [f64; 3] {
-    let value = |a: [f64; 2], b: [f64; 2]| {
+/// Symmetric tensor [11, 22, 12] in new axes.
+///
+/// The rows of `rotation` are the new axes in the old ones.
+fn rotated([xx, yy, xy]: [f64; 3], rotation: &[[f64; 2]; 2]) -> [f64; 3] {
+    [[0, 0], [1, 1], [0, 1]].map(|[i, j]| {
+        let a = rotation[i];
+        let b = rotation[j];
         a[0] * b[0] * xx + a[1] * b[1] * yy + (a[0] * b[1] + a[1] * b[0]) * xy
-    };
-    [value(turn[0], turn[0]), value(turn[1], turn[1]), value(turn[0], turn[1])]
+    })
 }

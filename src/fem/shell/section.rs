@@ -4,11 +4,11 @@ use super::resultants::ShellResultants;
 use crate::fem::material::Material;
 use crate::fem::vector::dot;
 
-/// Ratio of the mean shear strain of a section to the shear strain at its middle, inverted: κ.
+/// Shear correction factor κ: ratio of the shear area to the area of a rectangular section.
 const SHEAR_CORRECTION: f64 = 5.0 / 6.0;
 
 /// Section of an isotropic shell in plane stress.
-pub(super) struct Section {
+pub(super) struct ShellSection {
     /// Plane-stress matrix D, Pa.
     pub(super) elasticity: [[f64; 3]; 3],
     /// Shear modulus G, Pa.
@@ -19,7 +19,7 @@ pub(super) struct Section {
     pub(super) thickness: f64,
 }
 
-impl Section {
+impl ShellSection {
     /// Section of a `material` and a `thickness`, m.
     pub(super) fn new(material: &Material, thickness: f64) -> Self {
         Self {
@@ -57,23 +57,25 @@ impl Section {
         }
         moduli
     }
-    /// Resultants at N corners by the strains of the membrane, `[ε_11, ε_22, γ_12]`, and of the plate,
-    /// `[κ_11, κ_22, 2κ_12, γ_1, γ_2]`.
+
+    /// Resultants at N corners due to the strains of membrane and plate.
+    ///
+    /// `membrane`: `[ε_11, ε_22, γ_12]`; `bending`: `[κ_11, κ_22, 2κ_12, γ_1, γ_2]`.
     pub(super) fn resultants<const N: usize>(
         &self,
         axes: [[f64; 3]; 3],
         membrane: &[[f64; 3]; N],
         bending: &[[f64; 5]; N],
     ) -> Vec<ShellResultants> {
-        let at_corner = |(strain, plate): (&[f64; 3], &[f64; 5])| {
-            let [first, second, twist, shears @ ..] = *plate;
-            ShellResultants {
+        let mut resultants = Vec::with_capacity(N);
+        for (strain, &[first, second, twist, shears @ ..]) in membrane.iter().zip(bending) {
+            resultants.push(ShellResultants {
                 axes,
                 membrane: self.membrane().map(|row| dot(row, *strain)),
                 moments: self.bending().map(|row| -dot(row, [first, second, twist])),
                 shears: shears.map(|strain| self.shear() * strain),
-            }
-        };
-        membrane.iter().zip(bending).map(at_corner).collect()
+            });
+        }
+        resultants
     }
 }

@@ -6,8 +6,8 @@
 //! | R | radius of curvature, √(A/∣Σδ∣) for nodes with the area A (Gauss and Bonnet) |
 //! | t | mean thickness |
 //!
-//! A triangle turns about its normal when its neighbours bend, and its membrane resists. Cylinders and folded plates, which
-//! bend about straight lines, have δ = 0 on the mean.
+//! On a doubly curved shell a triangle rotates about its normal when its neighbours bend, and its membrane resists.
+//! Cylinders and folded plates, which bend about straight lines, have δ = 0 on average.
 
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
@@ -15,67 +15,109 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::Shell;
 use super::corners::Corners;
 use crate::fem::mesh::Mesh;
-use crate::fem::vector::{add, cross, direction, dot};
+use crate::fem::vector::{add, cross, dot, length, unit};
 
-/// Cosine of the turn from one triangle to the next from which their common side is an edge: 30°.
-const EDGE: f64 = 0.866;
-/// Cosine of a turn up to which triangles lie in a plane.
-const FLAT: f64 = 1.0 - 1e-6;
+/// Cosine of 30°: at larger turns between two triangles their common side is an edge.
+const EDGE_TURN_COSINE: f64 = 0.866;
+/// Cosine of the turn between two triangles up to which they count as coplanar.
+const FLAT_TURN_COSINE: f64 = 1.0 - 1e-6;
 
-/// Triangles at a node.
+/// Sums over the triangles at a node.
 #[derive(Default)]
-struct Around {
+struct NodeSurroundings {
     angle: f64,
     area: f64,
     /// Area × thickness, m³.
     volume: f64,
 }
 
-/// Mean side of the triangles of doubly curved shells and √(R t), m; `None` without such triangles.
-///
-/// A side counts if both of its ends are amid triangles: at the pole of a dome none does.
-pub(crate) fn triangle_sides(mesh: &Mesh) -> Option<[f64; 2]> {
-    let shells = mesh.elements().filter_map(|element| (element as &dyn Any).downcast_ref());
-    let (mut nodes, mut sides) = (BTreeMap::<usize, Around>::new(), BTreeMap::new());
-    for shell in shells {
-        let shell: &Shell = shell;
-        let Corners::Three(corners) = shell.nodes else { continue };
-        let points = corners.map(|node| mesh.nodes()[node]);
-        let to = |i: usize, k: usize| add(points[k % 3], -1.0, points[i]);
-        let (double, normal) = direction(cross(to(0, 1), to(0, 2)));
+/// Triangles of a mesh: sums at their nodes, and the unit normals at their sides.
+#[derive(Default)]
+struct TriangleMesh {
+    nodes: BTreeMap<usize, NodeSurroundings>,
+    /// Normals of the triangles on a side, by the side's ends.
+    sides: BTreeMap<[usize; 2], Vec<[f64; 3]>>,
+}
+
+impl TriangleMesh {
+    fn new(mesh: &Mesh) -> Self {
+        let mut triangles = Self::default();
+        for element in mesh.elements() {
+            let Some(shell) = (element as &dyn Any).downcast_ref::<Shell>() else { continue };
+            if let Corners::Three(corners) = shell.nodes {
+                triangles.add(corners, corners.map(|node| mesh.nodes()[node]), shell.thickness);
+            }
+        }
+        triangles
+    }
+
+    fn add(&mut self, corners: [usize; 3], points: [[f64; 3]; 3], thickness: f64) {
+        let side_vector = |from: usize, to: usize| add(points[to % 3], -1.0, points[from]);
+        let across = cross(side_vector(0, 1), side_vector(0, 2));
+        let double_area = length(across);
+        let normal = unit(across);
         for k in 0..3 {
-            let [next, last] = [to(k, k + 1), to(k, k + 2)].map(|side| direction(side).1);
-            let own = nodes.entry(corners[k]).or_default();
-            own.angle += dot(next, last).clamp(-1.0, 1.0).acos();
-            own.area += double / 6.0;
-            own.volume += shell.thickness * double / 6.0;
+            let to_next = unit(side_vector(k, k + 1));
+            let to_previous = unit(side_vector(k, k + 2));
+            let node = self.nodes.entry(corners[k]).or_default();
+            node.angle += dot(to_next, to_previous).clamp(-1.0, 1.0).acos();
+            node.area += double_area / 6.0;
+            node.volume += thickness * double_area / 6.0;
             let ends = super::side(corners[k], corners[(k + 1) % 3]);
-            sides.entry(ends).or_insert_with(Vec::new).push(normal);
+            self.sides.entry(ends).or_default().push(normal);
         }
     }
-    let [mut curved, mut outer] = [(); 2].map(|()| BTreeSet::<usize>::new());
-    for (ends, normals) in &sides {
-        // Sides at edges and beside quadrilaterals have one triangle.
-        let turn = if let [one, other] = normals[..] { dot(one, other).abs() } else { 0.0 };
-        if turn < EDGE {
-            outer.extend(ends);
-        } else if turn < FLAT {
-            curved.extend(ends);
+
+    /// Nodes on sides where the surface turns, and which triangles surround.
+    fn inner_nodes(&self) -> BTreeSet<usize> {
+        let mut curved = BTreeSet::<usize>::new();
+        let mut outer = BTreeSet::<usize>::new();
+        for (ends, normals) in &self.sides {
+            // Sides at edges and beside quadrilaterals have one triangle.
+            let cosine = if let [one, other] = normals[..] { dot(one, other).abs() } else { 0.0 };
+            if cosine < EDGE_TURN_COSINE {
+                outer.extend(ends);
+            } else if cosine < FLAT_TURN_COSINE {
+                curved.extend(ends);
+            }
+        }
+        curved.difference(&outer).copied().collect()
+    }
+
+    /// √(R t) of the surface around `nodes`, m.
+    fn bending_length(&self, nodes: &BTreeSet<usize>) -> f64 {
+        let mut area = 0.0;
+        let mut volume = 0.0;
+        let mut angle_defect = 0.0_f64;
+        for node in nodes {
+            let node = &self.nodes[node];
+            angle_defect += std::f64::consts::TAU - node.angle;
+            area += node.area;
+            volume += node.volume;
+        }
+        let radius = (area / angle_defect.abs()).sqrt();
+        let thickness = volume / area;
+        (radius * thickness).sqrt()
+    }
+}
+
+/// Mean side of doubly curved shells' triangles, and √(R t), m.
+///
+/// `None` without such triangles.
+///
+/// A side counts if both of its ends are surrounded by triangles: at the pole of a dome no side counts.
+pub(crate) fn triangle_sides(mesh: &Mesh) -> Option<[f64; 2]> {
+    let triangles = TriangleMesh::new(mesh);
+    let inner = triangles.inner_nodes();
+    let mut total_length = 0.0;
+    let mut count = 0;
+    let mut ends_of_sides = BTreeSet::new();
+    for ends in triangles.sides.keys() {
+        if ends.iter().all(|node| inner.contains(node)) {
+            total_length += length(add(mesh.nodes()[ends[0]], -1.0, mesh.nodes()[ends[1]]));
+            count += 1;
+            ends_of_sides.extend(ends);
         }
     }
-    let is_amid = |node: &usize| curved.contains(node) && !outer.contains(node);
-    let amid: Vec<_> = sides.keys().filter(|ends| ends.iter().all(is_amid)).collect();
-    let (mut length, mut whole, mut defect) = (0.0, Around::default(), 0.0);
-    for [one, other] in &amid {
-        length += direction(add(mesh.nodes()[*one], -1.0, mesh.nodes()[*other])).0;
-    }
-    for node in amid.iter().copied().flatten().collect::<BTreeSet<_>>() {
-        let own = &nodes[node];
-        defect += std::f64::consts::TAU - own.angle;
-        whole.area += own.area;
-        whole.volume += own.volume;
-    }
-    let radius = (whole.area / f64::abs(defect)).sqrt();
-    let thickness = whole.volume / whole.area;
-    (!amid.is_empty()).then(|| [length / amid.len() as f64, (radius * thickness).sqrt()])
+    (count > 0).then(|| [total_length / f64::from(count), triangles.bending_length(&ends_of_sides)])
 }

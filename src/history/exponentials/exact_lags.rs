@@ -2,23 +2,24 @@
 
 use crate::error::{Error, Observer, Result, unobserved};
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::{KINDS, PairClasses};
+use crate::history::pair_classes::{PairClasses, STRIP_KINDS};
 use crate::history::shared_spectra::SharedSpectra;
 
+/// Error for a kernel whose coupling does not end within the window.
 const COUPLING_LASTS: Error = Error::Scene {
     quantity: "history by exponentials",
     needed: "they need a coupling that ends before they begin",
 };
 
 /// A kernel whose coefficients are zero after its window.
-pub(super) struct Cut<'a> {
+pub(super) struct WindowedWeights<'a> {
     pub(super) kernel: &'a dyn ConvolutionWeights,
     /// Last lag with coefficients.
     pub(super) lags: usize,
     pub(super) spectra: &'a SharedSpectra,
 }
 
-impl ConvolutionWeights for Cut<'_> {
+impl ConvolutionWeights for WindowedWeights<'_> {
     fn classes(&self) -> &PairClasses {
         self.kernel.classes()
     }
@@ -31,15 +32,15 @@ impl ConvolutionWeights for Cut<'_> {
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; KINDS],
+        values: [&mut [f64]; STRIP_KINDS],
     ) -> Result<()> {
-        let left = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
-        let kept = values.map(|values| {
-            let (kept, cut) = values.split_at_mut(left);
-            cut.fill(0.0);
-            kept
+        let count = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
+        let in_window = values.map(|values| {
+            let (in_window, beyond) = values.split_at_mut(count);
+            beyond.fill(0.0);
+            in_window
         });
-        self.kernel.coefficients(class, first_lag, kept)
+        self.kernel.coefficients(class, first_lag, in_window)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
@@ -57,21 +58,20 @@ impl ConvolutionWeights for Cut<'_> {
 #[derive(Debug, Clone)]
 pub(super) struct Lags {
     /// Coefficients of each kind, class by class; the coupling only while it is not zero.
-    pub(super) kinds: [Vec<Vec<f64>>; KINDS],
+    pub(super) kinds: [Vec<Vec<f64>>; STRIP_KINDS],
 }
 
 impl Lags {
     /// Reads lags 1 to `window` of `kernel`.
     pub(super) fn new(kernel: &dyn ConvolutionWeights, window: usize) -> Result<Self> {
         kernel.prepare(window, &mut unobserved)?;
-        let mut kinds = [(); KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
+        let mut kinds = [(); STRIP_KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {
-            let mut lags = [(); KINDS].map(|()| vec![0.0; window]);
+            let mut lags = [(); STRIP_KINDS].map(|()| vec![0.0; window]);
             kernel.coefficients(class, 1, lags.each_mut().map(Vec::as_mut_slice))?;
             let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
-            let [_, _, zx] = &mut lags;
-            zx.truncate(last.ok_or(COUPLING_LASTS)?);
-            zx.shrink_to_fit();
+            lags[2].truncate(last.ok_or(COUPLING_LASTS)?);
+            lags[2].shrink_to_fit();
             kinds.iter_mut().zip(lags).for_each(|(kind, lags)| kind.push(lags));
         }
         Ok(Self { kinds })

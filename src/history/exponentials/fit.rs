@@ -3,20 +3,20 @@
 use std::sync::Arc;
 
 use super::exact_lags::Lags;
-use super::passivity::{self, Margin};
-use super::tail::{Measured, Tail};
+use super::passivity::{self, PassivityMargin};
+use super::tail::{MeasuredErrors, Tail};
 use crate::error::{Error, Result};
 use crate::history::convolution_weights::{ConvolutionWeights, LateWeights};
 use crate::history::shared_spectra::SharedSpectra;
 
-/// Ratio of the error aimed at in an attempt to the error aimed at in the attempt before.
-const CLOSER: f64 = 0.2;
+/// Ratio of an attempt's target tolerance to the target of the attempt before.
+const TOLERANCE_REDUCTION: f64 = 0.2;
 /// Largest number of attempts: enough to reach rounding from any tolerance.
-const ATTEMPTS: usize = 10;
+const MAX_FIT_ATTEMPTS: usize = 10;
 
 /// Window, horizon and tolerance of a fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Request {
+pub(super) struct FitRequest {
     /// Number of lags in the window.
     pub(super) lags: usize,
     pub(super) horizon: usize,
@@ -25,50 +25,50 @@ pub(super) struct Request {
 
 /// Exponentials for the lags after a window, without inputs, and their measured errors.
 #[derive(Debug)]
-pub(super) struct Fit {
-    pub(super) request: Request,
+pub(super) struct TailFit {
+    pub(super) request: FitRequest,
     pub(super) tail: Tail,
-    pub(super) accuracy: Measured,
-    /// Smallest eigenvalue of the operator's Hermitian part.
-    pub(super) margin: f64,
+    pub(super) errors: MeasuredErrors,
+    /// Smallest eigenvalue of the Hermitian part of the operator; see [`ExponentialFit`](super::ExponentialFit).
+    pub(super) passivity_margin: f64,
 }
 
-impl Fit {
+impl TailFit {
     /// Fits the fewest exponentials that are accurate and passive.
     pub(super) fn new(
         kernel: &dyn ConvolutionWeights,
         late: &dyn LateWeights,
-        request: Request,
+        request: FitRequest,
     ) -> Result<Self> {
-        let Request { lags, horizon, tolerance } = request;
+        let FitRequest { lags, horizon, tolerance } = request;
         let exact = Lags::new(kernel, lags)?;
-        let (mut aim, mut refusal) = (tolerance, None);
-        for _ in 0..ATTEMPTS {
+        let mut target = tolerance;
+        let mut failure = None;
+        for _ in 0..MAX_FIT_ATTEMPTS {
             let elements = kernel.classes().elements();
-            let tail = Tail::new(late.exponentials(lags, horizon, aim)?, elements)?;
-            let accuracy = Measured::over(kernel, &tail, lags, horizon)?;
-            aim *= CLOSER;
-            if accuracy.relative > tolerance {
-                let reached = accuracy.relative;
-                refusal.get_or_insert_with(|| inaccurate(tolerance, reached));
+            let tail = Tail::new(late.exponentials(lags, horizon, target)?, elements)?;
+            let errors = MeasuredErrors::over(kernel, &tail, lags, horizon)?;
+            target *= TOLERANCE_REDUCTION;
+            if errors.largest_relative > tolerance {
+                failure.get_or_insert_with(|| inaccurate(tolerance, errors.largest_relative));
                 continue;
             }
-            let Margin { least, frequency } =
+            let PassivityMargin { smallest, frequency } =
                 passivity::margin(kernel, &exact, &tail, horizon as f64);
             // A NaN is an error as well.
-            if least.is_nan() || least < 0.0 {
-                refusal = Some(Error::NotPassive {
+            if smallest.is_nan() || smallest < 0.0 {
+                failure = Some(Error::NotPassive {
                     quantity: "history by exponentials",
-                    margin: least,
+                    margin: smallest,
                     allowed: 0.0,
                     angle: frequency,
                     radius: 1.0,
                 });
                 continue;
             }
-            return Ok(Self { request, tail, accuracy, margin: least });
+            return Ok(Self { request, tail, errors, passivity_margin: smallest });
         }
-        Err(refusal.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
+        Err(failure.unwrap_or_else(|| inaccurate(tolerance, f64::INFINITY)))
     }
 }
 
@@ -79,21 +79,22 @@ fn inaccurate(tolerance: f64, reached: f64) -> Error {
 
 /// A fit, and the spectra of its window alone.
 #[derive(Clone)]
-pub(super) struct Windowed {
-    pub(super) fit: Arc<Fit>,
+pub(super) struct StoredFit {
+    pub(super) fit: Arc<TailFit>,
     pub(super) spectra: SharedSpectra,
 }
 
-/// Stores a fit and returns it; if another thread was first, returns the fit of that thread.
+/// Stores a fit and returns it, or the equal fit that another thread stored first.
 ///
 /// Windows of one length share their spectra.
-pub(super) fn keep(made: &mut Vec<Windowed>, fit: Arc<Fit>) -> Windowed {
-    if let Some(known) = made.iter().find(|known| known.fit.request == fit.request) {
-        return known.clone();
+pub(super) fn store_fit(stored: &mut Vec<StoredFit>, fit: Arc<TailFit>) -> StoredFit {
+    if let Some(earlier) = stored.iter().find(|earlier| earlier.fit.request == fit.request) {
+        return earlier.clone();
     }
-    let same = made.iter().find(|known| known.fit.request.lags == fit.request.lags);
-    let spectra = same.map_or_else(SharedSpectra::default, |known| known.spectra.clone());
-    let new = Windowed { fit, spectra };
-    made.push(new.clone());
-    new
+    let same_window = stored.iter().find(|earlier| earlier.fit.request.lags == fit.request.lags);
+    let spectra =
+        same_window.map_or_else(SharedSpectra::default, |earlier| earlier.spectra.clone());
+    let added = StoredFit { fit, spectra };
+    stored.push(added.clone());
+    added
 }

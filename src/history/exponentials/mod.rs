@@ -8,23 +8,25 @@ mod tail;
 
 use std::sync::Arc;
 
-use self::exact_lags::Cut;
-use self::fit::{Fit, Request, Windowed, keep};
+use self::exact_lags::WindowedWeights;
+use self::fit::{FitRequest, StoredFit, TailFit, store_fit};
 use self::tail::Tail;
 use super::convolution::ConvolutionHistory;
 use super::convolution_weights::{ConvolutionWeights, LateWeights};
-use super::relaxed_fft::{Blocks, LEAF, bounded, bytes_of_blocks};
+use super::relaxed_fft::{HistoryBlocks, LEAF_STEPS, bounded, bytes_of_blocks};
 use super::shared_spectra::{SharedSpectra, lock};
 use crate::error::{
     CheckpointError, Error, MemoryError, Observer, Result, Watch, require, same_length,
 };
 
-/// Longest window, lags: with a longer one the step is so short that the window may cover the whole run.
-const LONGEST_WINDOW: usize = 1_000_000;
+/// Longest window, lags.
+///
+/// With a longer one the step is so short that the window may cover the whole run.
+const MAX_WINDOW_LAGS: usize = 1_000_000;
 /// Tolerances that a fit can reach.
-const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
+const TOLERANCE_RANGE: std::ops::RangeInclusive<f64> = 1e-12..=1e-2;
 /// Default memory limit, bytes.
-pub(super) const MEMORY: usize = 1 << 30;
+pub(super) const DEFAULT_MEMORY: usize = 1 << 30;
 
 /// Window of exact lags and a sum of exponentials for later lags: O(1) memory and time per step.
 ///
@@ -57,16 +59,16 @@ pub(super) const MEMORY: usize = 1 << 30;
 /// steps) need the additional poles.
 pub struct ExponentialHistory {
     kernel: Arc<dyn ConvolutionWeights>,
-    fit: Arc<Fit>,
-    window: Box<dyn Blocks>,
+    fit: Arc<TailFit>,
+    window: Box<dyn HistoryBlocks>,
     tail: Tail,
     /// The last 2W inputs, input m in slot m mod 2W.
     recent: Vec<f64>,
     steps: usize,
-    /// Whether the effect of the last input still has to be added.
-    pending: bool,
+    /// Whether the effect of the last input is still to be added.
+    input_is_pending: bool,
     /// Largest Σ|τ| in any step so far, Pa.
-    largest: f64,
+    largest_traction: f64,
 }
 
 /// Size, accuracy and passivity of the fit of an [`ExponentialHistory`].
@@ -102,11 +104,13 @@ short_debug! {
 
 impl ExponentialHistory {
     /// Default tolerance.
-    pub(crate) const TOLERANCE: f64 = 1e-10;
+    pub(crate) const DEFAULT_TOLERANCE: f64 = 1e-10;
     /// Default horizon: steps over which the tolerance holds.
-    pub(crate) const HORIZON: usize = 1 << 20;
-    /// Longest horizon, steps: far below the limit of 64 bits, or as many as a shorter word can hold.
-    pub(crate) const LONGEST: usize = match 1_usize.checked_shl(40) {
+    pub(crate) const DEFAULT_HORIZON: usize = 1 << 20;
+    /// Longest horizon, steps.
+    ///
+    /// It is far below the limit of 64 bits, or of a shorter word.
+    pub(crate) const MAX_HORIZON: usize = match 1_usize.checked_shl(40) {
         Some(steps) => steps,
         None => usize::MAX >> 4,
     };
@@ -121,7 +125,7 @@ impl ExponentialHistory {
     /// window would take more than 1 GiB; [`Error::Accuracy`] if the tolerance was not reached; [`Error::NotPassive`]
     /// if the fit creates energy.
     pub fn new(kernel: Arc<dyn ConvolutionWeights>, tolerance: f64) -> Result<Self> {
-        Self::with_horizon(kernel, tolerance, Self::HORIZON)
+        Self::with_horizon(kernel, tolerance, Self::DEFAULT_HORIZON)
     }
 
     /// Makes an empty history of `kernel` with a `tolerance` that holds up to `horizon` steps.
@@ -133,11 +137,11 @@ impl ExponentialHistory {
         tolerance: f64,
         horizon: usize,
     ) -> Result<Self> {
-        Self::within(kernel, tolerance, horizon, MEMORY)
+        Self::within_memory(kernel, tolerance, horizon, DEFAULT_MEMORY)
     }
 
-    /// [`ExponentialHistory::with_horizon`] in at most `memory` bytes, including the fit.
-    pub(crate) fn within(
+    /// [`ExponentialHistory::with_horizon`] within `memory` bytes, including the fit.
+    pub(crate) fn within_memory(
         kernel: Arc<dyn ConvolutionWeights>,
         tolerance: f64,
         horizon: usize,
@@ -146,8 +150,8 @@ impl ExponentialHistory {
         Self::check_tolerance(tolerance)?;
         let Some(late) = kernel.late_weights() else { return Err(NO_LATE_LAGS) };
         let elements = kernel.classes().elements();
-        let lags = window(late)?;
-        let needed = bytes(&*kernel, lags)?;
+        let lags = window_lags(late)?;
+        let needed = window_bytes(&*kernel, lags)?;
         if needed > memory as f64 {
             return Err(Error::Memory(MemoryError {
                 quantity: "lags before a history by exponentials",
@@ -158,31 +162,32 @@ impl ExponentialHistory {
                          `HistoryOptions::memory`",
             }));
         }
-        let horizon = horizon.clamp(2 * lags, Self::LONGEST);
-        let request = Request { lags, horizon, tolerance };
+        let horizon = horizon.clamp(2 * lags, Self::MAX_HORIZON);
+        let request = FitRequest { lags, horizon, tolerance };
         let store = kernel.spectra().filter(|spectra| spectra.are_of(elements));
-        let store = store.map(SharedSpectra::tables::<Vec<Windowed>>);
-        let made = |made: &&Windowed| made.fit.request == request;
-        let known = store.as_deref().and_then(|store| lock(store).iter().find(made).cloned());
-        let Windowed { fit, spectra } = if let Some(known) = known {
-            known
+        let store = store.map(SharedSpectra::tables::<Vec<StoredFit>>);
+        let stored = store.as_deref().and_then(|store| {
+            lock(store).iter().find(|stored| stored.fit.request == request).cloned()
+        });
+        let StoredFit { fit, spectra } = if let Some(stored) = stored {
+            stored
         } else {
             // The fit is made while the store is not locked: a kernel may work on several threads, which must not wait.
-            let fit = Arc::new(Fit::new(&*kernel, late, request)?);
+            let fit = Arc::new(TailFit::new(&*kernel, late, request)?);
             match store.as_deref() {
-                Some(store) => keep(&mut lock(store), fit),
-                None => Windowed { fit, spectra: SharedSpectra::default() },
+                Some(store) => store_fit(&mut lock(store), fit),
+                None => StoredFit { fit, spectra: SharedSpectra::default() },
             }
         };
-        let window = bounded(&Cut { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
+        let window = bounded(&WindowedWeights { kernel: &*kernel, lags, spectra: &spectra }, lags)?;
         Ok(Self {
             window,
             recent: vec![0.0; 2 * lags * kernel.classes().layout().len()],
             tail: fit.tail.clone(),
             fit,
             steps: 0,
-            pending: false,
-            largest: 0.0,
+            input_is_pending: false,
+            largest_traction: 0.0,
             kernel,
         })
     }
@@ -194,12 +199,12 @@ impl ExponentialHistory {
             poles: self.tail.poles(),
             functions: self.tail.functions(),
             error_bound: self.error_bound(),
-            passivity_margin: self.fit.margin,
+            passivity_margin: self.fit.passivity_margin,
         }
     }
 
     pub(crate) fn error_bound(&self) -> f64 {
-        self.fit.accuracy.relative
+        self.fit.errors.largest_relative
     }
 
     pub(crate) fn horizon(&self) -> usize {
@@ -212,10 +217,11 @@ impl ExponentialHistory {
 
     /// Returns `tolerance`, or an error if no fit can reach it.
     pub(crate) fn check_tolerance(tolerance: f64) -> Result<f64> {
-        let fits = TOLERANCES.contains(&tolerance);
-        require("tolerance of the history", tolerance, fits, "from 1e-12 to 1e-2")
+        let is_in_range = TOLERANCE_RANGE.contains(&tolerance);
+        require("tolerance of the history", tolerance, is_in_range, "from 1e-12 to 1e-2")
     }
 
+    /// Number of tractions in one step.
     fn size(&self) -> usize {
         self.kernel.classes().layout().len()
     }
@@ -227,68 +233,68 @@ impl ExponentialHistory {
         slot * size..(slot + 1) * size
     }
 
-    /// Inputs that the window needs for outputs from `steps` on: they begin with a block.
-    fn kept(&self, steps: usize) -> std::ops::Range<usize> {
+    /// Inputs that the window needs for outputs from `steps` on; the first begins a block.
+    fn window_inputs(&self, steps: usize) -> std::ops::Range<usize> {
         let lags = self.window();
         (steps / lags * lags).saturating_sub(lags)..steps
     }
 
     /// Adds the effect of the last input, so that the next output is complete.
-    fn settle(&mut self) {
-        if std::mem::take(&mut self.pending) {
-            self.window.work_in(self.steps);
+    fn complete_output(&mut self) {
+        if std::mem::take(&mut self.input_is_pending) {
+            self.window.add_effects(self.steps);
         }
     }
 
-    /// Accepts the input of one step, without the window.
-    fn accept(&mut self, input: impl FnOnce(&mut [f64])) {
+    /// Stores the input of one step, and adds to the exponentials the one that leaves the window.
+    fn store_input(&mut self, input: impl FnOnce(&mut [f64])) {
         let slot = self.slot(self.steps);
-        let kept = &mut self.recent[slot];
-        input(kept);
-        self.largest = self.largest.max(kept.iter().map(|t| t.abs()).sum());
+        let stored = &mut self.recent[slot];
+        input(stored);
+        self.largest_traction = self.largest_traction.max(stored.iter().map(|t| t.abs()).sum());
         self.steps += 1;
         let leaving = self.steps.checked_sub(self.window()).map(|m| self.slot(m));
         self.tail.advance(leaving.map(|slot| &self.recent[slot]));
     }
 
     /// Writes the last inputs into the window.
-    fn refill(&mut self) {
+    fn refill_window(&mut self) {
         self.window.clear();
-        let kept = self.kept(self.steps);
-        let first = kept.start;
-        for m in kept {
+        let window_inputs = self.window_inputs(self.steps);
+        let first = window_inputs.start;
+        for m in window_inputs {
             if m > first {
-                self.window.work_in(m);
+                self.window.add_effects(m);
             }
             let slot = self.slot(m);
             self.window.write(m, &self.recent[slot]);
         }
-        self.pending = self.steps > 0;
+        self.input_is_pending = self.steps > 0;
     }
 }
 
 /// Bytes of a window of `lags` with its inputs, and of the coefficients during the fit.
-fn bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
+fn window_bytes(kernel: &dyn ConvolutionWeights, lags: usize) -> Result<f64> {
     let classes = kernel.classes();
     let numbers = 4 * classes.elements().len() + 2 * classes.count();
     Ok(bytes_of_blocks(kernel, lags)? + (8 * numbers) as f64 * lags as f64)
 }
 
-/// Number of lags in the window: a whole block of the transforms, since any part of it takes as much time.
-fn window(late: &dyn LateWeights) -> Result<usize> {
+/// Number of lags in the window, a whole block of the transforms.
+///
+/// Part of a block would take as much time.
+fn window_lags(late: &dyn LateWeights) -> Result<usize> {
     let lags = late.window();
     let needed = "a million or fewer for a history by exponentials";
-    require("lags before the exponentials", lags as f64, lags <= LONGEST_WINDOW, needed)?;
-    Ok(lags.next_power_of_two().max(LEAF))
+    require("lags before the exponentials", lags as f64, lags <= MAX_WINDOW_LAGS, needed)?;
+    Ok(lags.next_power_of_two().max(LEAF_STEPS))
 }
 
-const NO_LATE_LAGS: Error =
-    no_exponentials("they need a kernel that knows its late lags as exponentials");
-
-/// Error for a kernel that does not allow exponentials.
-const fn no_exponentials(needed: &'static str) -> Error {
-    Error::Scene { quantity: "history by exponentials", needed }
-}
+/// Error for convolution weights without late lags.
+const NO_LATE_LAGS: Error = Error::Scene {
+    quantity: "history by exponentials",
+    needed: "convolution weights that are sums of exponentials at late lags",
+};
 
 impl ConvolutionHistory for ExponentialHistory {
     fn steps(&self) -> usize {
@@ -302,7 +308,7 @@ impl ConvolutionHistory for ExponentialHistory {
 
     fn evaluate(&mut self, displacement: &mut [f64]) -> Result<()> {
         same_length("displacement of the history", displacement.len(), self.size())?;
-        self.settle();
+        self.complete_output();
         self.window.read(self.steps, displacement);
         self.tail.add(displacement);
         Ok(())
@@ -313,30 +319,30 @@ impl ConvolutionHistory for ExponentialHistory {
     }
 
     fn push(&mut self, traction: &[f64]) {
-        self.settle();
+        self.complete_output();
         let now = self.steps;
-        self.accept(|kept| {
-            for (i, kept) in kept.iter_mut().enumerate() {
-                *kept = traction.get(i).copied().unwrap_or(0.0);
+        self.store_input(|stored| {
+            for (i, value) in stored.iter_mut().enumerate() {
+                *value = traction.get(i).copied().unwrap_or(0.0);
             }
         });
         let slot = self.slot(now);
         self.window.write(now, &self.recent[slot]);
-        self.pending = true;
+        self.input_is_pending = true;
     }
 
     fn increment_error_bound(&self) -> f64 {
         // Beyond the horizon the error may be as large as the remaining coefficients.
-        let Fit { request, accuracy, .. } = &*self.fit;
-        let beyond = if self.steps > request.horizon { 2.0 * accuracy.last } else { 0.0 };
-        (accuracy.increments + beyond) * self.largest
+        let TailFit { request, errors, .. } = &*self.fit;
+        let beyond = if self.steps > request.horizon { 2.0 * errors.last_coefficient } else { 0.0 };
+        (errors.increment_sum + beyond) * self.largest_traction
     }
 
     /// Returns the largest traction, the exponentials' state, and the last inputs.
     fn save(&self) -> Result<Vec<f64>> {
-        let mut values = vec![self.largest];
+        let mut values = vec![self.largest_traction];
         values.extend(self.tail.state());
-        for m in self.kept(self.steps) {
+        for m in self.window_inputs(self.steps) {
             values.extend_from_slice(&self.recent[self.slot(m)]);
         }
         Ok(values)
@@ -344,19 +350,19 @@ impl ConvolutionHistory for ExponentialHistory {
 
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         let state = self.tail.state_length();
-        let kept = self.kept(steps);
-        if values.len() != 1 + state + kept.len() * self.size() {
+        let window_inputs = self.window_inputs(steps);
+        if values.len() != 1 + state + window_inputs.len() * self.size() {
             return Err(CheckpointError::Corrupt { quantity: "history by exponentials" }.into());
         }
         self.steps = steps;
-        self.largest = values[0];
+        self.largest_traction = values[0];
         self.tail.set_state(&values[1..=state]);
         let size = self.size();
-        for (m, input) in kept.zip(values[state + 1..].chunks_exact(size)) {
+        for (m, input) in window_inputs.zip(values[state + 1..].chunks_exact(size)) {
             let slot = self.slot(m);
             self.recent[slot].copy_from_slice(input);
         }
-        self.refill();
+        self.refill_window();
         Ok(())
     }
 }

@@ -10,21 +10,21 @@
 use super::exact_lags::Lags;
 use super::tail::Tail;
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::KINDS;
+use crate::history::pair_classes::STRIP_KINDS;
 
-/// Frequencies per decade below one radian per step.
-const PER_DECADE: f64 = 8.0;
-/// Equally spaced frequencies up to π.
-const EVEN: usize = 48;
+/// Number of frequencies per decade below one radian per step.
+const FREQUENCIES_PER_DECADE: f64 = 8.0;
+/// Number of equally spaced frequencies up to π.
+const EVEN_FREQUENCY_COUNT: usize = 48;
 /// Lowest frequency, relative to the frequency of the horizon.
-const LOWEST: f64 = 0.1;
+const LOWEST_FREQUENCY_RATIO: f64 = 0.1;
 /// Order of H above which only a third of the frequencies are tried.
-const LARGE: usize = 100;
+const MAX_DENSE_SEARCH_ORDER: usize = 100;
 
 /// Smallest eigenvalue, and its frequency in radians per step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Margin {
-    pub(super) least: f64,
+pub(super) struct PassivityMargin {
+    pub(super) smallest: f64,
     pub(super) frequency: f64,
 }
 
@@ -34,28 +34,28 @@ pub(super) fn margin(
     lags: &Lags,
     tail: &Tail,
     horizon: f64,
-) -> Margin {
+) -> PassivityMargin {
     let order = kernel.classes().layout().len();
-    let thin = if order > LARGE { 3.0 } else { 1.0 };
+    let stride = if order > MAX_DENSE_SEARCH_ORDER { 3.0 } else { 1.0 };
     let mut frequencies = Vec::new();
-    let mut omega = LOWEST / horizon;
+    let mut omega = LOWEST_FREQUENCY_RATIO / horizon;
     while omega < 1.0 {
         frequencies.push(omega);
-        omega *= 10.0_f64.powf(thin / PER_DECADE);
+        omega *= 10.0_f64.powf(stride / FREQUENCIES_PER_DECADE);
     }
-    let mut even = 1.0;
-    while even <= EVEN as f64 {
-        frequencies.push(std::f64::consts::PI * even / EVEN as f64);
-        even += thin;
+    let mut number = 1.0;
+    while number <= EVEN_FREQUENCY_COUNT as f64 {
+        frequencies.push(std::f64::consts::PI * number / EVEN_FREQUENCY_COUNT as f64);
+        number += stride;
     }
-    let mut found = Margin { least: f64::INFINITY, frequency: 0.0 };
+    let mut found = PassivityMargin { smallest: f64::INFINITY, frequency: 0.0 };
     for frequency in frequencies {
-        let least = least_at(kernel, lags, tail, frequency);
+        let smallest = smallest_at(kernel, lags, tail, frequency);
         // NaN must not pass.
-        if least.is_nan() || least < found.least {
-            found = Margin { least, frequency };
+        if smallest.is_nan() || smallest < found.smallest {
+            found = PassivityMargin { smallest, frequency };
         }
-        if least.is_nan() {
+        if smallest.is_nan() {
             break;
         }
     }
@@ -63,27 +63,31 @@ pub(super) fn margin(
 }
 
 /// Smallest eigenvalue at one frequency.
-fn least_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
+fn smallest_at(kernel: &dyn ConvolutionWeights, lags: &Lags, tail: &Tail, omega: f64) -> f64 {
     let classes = kernel.classes();
     let window = lags.length();
     // Re (1−ζ) ζ^d = cos dω − cos (d+1)ω over 1 − cos ω = 2 sin² ω/2.
     let half = 0.5 * omega;
     let steps: Vec<f64> =
         (0..window).map(|d| ((d as f64 + 0.5) * omega).sin() / half.sin()).collect();
-    let sum = |lags: &[f64]| lags.iter().zip(&steps).map(|(g, c)| g * c).sum::<f64>();
     let square = 2.0 * half.sin() * half.sin();
     let tails = tail.at_frequency(window as f64, omega);
-    let sums: Vec<[f64; KINDS]> = (0..classes.count())
-        .map(|class| lags.kinds.each_ref().map(|kind| sum(&kind[class])))
-        .collect();
-    let at_once = |class: usize, component: usize| lags.kinds[component][class][0];
-    classes.least_eigenvalue(at_once, |[receiver, source], pair| {
-        let mut values = sums[pair.class];
-        for (value, tail_sums) in values.iter_mut().zip(&tails) {
-            *value += tail.of_pair(tail_sums, receiver, source) / square;
-        }
-        values
-    })
+    let mut sums = Vec::with_capacity(classes.count());
+    for class in 0..classes.count() {
+        sums.push(lags.kinds.each_ref().map(|kind| {
+            kind[class].iter().zip(&steps).map(|(weight, factor)| weight * factor).sum::<f64>()
+        }));
+    }
+    classes.smallest_eigenvalue(
+        |class, component| lags.kinds[component][class][0],
+        |[receiver, source], pair| {
+            let mut values: [f64; STRIP_KINDS] = sums[pair.class];
+            for (value, tail_sums) in values.iter_mut().zip(&tails) {
+                *value += tail.of_pair(tail_sums, receiver, source) / square;
+            }
+            values
+        },
+    )
 }
 
 #[cfg(test)]
@@ -107,8 +111,7 @@ mod tests {
         {
             *weight *= factor;
         }
-        let (rates, functions) = (tail.rates, tail.functions);
-        let tail = ExponentialSum::new(rates, functions, products).unwrap();
+        let tail = ExponentialSum::new(tail.rates, tail.functions, products).unwrap();
         Tail::new(tail, kernel.classes().elements()).unwrap()
     }
 
@@ -117,11 +120,12 @@ mod tests {
         let kernel = patch();
         let window = 48;
         let lags = Lags::new(&kernel, window).unwrap();
-        let least = |factor| margin(&kernel, &lags, &tail(&kernel, window, factor), 1e6).least;
-        println!("{} {} {}", least(1.0), least(3.0), least(-1.0));
-        assert!(least(1.0) > 1e-3);
-        assert!(least(3.0) < 0.0);
-        assert!(least(-1.0) < 0.0);
+        let margins = [1.0, 3.0, -1.0]
+            .map(|factor| margin(&kernel, &lags, &tail(&kernel, window, factor), 1e6).smallest);
+        println!("{margins:?}");
+        assert!(margins[0] > 1e-3);
+        assert!(margins[1] < 0.0);
+        assert!(margins[2] < 0.0);
     }
 
     /// The closed form in ζ against the sum over the ages, by parts so that it converges.
@@ -135,11 +139,10 @@ mod tests {
             let closed = tail.at_frequency(window as f64, omega);
             for (part, closed) in closed.iter().enumerate() {
                 for (place, closed) in closed.iter().enumerate() {
-                    let value = |age: usize| ages[age][part][place];
-                    let mut sum = value(0) * (window as f64 * omega).cos();
+                    let mut sum = ages[0][part][place] * (window as f64 * omega).cos();
                     for age in 1..ages.len() {
                         let angle = (window + age) as f64 * omega;
-                        sum += (value(age) - value(age - 1)) * angle.cos();
+                        sum += (ages[age][part][place] - ages[age - 1][part][place]) * angle.cos();
                     }
                     let scale = ages[0][part][0].abs();
                     assert!((sum - closed).abs() < 1e-5 * scale, "{omega}: {sum} {closed}");

@@ -1,26 +1,40 @@
 //! Error of the exponentials against the exact coefficients of sampled pairs.
 
-use super::tail::{Measured, Tail};
+use super::tail::{MeasuredErrors, Tail};
 use crate::error::Result;
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::KINDS;
+use crate::history::pair_classes::STRIP_KINDS;
 
-/// Lags checked per octave: about two per period of the trapezoidal rule's error, which oscillates
-/// with ln t, at phases that do not repeat.
-const PER_OCTAVE: f64 = 7.3;
-/// Number of pair classes checked; of more classes, an even sample. The error is a polynomial in
-/// space.
-const CLASSES: usize = 150;
+/// Number of lags checked per octave.
+///
+/// The trapezoidal rule's error oscillates with ln t: this is about two lags a period, at phases that do not repeat.
+const CHECKED_LAGS_PER_OCTAVE: f64 = 7.3;
+/// Largest number of pair classes checked; of more classes, an even sample.
+///
+/// The error is a polynomial in space.
+const MAX_CHECKED_CLASSES: usize = 150;
 
-/// Errors at one lag, their change to the next lag, and the largest coefficient.
-struct Sample {
-    error: f64,
+/// Largest errors of the sampled coefficients at one lag.
+#[derive(Default)]
+struct LagErrors {
+    /// m/Pa.
+    absolute: f64,
+    /// Change of an error from this lag to the next, m/Pa.
     change: f64,
+    /// Relative to the largest coefficient of the same components.
     relative: f64,
-    largest: f64,
+    /// Largest coefficient, m/Pa.
+    coefficient: f64,
 }
 
-impl Measured {
+/// Largest error and largest coefficient of the normal or of the tangential components, m/Pa.
+#[derive(Clone, Copy, Default)]
+struct ComponentErrors {
+    error: f64,
+    coefficient: f64,
+}
+
+impl MeasuredErrors {
     /// Measures the errors over the lags from `window` + 1 to `horizon`.
     pub(super) fn over(
         kernel: &dyn ConvolutionWeights,
@@ -29,27 +43,32 @@ impl Measured {
         horizon: usize,
     ) -> Result<Self> {
         let pairs = SampledPairs::new(kernel);
-        let sample = |lag: usize| pairs.at(kernel, tail, lag, window);
         let mut lag = window + 1;
-        let mut before = sample(lag)?;
-        let mut found =
-            Self { relative: before.relative, increments: before.error, last: before.largest };
+        let mut errors = pairs.errors_at(kernel, tail, lag, window)?;
+        let mut measured = Self {
+            largest_relative: errors.relative,
+            increment_sum: errors.absolute,
+            last_coefficient: errors.coefficient,
+        };
         while lag < horizon {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a lag")]
-            let next = (lag as f64 * (1.0 / PER_OCTAVE).exp2()).ceil() as usize;
+            let next = (lag as f64 * (1.0 / CHECKED_LAGS_PER_OCTAVE).exp2()).ceil() as usize;
             let next = next.clamp(lag + 1, horizon.max(lag + 1));
-            let now = sample(next)?;
-            found.increments += before.change.max(now.change) * (next - lag) as f64;
-            found.relative = found.relative.max(now.relative);
-            found.last = now.largest;
-            (lag, before) = (next, now);
+            let next_errors = pairs.errors_at(kernel, tail, next, window)?;
+            measured.increment_sum += errors.change.max(next_errors.change) * (next - lag) as f64;
+            measured.largest_relative = measured.largest_relative.max(next_errors.relative);
+            measured.last_coefficient = next_errors.coefficient;
+            lag = next;
+            errors = next_errors;
         }
-        Ok(found)
+        Ok(measured)
     }
 }
 
-/// Pairs of elements on which errors are measured: places in the list of pairs, at most one for each class.
-struct SampledPairs(Vec<usize>);
+/// Places in the list of pairs at which errors are measured, at most one for each class.
+struct SampledPairs {
+    places: Vec<usize>,
+}
 
 impl SampledPairs {
     fn new(kernel: &dyn ConvolutionWeights) -> Self {
@@ -57,45 +76,51 @@ impl SampledPairs {
         for (place, pair) in kernel.classes().pairs().iter().enumerate() {
             first_pair[pair.class].get_or_insert(place);
         }
-        let stride = kernel.classes().count().div_ceil(CLASSES);
-        let places = first_pair.iter().flatten().copied().enumerate();
-        let places =
-            places.filter(|(k, _)| k % stride == 0 || k + 1 == first_pair.len()).map(|(_, at)| at);
-        Self(places.collect())
+        let stride = kernel.classes().count().div_ceil(MAX_CHECKED_CLASSES);
+        let mut places = vec![];
+        for (k, place) in first_pair.iter().flatten().enumerate() {
+            if k % stride == 0 || k + 1 == first_pair.len() {
+                places.push(*place);
+            }
+        }
+        Self { places }
     }
 
     /// Errors of the exponentials at a lag beyond the window.
-    fn at(
+    fn errors_at(
         &self,
         kernel: &dyn ConvolutionWeights,
         tail: &Tail,
         lag: usize,
         window: usize,
-    ) -> Result<Sample> {
+    ) -> Result<LagErrors> {
         let count = kernel.classes().elements().len();
         let age = (lag - window - 1) as f64;
         let fits = [tail.at_age(age), tail.at_age(age + 1.0)];
-        let mut sample = Sample { error: 0.0, change: 0.0, relative: 0.0, largest: 0.0 };
-        let mut worst = [[0.0_f64; 2]; 2];
-        for &place in &self.0 {
+        let mut errors = LagErrors::default();
+        // Of the normal and of the tangential components.
+        let mut components = [ComponentErrors::default(); 2];
+        for &place in &self.places {
             let pair = kernel.classes().pairs()[place];
-            let (p, q) = (place / count, place % count);
-            let [mut zz, mut xx, mut zx] = [[0.0; 2]; KINDS];
-            kernel.coefficients(pair.class, lag, [&mut zz, &mut xx, &mut zx])?;
-            for (part, exact) in [zz, xx].iter().enumerate() {
-                let error =
-                    [0, 1].map(|k| pair.scale * (tail.of_pair(&fits[k][part], p, q) - exact[k]));
-                let [worst_error, largest] = &mut worst[part];
-                *worst_error = worst_error.max(error[0].abs());
-                *largest = largest.max((pair.scale * exact[0]).abs());
-                sample.change = sample.change.max((error[1] - error[0]).abs());
+            let receiver = place / count;
+            let source = place % count;
+            let mut exact = [[0.0; 2]; STRIP_KINDS];
+            let slices = exact.each_mut().map(<[f64; 2]>::as_mut_slice);
+            kernel.coefficients(pair.class, lag, slices)?;
+            for (part, (exact, found)) in exact.iter().zip(&mut components).enumerate() {
+                let error = [0, 1].map(|k| {
+                    pair.scale * (tail.of_pair(&fits[k][part], receiver, source) - exact[k])
+                });
+                found.error = found.error.max(error[0].abs());
+                found.coefficient = found.coefficient.max((pair.scale * exact[0]).abs());
+                errors.change = errors.change.max((error[1] - error[0]).abs());
             }
         }
-        for [error, largest] in worst {
-            sample.error = sample.error.max(error);
-            sample.largest = sample.largest.max(largest);
-            sample.relative = sample.relative.max(error / largest);
+        for ComponentErrors { error, coefficient } in components {
+            errors.absolute = errors.absolute.max(error);
+            errors.coefficient = errors.coefficient.max(coefficient);
+            errors.relative = errors.relative.max(error / coefficient);
         }
-        Ok(sample)
+        Ok(errors)
     }
 }

@@ -1,22 +1,23 @@
-//! Late lags as decaying exponentials in time and a few functions over the patch in space, with their state, which
-//! represents all tractions from before the window.
+//! Late lags as decaying exponentials in time and a few functions over the patch in space.
+//!
+//! Their state represents all tractions from before the window.
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of their caller")]
 
 use crate::error::{Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactElement, ContactLayout};
 use crate::history::exponential_sum::{ExponentialSum, TailProduct};
-use crate::linalg::{Dot, Simd, WithSimd, dot, vectorized};
+use crate::linalg::{Dot, Simd, SimdSlice, SimdSliceMut, WithSimd, dot, vectorized};
 
 /// Measured errors of exponentials.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Measured {
+pub(crate) struct MeasuredErrors {
     /// Largest error of any coefficient, relative to the largest coefficient of the same lag.
-    pub(super) relative: f64,
+    pub(super) largest_relative: f64,
     /// Σ over lags of the largest change of an error from lag to lag, m/Pa.
-    pub(super) increments: f64,
+    pub(super) increment_sum: f64,
     /// Largest coefficient at the end of the horizon, m/Pa.
-    pub(super) last: f64,
+    pub(super) last_coefficient: f64,
 }
 
 /// An [`ExponentialSum`] and its state.
@@ -27,8 +28,9 @@ pub(super) struct Tail {
     data: ExponentialSum,
     /// e^(−rate), pole by pole.
     decay: Vec<f64>,
-    /// States of normal and tangential components, for each function: Σ decay^age · moment, for the poles that have
-    /// this function.
+    /// States of normal and tangential components, for each function and its poles.
+    ///
+    /// A state is Σ decay^age · moment.
     states: [Vec<Vec<f64>>; COMPONENTS_IN_PLANE],
     moments: Vec<f64>,
     amplitudes: Vec<f64>,
@@ -73,7 +75,7 @@ impl Tail {
         self.states.iter().flatten().map(Vec::len).sum()
     }
 
-    /// Bytes held.
+    /// Bytes of memory used.
     pub(super) fn memory(&self) -> usize {
         let products: usize = self.data.products.iter().map(|p| 2 * p.normal.len()).sum();
         let functions = self.functions() * self.lengths.len();
@@ -87,8 +89,8 @@ impl Tail {
 
     /// Restores the state, of length [`Tail::state_length`].
     pub(super) fn set_state(&mut self, state: &[f64]) {
-        for (own, saved) in self.states.iter_mut().flatten().flatten().zip(state) {
-            *own = *saved;
+        for (value, saved) in self.states.iter_mut().flatten().flatten().zip(state) {
+            *value = *saved;
         }
     }
 
@@ -106,7 +108,7 @@ impl Tail {
                     }
                 }
             }
-            vectorized(Advance { states, decay: &self.decay, moments: &self.moments });
+            vectorized(AdvanceStates { states, decay: &self.decay, moments: &self.moments });
         }
     }
 
@@ -116,7 +118,7 @@ impl Tail {
             ContactLayout::new(COMPONENTS_IN_PLANE, self.lengths.len()).split_mut(displacement);
         for (part, (states, displacement)) in self.states.iter().zip(parts).enumerate() {
             let amplitudes = self.amplitudes.as_mut_slice();
-            vectorized(Answer { states, products: &self.data.products, part, amplitudes });
+            vectorized(TailAmplitudes { states, products: &self.data.products, part, amplitudes });
             for (amplitude, means) in self.amplitudes.iter().zip(&self.data.functions) {
                 for (displacement, mean) in displacement.iter_mut().zip(means) {
                     *displacement += amplitude * mean;
@@ -151,19 +153,25 @@ impl Tail {
         self.sum(|pole| (-self.data.rates[pole] * age).exp())
     }
 
-    /// The sums of Re Σ (1−ζ) ζ^W z^n ζ^n, ζ = e^(iω) and z the decay, over all ages n.
+    /// The sums at a frequency.
+    ///
+    /// They are Re Σ (1−ζ) ζ^W z^n ζ^n over all ages n, with ζ = e^(iω) and the decay z.
     pub(super) fn at_frequency(&self, window: f64, omega: f64) -> [Vec<f64>; COMPONENTS_IN_PLANE] {
         let half = 0.5 * omega;
-        let (sine, square) = (omega.sin(), 2.0 * half.sin() * half.sin());
-        let (turn_re, turn_im) = ((window * omega).cos(), (window * omega).sin());
+        let sine = omega.sin();
+        let square = 2.0 * half.sin() * half.sin();
+        let rotation_re = (window * omega).cos();
+        let rotation_im = (window * omega).sin();
         self.sum(|pole| {
             // (1−ζ)/(1−zζ), 1−ζ = square − i sine, 1−zζ = (1−z) + z(1−ζ).
-            let (lost, z) = (-(-self.data.rates[pole]).exp_m1(), self.decay[pole]);
-            let (re, im) = (lost + z * square, -z * sine);
-            let size = re * re + im * im;
-            let (real, imaginary) =
-                ((square * re - sine * im) / size, (-sine * re - square * im) / size);
-            real * turn_re - imaginary * turn_im
+            let one_minus_z = -(-self.data.rates[pole]).exp_m1();
+            let z = self.decay[pole];
+            let denominator_re = one_minus_z + z * square;
+            let denominator_im = -z * sine;
+            let norm = denominator_re * denominator_re + denominator_im * denominator_im;
+            let quotient_re = (square * denominator_re - sine * denominator_im) / norm;
+            let quotient_im = (-sine * denominator_re - square * denominator_im) / norm;
+            quotient_re * rotation_re - quotient_im * rotation_im
         })
     }
 
@@ -174,9 +182,9 @@ impl Tail {
         let mean: f64 = functions
             .iter()
             .zip(sum.chunks_exact(functions.len().max(1)))
-            .map(|(p, row)| {
-                let over = |(b, q): (&f64, &Vec<f64>)| b * q[source];
-                p[receiver] * row.iter().zip(functions).map(over).sum::<f64>()
+            .map(|(means, row)| {
+                let terms = row.iter().zip(functions).map(|(weight, means)| weight * means[source]);
+                means[receiver] * terms.sum::<f64>()
             })
             .sum();
         area * mean
@@ -184,25 +192,25 @@ impl Tail {
 }
 
 /// Advances the states by a step: they decay, and moments are added.
-struct Advance<'a> {
+struct AdvanceStates<'a> {
     states: &'a mut [Vec<f64>],
     decay: &'a [f64],
     moments: &'a [f64],
 }
 
-impl WithSimd for Advance<'_> {
+impl WithSimd for AdvanceStates<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         for (state, moment) in self.states.iter_mut().zip(self.moments) {
-            let wide = simd.splat_f64s(*moment);
-            let (decay, decay_tail) = S::as_simd_f64s(&self.decay[..state.len()]);
-            let (state, state_tail) = S::as_mut_simd_f64s(state);
-            for (state, decay) in state.iter_mut().zip(decay) {
-                *state = simd.mul_add_e_f64s(*state, *decay, wide);
+            let splat_moment = simd.splat_f64s(*moment);
+            let decay = SimdSlice::<S>::new(&self.decay[..state.len()]);
+            let state = SimdSliceMut::<S>::new(state);
+            for (state, decay) in state.vectors.iter_mut().zip(decay.vectors) {
+                *state = simd.mul_add_e_f64s(*state, *decay, splat_moment);
             }
-            for (state, decay) in state_tail.iter_mut().zip(decay_tail) {
+            for (state, decay) in state.tail.iter_mut().zip(decay.tail) {
                 *state = *state * decay + moment;
             }
         }
@@ -210,14 +218,14 @@ impl WithSimd for Advance<'_> {
 }
 
 /// Amplitudes of the functions at the end of the next step.
-struct Answer<'a> {
+struct TailAmplitudes<'a> {
     states: &'a [Vec<f64>],
     products: &'a [TailProduct],
     part: usize,
     amplitudes: &'a mut [f64],
 }
 
-impl WithSimd for Answer<'_> {
+impl WithSimd for TailAmplitudes<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -225,7 +233,8 @@ impl WithSimd for Answer<'_> {
         let Self { states, products, part, amplitudes } = self;
         amplitudes.fill(0.0);
         for product in products {
-            let (x, [i, j]) = (weights(product, part), product.functions);
+            let x = weights(product, part);
+            let [i, j] = product.functions;
             amplitudes[i] += Dot { weights: None, x, y: &states[j] }.with_simd(simd);
             if i != j {
                 amplitudes[j] += Dot { weights: None, x, y: &states[i] }.with_simd(simd);

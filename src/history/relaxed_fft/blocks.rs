@@ -4,19 +4,19 @@ use crate::error::{Result, Watch};
 use crate::history::convolution_weights::ConvolutionWeights;
 
 /// Number of parts in which the computation of spectra is observed.
-pub(super) const PARTS: usize = 100;
+pub(super) const SPECTRA_PROGRESS_PARTS: usize = 100;
 
 /// Inputs and outputs so far, and the computation of blocks of outputs from blocks of inputs.
-pub(crate) trait Blocks: Send {
+pub(crate) trait HistoryBlocks: Send {
     /// Number of steps for which memory and all levels are ready.
     ///
-    /// If it is not a power of two, the outputs of the last blocks end there, and are missing when the capacity grows.
+    /// If it is not a power of two, the outputs of the last blocks end there: they are missing when the capacity grows.
     fn capacity(&self) -> usize;
 
-    /// Real numbers held.
+    /// Number of real numbers stored.
     fn numbers(&self) -> usize;
 
-    /// Makes the blocks ready for at least `steps` steps; `watch` is notified in [`PARTS`].
+    /// Makes the blocks ready for at least `steps` steps; `watch` is notified in [`SPECTRA_PROGRESS_PARTS`].
     ///
     /// Inputs and outputs are unchanged on an error.
     fn grow(
@@ -28,17 +28,20 @@ pub(crate) trait Blocks: Send {
 
     /// Makes the blocks ready for any number of steps, in memory that does not grow.
     ///
-    /// The coefficients after d = `reach`, a leaf times a power of two, must be zero; of a lattice they are ignored.
-    /// Call this before the first step, in place of [`Blocks::grow`], or while the capacity is at most 2 `reach`.
+    /// The coefficients after d = `last_delay`, a leaf times a power of two, must be zero; of a lattice they are ignored.
+    /// Call this before the first step, in place of [`HistoryBlocks::grow`], or while the capacity is at most
+    /// 2 `last_delay`.
     fn bound(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        reach: usize,
+        last_delay: usize,
         watch: &mut Watch,
     ) -> Result<()>;
 
-    /// Adds the effect of the input of step `now` − 1, so that the output of `now` is complete.
-    fn work_in(&mut self, now: usize);
+    /// Adds the effect of the last input, so that the output of `now` is complete.
+    ///
+    /// The last input is of step `now` − 1.
+    fn add_effects(&mut self, now: usize);
 
     /// Accepts the input of step `now`.
     fn write(&mut self, now: usize, traction: &[f64]);
@@ -46,10 +49,10 @@ pub(crate) trait Blocks: Send {
     /// Number of values that store the input of a step.
     fn width(&self) -> usize;
 
-    /// Appends the stored input of `step`; the effects of inputs before `worked_in` have been added.
-    fn input(&self, step: usize, worked_in: usize, values: &mut Vec<f64>);
+    /// Appends the stored input of `step`; the effects of inputs before `effects_end` have been added.
+    fn input(&self, step: usize, effects_end: usize, values: &mut Vec<f64>);
 
-    /// Accepts for step `now` an input returned by [`Blocks::input`].
+    /// Accepts for step `now` an input returned by [`HistoryBlocks::input`].
     fn write_input(&mut self, now: usize, input: &[f64]);
 
     /// Removes all inputs and outputs.

@@ -4,8 +4,8 @@
 
 use std::sync::Arc;
 
-use super::ring::LEAF;
-use super::tables::{Class, Tables};
+use super::ring::LEAF_STEPS;
+use super::tables::{ClassCoefficients, ShortLagTables};
 use crate::error::Result;
 use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::convolution_weights::ConvolutionWeights;
@@ -24,40 +24,43 @@ pub(super) struct Coefficients {
     /// Number of lags over which the coupling is summed directly.
     pub(super) coupling_direct: usize,
     /// Tables of short lags, empty until they are needed.
-    pub(super) near: Arc<Tables>,
+    pub(super) short_lags: Arc<ShortLagTables>,
 }
 
 impl Coefficients {
-    /// Coefficients of `kernel`; a coupling that ends at `direct` or before is summed directly.
-    pub(super) fn new(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
+    /// Coefficients of `kernel`; a coupling that ends at `max_direct` or before is summed directly.
+    pub(super) fn new(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         let classes = kernel.classes().clone();
-        let reach = |last: Option<usize>| last.map_or(usize::MAX, |lag| lag.saturating_sub(1));
-        let reaches = (0..classes.count())
-            .map(|class| Ok(reach(kernel.last_coupling_lag(class)?)))
-            .collect::<Result<Vec<_>>>()?;
+        let mut reaches = Vec::with_capacity(classes.count());
+        for class in 0..classes.count() {
+            let last_lag = kernel.last_coupling_lag(class)?;
+            reaches.push(last_lag.map_or(usize::MAX, |lag| lag.saturating_sub(1)));
+        }
         let coupling_reach = reaches.iter().copied().max().unwrap_or(0);
-        let couples_far = coupling_reach > direct;
-        let coupling_direct = if couples_far { LEAF - 1 } else { coupling_reach };
-        let near = Arc::default();
-        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, near })
+        let couples_far = coupling_reach > max_direct;
+        let coupling_direct = if couples_far { LEAF_STEPS - 1 } else { coupling_reach };
+        let short_lags = Arc::default();
+        Ok(Self { classes, reaches, coupling_reach, couples_far, coupling_direct, short_lags })
     }
 
     /// Number of values of d in the tables.
     pub(super) fn length(&self) -> usize {
-        LEAF.max(self.coupling_direct + 1)
+        LEAF_STEPS.max(self.coupling_direct + 1)
     }
 
     /// Adds the next class to `tables`; `values` may be longer than [`Coefficients::length`].
-    pub(super) fn add_class(&self, values: &Class, tables: &mut Tables) {
+    pub(super) fn add_class(&self, values: &ClassCoefficients, tables: &mut ShortLagTables) {
         let reach = self.reaches[tables[0].len()].min(self.coupling_direct);
         for (kind, (table, values)) in tables.iter_mut().zip(values).enumerate() {
-            let end = if kind < COMPONENTS_IN_PLANE { LEAF } else { reach + 1 };
+            let end = if kind < COMPONENTS_IN_PLANE { LEAF_STEPS } else { reach + 1 };
             table.push(values[..end.min(values.len())].to_vec());
         }
     }
 }
 
-/// Adds the effect of input `now` to the other `ahead` outputs of its leaf, and its coupling to `coupled` outputs.
+/// Adds the effect of input `now` to the outputs after it.
+///
+/// The diagonal components act on the other `ahead` outputs of the leaf, the coupling on `coupled` outputs.
 pub(super) struct Scatter<'a> {
     pub(super) coefficients: &'a Coefficients,
     pub(super) rows: &'a mut [f64],
@@ -72,35 +75,40 @@ impl WithSimd for Scatter<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { coefficients: Coefficients { classes, near, .. }, rows, stride, now, .. } = self;
-        let (ahead, count) = (self.ahead, classes.elements().len());
-        let [normal, tangential, ..] = &**near;
+        let Self {
+            coefficients: Coefficients { classes, short_lags, .. }, rows, stride, now, ..
+        } = self;
+        let ahead = self.ahead;
+        let count = classes.elements().len();
         for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
             let scale = pairs[p].scale;
-            for (row, table, other) in [(p, normal, 0), (count + p, tangential, count)] {
-                let (mut q, mut four) = (0, pairs.chunks_exact(4));
-                for pairs in four.by_ref() {
+            for (component, table) in short_lags.iter().enumerate().take(COMPONENTS_IN_PLANE) {
+                let first_row = component * count;
+                let row = first_row + p;
+                let mut q = 0;
+                let mut groups = pairs.chunks_exact(4);
+                for group in groups.by_ref() {
                     let values: [f64; 4] =
-                        std::array::from_fn(|k| scale * rows[(other + q + k) * stride + now]);
-                    let from: [&[f64]; 4] =
-                        std::array::from_fn(|k| &table[pairs[k].class][1..=ahead]);
+                        std::array::from_fn(|k| scale * rows[(first_row + q + k) * stride + now]);
+                    let lags: [&[f64]; 4] =
+                        std::array::from_fn(|k| &table[group[k].class][1..=ahead]);
                     let output = &mut rows[row * stride + now + 1..][..ahead];
-                    add_rows(simd, values, from, output);
+                    add_rows(simd, values, lags, output);
                     q += 4;
                 }
-                for pair in four.remainder() {
-                    let value = scale * rows[(other + q) * stride + now];
+                for pair in groups.remainder() {
+                    let value = scale * rows[(first_row + q) * stride + now];
                     let output = &mut rows[row * stride + now + 1..][..ahead];
                     add_row(simd, value, &table[pair.class][1..=ahead], output);
                     q += 1;
                 }
             }
             for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
-                let ends = [(p, count + q), (count + p, q)];
+                let places = [(p, count + q), (count + p, q)];
                 for ((kind, sign), (row, source)) in
-                    classes.coupling(p * count + q).into_iter().zip(ends)
+                    classes.coupling(p * count + q).into_iter().zip(places)
                 {
-                    let coupling = &near[kind][class];
+                    let coupling = &short_lags[kind][class];
                     let reach = self.coupled.min(coupling.len() - 1);
                     if sign == 0.0 || reach == 0 {
                         continue;

@@ -18,29 +18,29 @@ use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-use super::plan_spectra::{CHUNK, coefficients_in_plan};
+use super::plan_spectra::{LAGS_PER_CHUNK, coefficients_in_plan};
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, Lattice, SERIES_PER_OFFSET};
 use crate::history::convolution_weights::ConvolutionWeights;
-use crate::history::pair_classes::{KINDS, PairClasses};
-use crate::linalg::smooth;
+use crate::history::pair_classes::{PairClasses, STRIP_KINDS};
+use crate::linalg::next_smooth_even;
 
 /// Smallest number of elements for which the transform along the surface is used.
 ///
-/// Measured, µs per step by pairs and by wavenumbers: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0
-/// and 3.9. For fewer elements wavenumbers gain little time, and their rows take twice the memory.
-pub(super) const WAVES_FROM: usize = 8;
+/// For fewer elements wavenumbers save little time, and their rows take twice the memory. Measured times per step by
+/// pairs and by wavenumbers, µs: 6 elements 1.9 and 1.7, 10 elements 4.4 and 2.5, 14 elements 8.0 and 3.9.
+pub(super) const MIN_WAVENUMBER_ELEMENTS: usize = 8;
 
-/// Whether a history transforms along the surface, unless given otherwise.
-pub(super) fn takes_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
+/// Whether a history transforms along the surface by default.
+pub(super) fn uses_wavenumbers(kernel: &dyn ConvolutionWeights) -> bool {
     let classes = kernel.classes();
-    let many = classes.elements().len() >= WAVES_FROM;
-    classes.plan().is_some() || many && ElementGrid::from_pairs(classes).is_some()
+    let has_enough = classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS;
+    classes.plan().is_some() || has_enough && ElementGrid::from_pairs(classes).is_some()
 }
 
 /// Largest number of lattice cells per element: gaps between strips are transformed too.
-const EMPTY: usize = 2;
+const MAX_CELLS_PER_ELEMENT: usize = 2;
 
 /// Cells of the elements, and the transforms along the surface.
 pub(super) struct ElementGrid {
@@ -72,10 +72,12 @@ enum Offsets {
 }
 
 impl ElementGrid {
-    /// The lattice of the elements; `None` if they are not on a lattice, or most of its cells are empty.
+    /// The lattice of the elements.
+    ///
+    /// `None` if they are not on a lattice, or most of its cells are empty.
     pub(super) fn from_pairs(pairs: &PairClasses) -> Option<Self> {
         if let Some((lattice, cells)) = pairs.plan() {
-            let lengths = lattice.counts.map(|count| smooth(2 * count - 1));
+            let lengths = lattice.counts.map(|count| next_smooth_even(2 * count - 1));
             let cells = cells.iter().map(|[i, j]| j * lengths[0] + i).collect();
             let scale = 1.0 / (lattice.pitch[0] * lattice.pitch[1]);
             let rows = lattice.counts[1];
@@ -86,19 +88,22 @@ impl ElementGrid {
             return None;
         }
         let elements = pairs.elements();
-        let (first, last) = (elements.first()?, elements.last()?);
+        let first = elements.first()?;
+        let last = elements.last()?;
         let pitch = first.length();
-        let most = EMPTY * elements.len();
-        if (last.right() - first.left()) / pitch >= most as f64 + 0.5 {
+        let max_cells = MAX_CELLS_PER_ELEMENT * elements.len();
+        if (last.right() - first.left()) / pitch >= max_cells as f64 + 0.5 {
             return None;
         }
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
-            reason = "at most `most`"
+            reason = "at most `max_cells`"
         )]
-        let cell = |left: f64| ((left - first.left()) / pitch).round() as usize;
-        let cells: Vec<_> = elements.iter().map(|element| cell(element.left())).collect();
+        let cells: Vec<_> = elements
+            .iter()
+            .map(|element| ((element.left() - first.left()) / pitch).round() as usize)
+            .collect();
         let mut classes = vec![None; cells.last()? + 1];
         // Pairs of one class are equal except for rounding: all pairs of one offset must be in one class.
         let mut scales = pairs.pairs().iter().map(|pair| pair.scale);
@@ -114,7 +119,7 @@ impl ElementGrid {
                 }
             }
         }
-        let lengths = [smooth(2 * classes.len() - 1), 1];
+        let lengths = [next_smooth_even(2 * classes.len() - 1), 1];
         Some(Self::new(cells, Offsets::Strip(classes), scale, lengths, 1))
     }
 
@@ -126,14 +131,16 @@ impl ElementGrid {
         rows: usize,
     ) -> Self {
         let mut planner = RealFftPlanner::new();
-        let [length, across] = lengths;
-        let (forward, inverse) =
-            (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+        let length = lengths[0];
+        let forward = planner.plan_fft_forward(length);
+        let inverse = planner.plan_fft_inverse(length);
         let mut planner = FftPlanner::new();
-        let across = [planner.plan_fft_forward(across), planner.plan_fft_inverse(across)];
-        let along = forward.get_scratch_len().max(inverse.get_scratch_len());
-        let scratch =
-            across.iter().map(|plan| plan.get_inplace_scratch_len()).fold(along, usize::max);
+        let across = [planner.plan_fft_forward(lengths[1]), planner.plan_fft_inverse(lengths[1])];
+        let scratch_along = forward.get_scratch_len().max(inverse.get_scratch_len());
+        let scratch = across
+            .iter()
+            .map(|plan| plan.get_inplace_scratch_len())
+            .fold(scratch_along, usize::max);
         let columns = length / 2 + 1;
         Self {
             cells,
@@ -154,9 +161,9 @@ impl ElementGrid {
     pub(super) fn waves(&self) -> WaveNumbers {
         let columns = self.spectrum.len();
         WaveNumbers {
-            all: columns * self.lengths[1],
-            own: columns * (self.lengths[1] / 2 + 1),
-            first: columns,
+            count: columns * self.lengths[1],
+            with_spectra: columns * (self.lengths[1] / 2 + 1),
+            first_mirrored: columns,
         }
     }
 
@@ -171,12 +178,12 @@ impl ElementGrid {
     /// Number of kinds of coefficients.
     pub(super) fn kinds(&self) -> usize {
         match self.offsets {
-            Offsets::Strip(_) => KINDS,
+            Offsets::Strip(_) => STRIP_KINDS,
             Offsets::Plan(_) => SERIES_PER_OFFSET,
         }
     }
 
-    /// Real numbers held.
+    /// Number of real numbers stored.
     pub(super) fn numbers(&self) -> usize {
         self.real.len() + 2 * (self.spectrum.len() + self.spectra.len() + self.scratch.len())
     }
@@ -195,19 +202,26 @@ impl ElementGrid {
     fn transform(&mut self, row: usize) {
         let Self { forward, real, spectrum, scratch, lengths: [length, _], .. } = self;
         let scratch = &mut scratch[..forward.get_scratch_len()];
-        // All lengths are the plan's own, so there is nothing that could fail.
+        // All lengths come from the plan, so that the transform cannot fail.
         let real = &mut real[row * *length..(row + 1) * *length];
         let done = forward.process_with_scratch(real, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
     /// Transforms one value per element (missing ones count as zero) to real and imaginary parts.
-    pub(super) fn forward(&mut self, component: usize, values: &[f64], [re, im]: [&mut [f64]; 2]) {
+    pub(super) fn forward(
+        &mut self,
+        component: usize,
+        values: &[f64],
+        re: &mut [f64],
+        im: &mut [f64],
+    ) {
         self.real.fill(0.0);
         for (&cell, &value) in self.cells.iter().zip(values) {
             self.real[cell] = value;
         }
-        let [length, across] = self.lengths;
+        let length = self.lengths[0];
+        let across = self.lengths[1];
         let columns = self.spectrum.len();
         if across > 1 {
             self.spectra.fill(Complex::default());
@@ -220,40 +234,34 @@ impl ElementGrid {
             self.across[0].process_with_scratch(&mut self.spectra, &mut self.scratch);
             let rows = re.chunks_exact_mut(columns).zip(im.chunks_exact_mut(columns));
             for (row, (re, im)) in rows.enumerate() {
-                let (place, sign) = place_across(row, across, component);
+                let place = spectrum_row(row, across);
+                let sign = image_sign(row, across, component);
                 for (column, (re, im)) in re.iter_mut().zip(im).enumerate() {
                     let value = self.spectra[column * across + place];
-                    (*re, *im) = (sign * value.re, sign * value.im);
+                    *re = sign * value.re;
+                    *im = sign * value.im;
                 }
             }
             return;
         }
         self.transform(0);
         for (value, (re, im)) in self.spectrum.iter().zip(re.iter_mut().zip(im)) {
-            (*re, *im) = (value.re, value.im);
+            *re = value.re;
+            *im = value.im;
         }
     }
 
     /// Transforms real and imaginary parts back to one mean per element.
-    pub(super) fn inverse(&mut self, component: usize, parts: [&[f64]; 2], values: &mut [f64]) {
-        self.back(component, parts, self.scale, values);
-    }
-
-    /// Transforms real and imaginary parts back to the values given to [`ElementGrid::forward`], times `factor`.
-    pub(super) fn back(
-        &mut self,
-        component: usize,
-        [re, im]: [&[f64]; 2],
-        factor: f64,
-        values: &mut [f64],
-    ) {
-        let [length, across] = self.lengths;
+    pub(super) fn inverse(&mut self, component: usize, re: &[f64], im: &[f64], values: &mut [f64]) {
+        let length = self.lengths[0];
+        let across = self.lengths[1];
         let columns = self.spectrum.len();
         if across > 1 {
             for (row, (re, im)) in
                 re.chunks_exact(columns).zip(im.chunks_exact(columns)).enumerate()
             {
-                let (place, sign) = place_across(row, across, component);
+                let place = spectrum_row(row, across);
+                let sign = image_sign(row, across, component);
                 for (column, (re, im)) in re.iter().zip(im).enumerate() {
                     self.spectra[column * across + place] = Complex::new(sign * re, sign * im);
                 }
@@ -277,7 +285,7 @@ impl ElementGrid {
             let done = inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
         }
-        let scale = factor / (length * across) as f64;
+        let scale = self.scale / (length * across) as f64;
         for (&cell, value) in self.cells.iter().zip(values) {
             *value = scale * self.real[cell];
         }
@@ -299,37 +307,38 @@ impl ElementGrid {
         }
         let Offsets::Strip(classes) = &self.offsets else { return Ok(()) };
         let classes = classes.clone();
-        let (offsets, length) = (classes.len(), self.lengths[0]);
-        let mut table: [_; KINDS] = std::array::from_fn(|_| vec![0.0; CHUNK.min(count) * offsets]);
-        let mut values = vec![0.0; self.waves().all];
-        for begin in (0..count).step_by(CHUNK) {
-            let width = CHUNK.min(count - begin);
+        let offsets = classes.len();
+        let length = self.lengths[0];
+        let mut table: [_; STRIP_KINDS] =
+            std::array::from_fn(|_| vec![0.0; LAGS_PER_CHUNK.min(count) * offsets]);
+        let mut values = vec![0.0; self.waves().count];
+        for begin in (0..count).step_by(LAGS_PER_CHUNK) {
+            let width = LAGS_PER_CHUNK.min(count - begin);
             // The first weight is the step compliance, which does not belong to the history.
             let skip = usize::from(begin == 0);
             for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
-                let of = offset * width + skip..(offset + 1) * width;
-                let [normal, tangential, coupling] =
-                    table.each_mut().map(|values| &mut values[of.clone()]);
-                kernel.coefficients(*class, begin + skip + 1, [normal, tangential, coupling])?;
+                let range = offset * width + skip..(offset + 1) * width;
+                let slices = table.each_mut().map(|values| &mut values[range.clone()]);
+                kernel.coefficients(*class, begin + skip + 1, slices)?;
             }
             for d in begin + skip..begin + width {
                 for (kind, table) in table.iter().enumerate() {
-                    let odd = kind == 2;
-                    if odd && d >= coupled {
+                    let is_odd = kind == 2;
+                    if is_odd && d >= coupled {
                         continue;
                     }
                     self.real.fill(0.0);
                     for offset in 0..offsets {
                         let value = table[offset * width + d - begin];
-                        self.real[offset] = if odd && offset == 0 { 0.0 } else { value };
+                        self.real[offset] = if is_odd && offset == 0 { 0.0 } else { value };
                         if offset > 0 {
-                            self.real[length - offset] = if odd { -value } else { value };
+                            self.real[length - offset] = if is_odd { -value } else { value };
                         }
                     }
                     self.transform(0);
                     for (value, spectrum) in values.iter_mut().zip(&self.spectrum) {
-                        *value = if odd { spectrum.im } else { spectrum.re };
+                        *value = if is_odd { spectrum.im } else { spectrum.re };
                     }
                     accept(kind, d, &values)?;
                 }
@@ -339,13 +348,15 @@ impl ElementGrid {
     }
 }
 
-/// Position of a row of wavenumbers among the S along y, and the sign of a component there.
+/// Place of a row of wavenumbers among the S along y.
 ///
-/// The rows with spectra come first, then their images (kx, −ky), from the first that has an image on.
-fn place_across(row: usize, across: usize, component: usize) -> (usize, f64) {
-    let own = across / 2 + 1;
-    if row < own {
-        return (row, 1.0);
-    }
-    (across - (row - own + 1), if component == COMPONENTS_IN_SPACE - 1 { -1.0 } else { 1.0 })
+/// The rows with spectra come first, then their images (kx, −ky), beginning with the first row that has an image.
+fn spectrum_row(row: usize, across: usize) -> usize {
+    let rows_with_spectra = across / 2 + 1;
+    if row < rows_with_spectra { row } else { across - (row - rows_with_spectra + 1) }
+}
+
+/// Sign of a component in a row of wavenumbers: −1 for the component along y in an image.
+fn image_sign(row: usize, across: usize, component: usize) -> f64 {
+    if row > across / 2 && component == COMPONENTS_IN_SPACE - 1 { -1.0 } else { 1.0 }
 }

@@ -1,32 +1,34 @@
 //! Blocks of one size: their transforms, and the spectra of their coefficients.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use super::ring::Ring;
-use super::tables::Class;
+use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::pair_classes::{MOST_KINDS, Pair, PairClasses};
-use crate::linalg::{Simd, WithSimd, vectorized};
+use crate::history::pair_classes::{MAX_KINDS, Pair, PairClasses};
+use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
 use realfft::num_complex::Complex;
 use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
 
 /// Number of frequencies multiplied together, so that all inputs and outputs stay in cache.
-const TILE: usize = 64;
+const FREQUENCIES_PER_TILE: usize = 64;
 
 /// Effect of b inputs on the next b outputs: convolutions of length 2b.
-pub(super) struct Level {
+pub(super) struct PairLevel {
     /// b.
     pub(super) size: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
-    /// Spectra over 2b of each kind and class: b + 1 real parts, then as many imaginary parts. The coupling has none if
-    /// it ends within smaller blocks.
-    spectra: [Vec<f64>; MOST_KINDS],
+    /// Spectra over 2b of each kind and class: real parts, then imaginary parts.
+    ///
+    /// There are b + 1 of each. The coupling has none if it ends within smaller blocks.
+    spectra: [Vec<f64>; MAX_KINDS],
 }
 
 /// Scratch of the transforms of all levels.
 #[derive(Default)]
-pub(super) struct Work {
+pub(super) struct TransformScratch {
     real: Vec<f64>,
     spectra: Vec<Complex<f64>>,
     scratch: Vec<Complex<f64>>,
@@ -34,8 +36,8 @@ pub(super) struct Work {
     outputs: Vec<f64>,
 }
 
-impl Work {
-    /// Real numbers held.
+impl TransformScratch {
+    /// Number of real numbers stored.
     pub(super) fn numbers(&self) -> usize {
         self.real.capacity()
             + 2 * (self.spectra.capacity() + self.scratch.capacity())
@@ -44,16 +46,20 @@ impl Work {
     }
 
     /// Enlarges the scratch for blocks of `level` with `components` transformed together.
-    pub(super) fn grow(&mut self, level: &Level, components: usize) {
-        let scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
-        let zero = Complex::default();
-        let longer = |length: usize, needed: usize| length.max(needed);
-        self.real.resize(longer(self.real.len(), 2 * level.size), 0.0);
-        self.spectra.resize(longer(self.spectra.len(), components * (level.size + 1)), zero);
-        self.scratch.resize(longer(self.scratch.len(), scratch), zero);
-        self.inputs.resize(longer(self.inputs.len(), components * 2 * TILE), 0.0);
-        self.outputs.resize(longer(self.outputs.len(), components * 2 * TILE), 0.0);
+    pub(super) fn grow(&mut self, level: &PairLevel, components: usize) {
+        let plan_scratch = level.forward.get_scratch_len().max(level.inverse.get_scratch_len());
+        let tile = components * 2 * FREQUENCIES_PER_TILE;
+        extend_to(&mut self.real, 2 * level.size);
+        extend_to(&mut self.spectra, components * (level.size + 1));
+        extend_to(&mut self.scratch, plan_scratch);
+        extend_to(&mut self.inputs, tile);
+        extend_to(&mut self.outputs, tile);
     }
+}
+
+/// Extends a buffer with zeros to at least `length` values.
+fn extend_to<T: Copy + Default>(buffer: &mut Vec<T>, length: usize) {
+    buffer.resize(buffer.len().max(length), T::default());
 }
 
 /// Components of tractions and displacements that a product includes.
@@ -68,7 +74,7 @@ pub(super) enum Components {
 }
 
 /// Rows of inputs and outputs, and the pair classes of the elements.
-pub(super) struct Block<'a> {
+pub(super) struct BlockRows<'a> {
     /// 2Q rows of inputs and outputs.
     pub(super) rows: &'a mut [f64],
     /// Length of a row.
@@ -79,30 +85,38 @@ pub(super) struct Block<'a> {
     pub(super) classes: &'a PairClasses,
 }
 
-impl Level {
-    /// Numbers held.
+impl PairLevel {
+    /// Number of real numbers stored.
     pub(super) fn numbers(&self) -> usize {
         self.spectra.iter().map(Vec::capacity).sum()
     }
 
-    /// Blocks of `size`, without spectra yet, with memory for `classes` spectra of each of the first `kinds`.
+    /// Blocks of `size`, without spectra yet.
+    ///
+    /// Allocates for `classes` spectra of each of the first `kinds`.
     pub(super) fn new(
         size: usize,
         classes: usize,
         kinds: usize,
         planner: &mut RealFftPlanner<f64>,
     ) -> Self {
-        let numbers = |kind| if kind < kinds { classes * 2 * (size + 1) } else { 0 };
         Self {
             size,
             forward: planner.plan_fft_forward(2 * size),
             inverse: planner.plan_fft_inverse(2 * size),
-            spectra: std::array::from_fn(|kind| Vec::with_capacity(numbers(kind))),
+            spectra: std::array::from_fn(|kind| {
+                Vec::with_capacity(if kind < kinds { classes * 2 * (size + 1) } else { 0 })
+            }),
         }
     }
 
     /// Adds the spectra of the first `kinds` of the next class, from at least 2b coefficients.
-    pub(super) fn add_class(&mut self, values: &Class, kinds: usize, work: &mut Work) {
+    pub(super) fn add_class(
+        &mut self,
+        values: &ClassCoefficients,
+        kinds: usize,
+        work: &mut TransformScratch,
+    ) {
         for (values, stored) in values.iter().zip(&mut self.spectra).take(kinds) {
             let real = &mut work.real[..2 * self.size];
             let spectrum = &mut work.spectra[..=self.size];
@@ -114,35 +128,43 @@ impl Level {
     }
 
     /// Adds the effect of the last b inputs to the next b outputs.
-    pub(super) fn apply(&self, block: &mut Block<'_>, part: Components, work: &mut Work) {
+    pub(super) fn apply(
+        &self,
+        block: &mut BlockRows<'_>,
+        part: Components,
+        work: &mut TransformScratch,
+    ) {
         let count = block.classes.elements().len();
         if part == Components::Even {
             // One component after the other needs half the scratch.
             for kind in 0..COMPONENTS_IN_PLANE {
-                self.apply_to(block, part, kind, [kind * count, count], work);
+                self.apply_to(block, part, kind, kind * count..(kind + 1) * count, work);
             }
         } else {
-            self.apply_to(block, part, 0, [0, COMPONENTS_IN_PLANE * count], work);
+            self.apply_to(block, part, 0, 0..COMPONENTS_IN_PLANE * count, work);
         }
     }
 
-    /// Does [`Level::apply`] for `components` rows from `first` on; `kind` is used if all have one kind.
+    /// Does [`PairLevel::apply`] for a range of rows; `kind` is used if all have one kind.
     fn apply_to(
         &self,
-        block: &mut Block<'_>,
+        block: &mut BlockRows<'_>,
         part: Components,
         kind: usize,
-        [first, components]: [usize; 2],
-        work: &mut Work,
+        row_range: Range<usize>,
+        work: &mut TransformScratch,
     ) {
         let count = block.classes.elements().len();
-        let (size, bins) = (self.size, self.size + 1);
+        let first = row_range.start;
+        let components = row_range.len();
+        let size = self.size;
+        let frequencies = size + 1;
         for component in 0..components {
             let row = &block.rows[(first + component) * block.stride..][..block.stride];
             let real = &mut work.real[..2 * size];
             real[..size].copy_from_slice(&row[block.ring.before(block.now, size)]);
             real[size..].fill(0.0);
-            let spectrum = &mut work.spectra[component * bins..][..bins];
+            let spectrum = &mut work.spectra[component * frequencies..][..frequencies];
             transform(&*self.forward, real, spectrum, &mut work.scratch);
         }
         self.multiply(block.classes, part, kind, components, work);
@@ -150,9 +172,10 @@ impl Level {
             let receiver = block.classes.pairs()[component % count * count];
             let scale = receiver.scale / (2 * size) as f64;
             let real = &mut work.real[..2 * size];
-            let spectrum = &mut work.spectra[component * bins..][..bins];
+            let spectrum = &mut work.spectra[component * frequencies..][..frequencies];
             // These values are real up to rounding; the inverse transform requires exact zeros.
-            (spectrum[0].im, spectrum[size].im) = (0.0, 0.0);
+            spectrum[0].im = 0.0;
+            spectrum[size].im = 0.0;
             let scratch = &mut work.scratch[..self.inverse.get_scratch_len()];
             let done = self.inverse.process_with_scratch(spectrum, real, scratch);
             debug_assert!(done.is_ok());
@@ -171,32 +194,36 @@ impl Level {
         part: Components,
         kind: usize,
         components: usize,
-        work: &mut Work,
+        work: &mut TransformScratch,
     ) {
-        let (bins, count) = (self.size + 1, classes.elements().len());
-        let tiles = bins.div_ceil(TILE);
-        let width = bins.div_ceil(tiles);
-        let Work { spectra, inputs, outputs, .. } = work;
-        for begin in (0..bins).step_by(width) {
-            let width = width.min(bins - begin);
-            let of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
+        let frequencies = self.size + 1;
+        let count = classes.elements().len();
+        let tiles = frequencies.div_ceil(FREQUENCIES_PER_TILE);
+        let width = frequencies.div_ceil(tiles);
+        let TransformScratch { spectra, inputs, outputs, .. } = work;
+        for begin in (0..frequencies).step_by(width) {
+            let width = width.min(frequencies - begin);
+            let range_of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
             for component in 0..components {
-                let (re, im) = inputs[of(component)].split_at_mut(width);
-                let values = &spectra[component * bins + begin..][..width];
+                let (re, im) = inputs[range_of(component)].split_at_mut(width);
+                let values = &spectra[component * frequencies + begin..][..width];
                 for (value, (re, im)) in values.iter().zip(re.iter_mut().zip(im)) {
-                    (*re, *im) = (value.re, value.im);
+                    *re = value.re;
+                    *im = value.im;
                 }
             }
             outputs[..components * 2 * width].fill(0.0);
+            // Adds the product of a class's spectrum with the source's tile to the receiver's tile.
             let mut add = |(kind, sign): (usize, f64), class: usize, source, receiver| {
                 let stored = &self.spectra[kind];
                 if sign == 0.0 || stored.is_empty() {
                     return;
                 }
-                let part = |k: usize| &stored[(class * 2 + k) * bins + begin..][..width];
-                let plus = sign > 0.0;
-                let multiply = if plus { multiply_add::<true> } else { multiply_add::<false> };
-                multiply(&mut outputs[of(receiver)], [part(0), part(1)], &inputs[of(source)]);
+                let factor =
+                    [0, 1].map(|part| &stored[(class * 2 + part) * frequencies + begin..][..width]);
+                let multiply =
+                    if sign > 0.0 { multiply_add::<true> } else { multiply_add::<false> };
+                multiply(&mut outputs[range_of(receiver)], factor, &inputs[range_of(source)]);
             };
             for (p, pairs) in classes.pairs().chunks_exact(count).enumerate() {
                 for (q, &Pair { class, .. }) in pairs.iter().enumerate() {
@@ -209,15 +236,15 @@ impl Level {
                         }
                     }
                     if part != Components::Even {
-                        let [one, other] = classes.coupling(p * count + q);
-                        add(one, class, count + q, p);
-                        add(other, class, q, count + p);
+                        let coupling = classes.coupling(p * count + q);
+                        add(coupling[0], class, count + q, p);
+                        add(coupling[1], class, q, count + p);
                     }
                 }
             }
             for component in 0..components {
-                let (re, im) = outputs[of(component)].split_at(width);
-                let values = &mut spectra[component * bins + begin..][..width];
+                let (re, im) = outputs[range_of(component)].split_at(width);
+                let values = &mut spectra[component * frequencies + begin..][..width];
                 for (value, (re, im)) in values.iter_mut().zip(re.iter().zip(im)) {
                     *value = Complex::new(*re, *im);
                 }
@@ -233,7 +260,7 @@ fn transform(
     spectrum: &mut [Complex<f64>],
     scratch: &mut [Complex<f64>],
 ) {
-    // All lengths are the plan's own, so there is nothing that could fail.
+    // All lengths come from the plan, so that the transform cannot fail.
     let done = plan.process_with_scratch(real, spectrum, &mut scratch[..plan.get_scratch_len()]);
     debug_assert!(done.is_ok());
 }
@@ -258,23 +285,27 @@ impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
         let width = self.output.len() / 2;
         let (out_re, out_im) = self.output.split_at_mut(width);
         let (in_re, in_im) = self.input.split_at(width);
-        let [re, im] = self.factor.map(|values| &values[..width]);
-        let (wide_re, tail_re) = S::as_mut_simd_f64s(out_re);
-        let (wide_im, tail_im) = S::as_mut_simd_f64s(out_im);
-        let [(a_re, a_re_tail), (a_im, a_im_tail)] = [re, im].map(S::as_simd_f64s);
-        let [(b_re, b_re_tail), (b_im, b_im_tail)] = [in_re, &in_im[..width]].map(S::as_simd_f64s);
-        let factors = a_re.iter().zip(a_im).zip(b_re.iter().zip(b_im));
-        for ((x, y), ((a, b), (c, d))) in wide_re.iter_mut().zip(wide_im).zip(factors) {
-            let minus = |value: S::f64s| simd.neg_f64s(value);
-            let (a, b) = if PLUS { (*a, *b) } else { (minus(*a), minus(*b)) };
-            *x = simd.mul_add_e_f64s(a, *c, simd.mul_add_e_f64s(minus(b), *d, *x));
+        let sum_re = SimdSliceMut::<S>::new(out_re);
+        let sum_im = SimdSliceMut::<S>::new(out_im);
+        let a_re = SimdSlice::<S>::new(&self.factor[0][..width]);
+        let a_im = SimdSlice::<S>::new(&self.factor[1][..width]);
+        let b_re = SimdSlice::<S>::new(in_re);
+        let b_im = SimdSlice::<S>::new(&in_im[..width]);
+        let a_vectors = a_re.vectors.iter().zip(a_im.vectors);
+        let factors = a_vectors.zip(b_re.vectors.iter().zip(b_im.vectors));
+        let sums = sum_re.vectors.iter_mut().zip(sum_im.vectors);
+        for ((x, y), ((a, b), (c, d))) in sums.zip(factors) {
+            let a = if PLUS { *a } else { simd.neg_f64s(*a) };
+            let b = if PLUS { *b } else { simd.neg_f64s(*b) };
+            *x = simd.mul_add_e_f64s(a, *c, simd.mul_add_e_f64s(simd.neg_f64s(b), *d, *x));
             *y = simd.mul_add_e_f64s(a, *d, simd.mul_add_e_f64s(b, *c, *y));
         }
         let sign = if PLUS { 1.0 } else { -1.0 };
-        for k in 0..tail_re.len() {
-            let (a, b) = (sign * a_re_tail[k], sign * a_im_tail[k]);
-            tail_re[k] += a * b_re_tail[k] - b * b_im_tail[k];
-            tail_im[k] += a * b_im_tail[k] + b * b_re_tail[k];
+        for k in 0..sum_re.tail.len() {
+            let a = sign * a_re.tail[k];
+            let b = sign * a_im.tail[k];
+            sum_re.tail[k] += a * b_re.tail[k] - b * b_im.tail[k];
+            sum_im.tail[k] += a * b_im.tail[k] + b * b_re.tail[k];
         }
     }
 }

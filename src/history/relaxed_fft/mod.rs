@@ -9,6 +9,7 @@ mod memory;
 mod pairs;
 mod plan_spectra;
 mod ring;
+mod saved_state;
 mod tables;
 mod wave_level;
 mod wave_numbers;
@@ -16,24 +17,24 @@ mod waves;
 
 use std::sync::Arc;
 
-use self::element_grid::{ElementGrid, WAVES_FROM};
+use self::element_grid::{ElementGrid, MIN_WAVENUMBER_ELEMENTS};
 pub(crate) use self::memory::bytes_of_blocks;
-use self::memory::most_steps;
-use self::pairs::Pairs;
-use self::waves::Waves;
+use self::memory::max_steps;
+use self::pairs::PairBlocks;
+use self::saved_state::SavedState;
+use self::waves::WaveBlocks;
 use super::convolution::{ConvolutionHistory, check_inputs};
 use super::convolution_weights::ConvolutionWeights;
 use super::last_lag::LastLag;
 use crate::error::{
-    CheckpointError, Error, MemoryError, Observer, Progress, Result, Watch, memory_limit,
-    same_length, unobserved,
+    Error, MemoryError, Observer, Progress, Result, Watch, memory_limit, same_length, unobserved,
 };
-pub(crate) use crate::history::relaxed_fft::blocks::Blocks;
-use crate::history::relaxed_fft::blocks::PARTS;
-pub(crate) use crate::history::relaxed_fft::ring::LEAF;
+pub(crate) use crate::history::relaxed_fft::blocks::HistoryBlocks;
+use crate::history::relaxed_fft::blocks::SPECTRA_PROGRESS_PARTS;
+pub(crate) use crate::history::relaxed_fft::ring::LEAF_STEPS;
 
-/// Number of lags of one class whose spectra take as long as one sample of layered ground.
-const SPECTRA: usize = 8192;
+/// Number of lags of one class whose spectra take as long as one sample of a layered ground.
+const LAGS_PER_PROGRESS_UNIT: usize = 8192;
 
 /// Relaxed blocked convolution: equal to [`DirectHistory`](super::DirectHistory) within rounding.
 ///
@@ -78,11 +79,11 @@ const SPECTRA: usize = 8192;
 pub struct RelaxedFftHistory {
     kernel: Arc<dyn ConvolutionWeights>,
     /// Blocks; `None` until they are needed.
-    blocks: Option<Box<dyn Blocks>>,
+    blocks: Option<Box<dyn HistoryBlocks>>,
     /// Whether to transform along the surface; `None` to do so where it is faster.
     along_surface: Option<bool>,
     steps: usize,
-    /// Whether the effect of the last input still has to be added.
+    /// Whether the effect of the last input is still to be added.
     pending: bool,
     /// Scratch for tractions of which entries are missing.
     padded: Vec<f64>,
@@ -90,11 +91,11 @@ pub struct RelaxedFftHistory {
     failed: Option<Error>,
     /// Memory allowed, bytes.
     memory: f64,
-    /// Fraction of the coefficients' sum that may be left out.
-    forgotten: Option<f64>,
-    /// Last lag that counts, once known.
-    end: Option<LastLag>,
-    /// Largest traction so far, Pa; kept only if late lags may be left out.
+    /// Fraction of the coefficients' sum that may be neglected; `None` to neglect no lag.
+    neglected: Option<f64>,
+    /// Last lag that is not neglected, once found.
+    last_lag: Option<LastLag>,
+    /// Largest traction so far, Pa; updated only if late lags may be neglected.
     largest: f64,
 }
 
@@ -115,8 +116,8 @@ impl RelaxedFftHistory {
             padded,
             failed: None,
             memory: memory_limit() as f64,
-            forgotten: None,
-            end: None,
+            neglected: None,
+            last_lag: None,
             largest: 0.0,
         }
     }
@@ -125,48 +126,46 @@ impl RelaxedFftHistory {
     ///
     /// By default this is done where it was measured to be faster. Call this before the first step.
     #[must_use]
-    pub fn with_surface_transform(mut self, wanted: bool) -> Self {
-        self.along_surface = Some(wanted);
+    pub fn with_surface_transform(mut self, enabled: bool) -> Self {
+        self.along_surface = Some(enabled);
         self
     }
 
     /// Limits the memory to `bytes`; steps that need more return [`Error::Memory`].
-    pub(super) fn within(mut self, bytes: usize) -> Self {
+    pub(super) fn within_memory(mut self, bytes: usize) -> Self {
         self.memory = self.memory.min(bytes as f64);
         self
     }
 
-    /// Drops late lags in plan whose coefficients' sum is at most `tolerance` of the total.
-    pub(super) fn forgetting(mut self, tolerance: f64) -> Self {
-        self.forgotten = Some(tolerance);
+    /// Neglects late lags in plan whose coefficients' sum is at most `tolerance` of the total.
+    pub(super) fn neglecting(mut self, tolerance: f64) -> Self {
+        self.neglected = Some(tolerance);
         self
     }
 
-    /// First input that is still stored after `steps` steps, if lags after `last` are dropped.
-    ///
-    /// Blocks need all inputs from this one on.
-    fn first_kept(last: Option<usize>, steps: usize) -> usize {
+    /// First input that blocks still need after `steps` steps, if lags after `last` are neglected.
+    fn first_needed(last: Option<usize>, steps: usize) -> usize {
         last.map_or(0, |last| (steps / last).saturating_sub(1) * last)
     }
 
     /// Number of lags that blocks for `steps` steps need, a power of two.
     ///
-    /// If late lags may be left out, at most as many as fit into memory.
+    /// If late lags may be neglected, at most as many as fit into memory.
     ///
     /// # Errors
     /// [`Error::Memory`] for steps that need more memory than allowed.
     fn lags(&self, steps: usize) -> Result<usize> {
         let lags = steps.checked_next_power_of_two().unwrap_or(usize::MAX).max(1);
-        let known = self.end.map_or(lags, |end| lags.min(2 * end.lag));
-        let most = most_steps(&*self.kernel, self.memory)?;
-        if known <= most || self.forgotten.is_some() && most > 0 {
-            return Ok(known.min(most));
+        let needed = self.last_lag.map_or(lags, |last_lag| lags.min(2 * last_lag.lag));
+        let max_lags = max_steps(&*self.kernel, self.memory)?;
+        if needed <= max_lags || (self.neglected.is_some() && max_lags > 0) {
+            return Ok(needed.min(max_lags));
         }
-        Err(self.too_many(steps)?)
+        Err(self.memory_error(steps)?)
     }
 
     /// Error for a number of steps that need too much memory.
-    fn too_many(&self, steps: usize) -> Result<Error> {
+    fn memory_error(&self, steps: usize) -> Result<Error> {
         Ok(Error::Memory(MemoryError {
             quantity: "steps of the convolution history",
             asked: steps as f64,
@@ -178,45 +177,48 @@ impl RelaxedFftHistory {
     }
 
     /// Makes blocks ready for at least `steps` steps, and returns them.
-    fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn Blocks> {
-        if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity()) && self.end.is_none()
+    fn grow(&mut self, steps: usize, watch: &mut Watch) -> Result<&mut dyn HistoryBlocks> {
+        if steps > self.blocks.as_ref().map_or(0, |blocks| blocks.capacity())
+            && self.last_lag.is_none()
         {
             let lags = self.lags(steps)?;
-            if let Some(tolerance) = self.forgotten {
-                self.end = LastLag::find(&*self.kernel, tolerance, lags, &mut unobserved)?;
+            if let Some(tolerance) = self.neglected {
+                self.last_lag = LastLag::find(&*self.kernel, tolerance, lags, &mut unobserved)?;
             }
-            if self.end.is_none() && lags < steps {
-                return Err(self.too_many(steps)?);
+            if self.last_lag.is_none() && lags < steps {
+                return Err(self.memory_error(steps)?);
             }
         }
         let kernel = &*self.kernel;
-        let blocks: Box<dyn Blocks> = if let Some(blocks) = self.blocks.take() {
+        let blocks: Box<dyn HistoryBlocks> = if let Some(blocks) = self.blocks.take() {
             blocks
         } else {
             let classes = kernel.classes();
-            let wanted = self.along_surface.unwrap_or(classes.elements().len() >= WAVES_FROM);
-            match ElementGrid::from_pairs(classes).filter(|_| wanted || classes.plan().is_some()) {
-                Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
-                None => Box::new(Pairs::new(kernel)?),
+            let along_surface =
+                self.along_surface.unwrap_or(classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS)
+                    || classes.plan().is_some();
+            match ElementGrid::from_pairs(classes).filter(|_| along_surface) {
+                Some(lattice) => Box::new(WaveBlocks::new(lattice, kernel)?),
+                None => Box::new(PairBlocks::new(kernel)?),
             }
         };
         let blocks = self.blocks.insert(blocks);
         let capacity = blocks.capacity();
         if capacity < steps {
             let mut inputs = Vec::new();
-            let worked_in = self.steps - usize::from(self.pending);
+            let effects_end = self.steps - usize::from(self.pending);
             if !capacity.is_power_of_two() {
-                (0..self.steps).for_each(|step| blocks.input(step, worked_in, &mut inputs));
+                (0..self.steps).for_each(|step| blocks.input(step, effects_end, &mut inputs));
             }
-            match self.end {
+            match self.last_lag {
                 Some(LastLag { lag, .. }) => blocks.bound(kernel, lag, watch)?,
                 None => blocks.grow(kernel, steps, watch)?,
             }
             if !inputs.is_empty() {
                 blocks.clear();
-                march(&mut **blocks, 0, &inputs);
+                replay_inputs(&mut **blocks, 0, &inputs);
                 if !self.pending {
-                    blocks.work_in(self.steps);
+                    blocks.add_effects(self.steps);
                 }
             }
         }
@@ -224,13 +226,14 @@ impl RelaxedFftHistory {
     }
 
     /// Adds the effect of the last input, so that the next output is complete.
-    fn settle(&mut self) -> Result<&mut dyn Blocks> {
-        let (now, pending) = (self.steps, self.pending);
+    fn complete_output(&mut self) -> Result<&mut dyn HistoryBlocks> {
+        let now = self.steps;
+        let pending = self.pending;
         self.grow(now.saturating_add(1), &mut Watch::nobody())?;
         self.pending = false;
         let blocks = self.grow(0, &mut Watch::nobody())?;
         if pending {
-            blocks.work_in(now);
+            blocks.add_effects(now);
         }
         Ok(blocks)
     }
@@ -241,34 +244,35 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps
     }
 
-    /// Computes weights and spectra; the observer sees both.
+    /// Computes weights and spectra, and reports the progress of both.
     fn prepare(&mut self, steps: usize, observer: &mut Observer<'_>) -> Result<()> {
-        let (kernel, lags) = (Arc::clone(&self.kernel), self.lags(steps)?);
-        let spectra = lags.saturating_mul(kernel.classes().count()) / SPECTRA + 1;
-        let mut whole = Progress { task: "convolution weights", done: 0, total: spectra };
-        let mut part = |Progress { done, total, task }: Progress| {
-            whole = Progress { task, done, total: total + spectra };
-            observer(whole)
+        let kernel = Arc::clone(&self.kernel);
+        let lags = self.lags(steps)?;
+        let spectra_units =
+            lags.saturating_mul(kernel.classes().count()) / LAGS_PER_PROGRESS_UNIT + 1;
+        let mut progress = Progress { task: "convolution weights", done: 0, total: spectra_units };
+        let mut report_weights = |Progress { done, total, task }: Progress| {
+            progress = Progress { task, done, total: total + spectra_units };
+            observer(progress)
         };
-        let weights = match self.forgotten.filter(|_| self.end.is_none()) {
-            // In plan, up to the last lag that counts.
-            Some(tolerance) => {
-                LastLag::find(&*kernel, tolerance, lags, &mut part).map(|end| self.end = end)
-            }
-            None => kernel.prepare(lags, &mut part),
+        let weights = match self.neglected.filter(|_| self.last_lag.is_none()) {
+            // In plan, up to the last lag that is not neglected.
+            Some(tolerance) => LastLag::find(&*kernel, tolerance, lags, &mut report_weights)
+                .map(|last_lag| self.last_lag = last_lag),
+            None => kernel.prepare(lags, &mut report_weights),
         };
-        let done = whole.total - spectra;
-        let outcome = weights.and_then(|()| {
-            let mut part = |part: Progress| {
-                whole.done = done + spectra * part.done / PARTS;
-                observer(whole)
+        let weights_units = progress.total - spectra_units;
+        let result = weights.and_then(|()| {
+            let mut report_spectra = |part: Progress| {
+                progress.done = weights_units + spectra_units * part.done / SPECTRA_PROGRESS_PARTS;
+                observer(progress)
             };
-            let mut watch = Watch::new("spectra", PARTS, &mut part);
+            let mut watch = Watch::new("spectra", SPECTRA_PROGRESS_PARTS, &mut report_spectra);
             self.grow(steps, &mut watch)?;
-            watch.reach(PARTS)
+            watch.reach(SPECTRA_PROGRESS_PARTS)
         });
-        outcome.map_err(|error| match error {
-            Error::Stopped(_) => Error::Stopped(whole),
+        result.map_err(|error| match error {
+            Error::Stopped(_) => Error::Stopped(progress),
             other => other,
         })
     }
@@ -280,14 +284,14 @@ impl ConvolutionHistory for RelaxedFftHistory {
             return Err(error.clone());
         }
         let now = self.steps;
-        self.settle()?.read(now, displacement);
+        self.complete_output()?.read(now, displacement);
         Ok(())
     }
 
-    /// Bound of the change in a step of the displacement that the dropped lags would add.
+    /// Bound of the change in one step of the displacement due to the neglected lags.
     fn increment_error_bound(&self) -> f64 {
-        let ended = self.end.filter(|end| self.steps > end.lag);
-        ended.map_or(0.0, |end| end.change * self.largest)
+        let ended = self.last_lag.filter(|last_lag| self.steps > last_lag.lag);
+        ended.map_or(0.0, |last_lag| last_lag.change * self.largest)
     }
 
     fn memory(&self) -> usize {
@@ -298,13 +302,13 @@ impl ConvolutionHistory for RelaxedFftHistory {
         if self.failed.is_none() {
             let now = self.steps;
             let mut padded = std::mem::take(&mut self.padded);
-            let given = traction.len().min(padded.len());
-            padded[..given].copy_from_slice(&traction[..given]);
-            padded[given..].fill(0.0);
-            if self.forgotten.is_some() {
-                self.largest = padded.iter().fold(self.largest, |most, x| most.max(x.abs()));
+            let count = traction.len().min(padded.len());
+            padded[..count].copy_from_slice(&traction[..count]);
+            padded[count..].fill(0.0);
+            if self.neglected.is_some() {
+                self.largest = padded.iter().fold(self.largest, |largest, x| largest.max(x.abs()));
             }
-            match self.settle() {
+            match self.complete_output() {
                 Ok(blocks) => {
                     blocks.write(now, &padded);
                     self.pending = true;
@@ -316,19 +320,20 @@ impl ConvolutionHistory for RelaxedFftHistory {
         self.steps += 1;
     }
 
-    /// Returns all inputs that still count, step by step; `restore` computes their effects again.
+    /// Returns all inputs that blocks still need, step by step; `restore` computes their effects again.
     fn save(&self) -> Result<Vec<f64>> {
         if let Some(error) = &self.failed {
             return Err(error.clone());
         }
         let mut values = Vec::new();
         if let Some(blocks) = &self.blocks {
-            let worked_in = self.steps - usize::from(self.pending);
-            let first = Self::first_kept(self.end.map(|end| end.lag), self.steps);
-            (first..self.steps).for_each(|step| blocks.input(step, worked_in, &mut values));
+            let effects_end = self.steps - usize::from(self.pending);
+            let first = Self::first_needed(self.last_lag.map(|last_lag| last_lag.lag), self.steps);
+            (first..self.steps).for_each(|step| blocks.input(step, effects_end, &mut values));
         }
-        if self.forgotten.is_some() {
-            values.extend([self.largest, self.end.map_or(0.0, |end| end.lag as f64)]);
+        if self.neglected.is_some() {
+            values
+                .extend([self.largest, self.last_lag.map_or(0.0, |last_lag| last_lag.lag as f64)]);
         }
         Ok(values)
     }
@@ -336,30 +341,24 @@ impl ConvolutionHistory for RelaxedFftHistory {
     fn restore(&mut self, steps: usize, values: &[f64]) -> Result<()> {
         // The inputs are checked before memory is allocated: a damaged number of steps may need any amount.
         let width = self.grow(1, &mut Watch::nobody())?.width();
-        let corrupt = || CheckpointError::Corrupt { quantity: "memory of the history" };
-        let (values, largest, last) = match (self.forgotten, values) {
-            (None, values) => (values, 0.0, None),
-            (Some(_), [values @ .., largest, last]) => {
-                let known = (0..usize::BITS - 1).map(|power| 1_usize << power);
-                let found = known.into_iter().find(|lag| *lag as f64 == *last);
-                (values, *largest, found)
-            }
-            _ => return Err(corrupt().into()),
-        };
-        let first = Self::first_kept(last, steps);
-        check_inputs(steps - first, width, values)?;
+        let saved = SavedState::new(values, self.neglected.is_some())?;
+        let first_saved = Self::first_needed(saved.last_lag, steps);
+        check_inputs(steps - first_saved, width, saved.inputs)?;
         self.grow(steps, &mut Watch::nobody())?;
-        // In either history the last lag may not be known yet.
-        let own = self.end.map(|end| end.lag);
-        let own_first = Self::first_kept(own, steps);
-        if own.zip(last).is_some_and(|(own, last)| own != last) || own_first < first {
-            return Err(corrupt().into());
+        // The last lag may not be found yet, in this history or in the saved one.
+        let last_lag = self.last_lag.map(|last_lag| last_lag.lag);
+        let first = Self::first_needed(last_lag, steps);
+        let lags_differ = last_lag.zip(saved.last_lag).is_some_and(|(lag, saved)| lag != saved);
+        if lags_differ || first < first_saved {
+            return Err(SavedState::CORRUPT_STATE.into());
         }
         let blocks = self.grow(0, &mut Watch::nobody())?;
         blocks.clear();
-        march(blocks, own_first, &values[(own_first - first) * width..]);
-        self.largest = largest;
-        (self.steps, self.pending, self.failed) = (steps, steps > 0, None);
+        replay_inputs(blocks, first, &saved.inputs[(first - first_saved) * width..]);
+        self.largest = saved.largest;
+        self.steps = steps;
+        self.pending = steps > 0;
+        self.failed = None;
         Ok(())
     }
 }
@@ -367,26 +366,29 @@ impl ConvolutionHistory for RelaxedFftHistory {
 /// Makes empty blocks for any number of steps, of a kernel without coefficients after lag `reach`.
 ///
 /// `reach` is a leaf times a power of two.
-pub(super) fn bounded(kernel: &dyn ConvolutionWeights, reach: usize) -> Result<Box<dyn Blocks>> {
+pub(super) fn bounded(
+    kernel: &dyn ConvolutionWeights,
+    reach: usize,
+) -> Result<Box<dyn HistoryBlocks>> {
     let classes = kernel.classes();
-    let lattice =
-        ElementGrid::from_pairs(classes).filter(|_| classes.elements().len() >= WAVES_FROM);
-    let mut blocks: Box<dyn Blocks> = match lattice {
-        Some(lattice) => Box::new(Waves::new(lattice, kernel)?),
-        None => Box::new(Pairs::bounded(kernel)?),
+    let lattice = ElementGrid::from_pairs(classes)
+        .filter(|_| classes.elements().len() >= MIN_WAVENUMBER_ELEMENTS);
+    let mut blocks: Box<dyn HistoryBlocks> = match lattice {
+        Some(lattice) => Box::new(WaveBlocks::new(lattice, kernel)?),
+        None => Box::new(PairBlocks::bounded(kernel)?),
     };
     blocks.bound(kernel, reach, &mut Watch::nobody())?;
     Ok(blocks)
 }
 
-/// Repeats the steps from `first` on with `inputs`, with no inputs before them.
+/// Writes `inputs` from step `first` on into empty blocks, and adds their effects.
 ///
 /// The effect of the last input is still to be added.
-fn march(blocks: &mut dyn Blocks, first: usize, inputs: &[f64]) {
+fn replay_inputs(blocks: &mut dyn HistoryBlocks, first: usize, inputs: &[f64]) {
     for (ahead, input) in inputs.chunks_exact(blocks.width()).enumerate() {
         let now = first + ahead;
         if ahead > 0 {
-            blocks.work_in(now);
+            blocks.add_effects(now);
         }
         blocks.write_input(now, input);
     }

@@ -1,37 +1,42 @@
 //! Blocks over pairs of elements of any lengths and places.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use realfft::RealFftPlanner;
 
-use super::blocks::{Blocks, PARTS};
+use super::blocks::{HistoryBlocks, SPECTRA_PROGRESS_PARTS};
 use super::coefficients::{Coefficients, Scatter};
-use super::level::{Block, Components, Level, Work};
-use super::ring::{LEAF, Ring, widened};
-use super::tables::{Class, Tables};
+use super::level::{BlockRows, Components, PairLevel, TransformScratch};
+use super::ring::{LEAF_STEPS, Ring, widened};
+use super::tables::{ClassCoefficients, ShortLagTables};
 use super::wave_level::Levels;
 use crate::error::{Result, Watch, unobserved};
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::convolution_weights::{ConvolutionWeights, all_kinds};
+use crate::history::convolution_weights::{ConvolutionWeights, read_coefficients};
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
-/// Longest coupling, steps, that is summed directly. Up to here times hardly depend on it; for a longer coupling blocks
-/// are faster.
-const DIRECT_COUPLING: usize = 64;
+/// Longest coupling that is summed directly, steps; for a longer coupling blocks are faster.
+///
+/// Up to this length the time of a step depends little on the choice.
+const MAX_DIRECT_COUPLING: usize = 64;
 
-/// Rows begin at different places of a page; otherwise equal places of all rows fall into one cache set.
-const PAGE_OF_NUMBERS: usize = 512;
-const LINE_OF_NUMBERS: usize = 8;
+/// Numbers in a memory page.
+///
+/// Rows of whole pages would map equal places of all rows to one cache set.
+const NUMBERS_PER_PAGE: usize = 512;
+/// Numbers in a cache line: rows are longer than whole pages by this.
+const NUMBERS_PER_CACHE_LINE: usize = 8;
 
 /// Blocks over pairs of elements: the current leaf, all levels, inputs and outputs so far.
-pub(super) struct Pairs {
+pub(super) struct PairBlocks {
     coefficients: Coefficients,
     /// Blocks of each size, from the smallest on.
-    levels: Vec<Arc<Level>>,
+    levels: Vec<Arc<PairLevel>>,
     planner: RealFftPlanner<f64>,
-    work: Work,
-    /// 2Q rows of `stride`: inputs before the present step, outputs as far as known from there on.
+    scratch: TransformScratch,
+    /// 2Q rows of `stride`: inputs before the present step, then the outputs computed so far.
     rows: Vec<f64>,
     stride: usize,
     ring: Ring,
@@ -39,26 +44,28 @@ pub(super) struct Pairs {
     capacity: usize,
 }
 
-impl Pairs {
+impl PairBlocks {
     /// Makes empty blocks of `kernel`.
     pub(super) fn new(kernel: &dyn ConvolutionWeights) -> Result<Self> {
-        Self::with_coupling(kernel, DIRECT_COUPLING)
+        Self::with_coupling(kernel, MAX_DIRECT_COUPLING)
     }
 
-    /// Makes empty blocks for rows whose places are used again: no coupling beyond a leaf is summed directly.
+    /// Makes empty blocks for rows whose places are reused.
+    ///
+    /// No coupling beyond a leaf is summed directly.
     pub(super) fn bounded(kernel: &dyn ConvolutionWeights) -> Result<Self> {
         Self::with_coupling(kernel, 0)
     }
 
-    fn with_coupling(kernel: &dyn ConvolutionWeights, direct: usize) -> Result<Self> {
+    fn with_coupling(kernel: &dyn ConvolutionWeights, max_direct: usize) -> Result<Self> {
         Ok(Self {
-            coefficients: Coefficients::new(kernel, direct)?,
+            coefficients: Coefficients::new(kernel, max_direct)?,
             levels: Vec::new(),
             planner: RealFftPlanner::new(),
-            work: Work::default(),
+            scratch: TransformScratch::default(),
             rows: Vec::new(),
             stride: 0,
-            ring: Ring::ENDLESS,
+            ring: Ring::ALL_STEPS,
             capacity: 0,
         })
     }
@@ -68,98 +75,106 @@ impl Pairs {
         self.coefficients.classes.elements().len()
     }
 
-    /// Whether blocks of `size` have spectra of the coupling: up to the first size that covers its reach.
+    /// Whether blocks of `size` have spectra of the coupling.
+    ///
+    /// They do up to the first size that covers its reach.
     fn couples(&self, size: usize) -> bool {
         let coefficients = &self.coefficients;
-        coefficients.couples_far && (size == LEAF || size / 2 < coefficients.coupling_reach)
+        coefficients.couples_far && (size == LEAF_STEPS || size / 2 < coefficients.coupling_reach)
     }
 
-    /// Makes the levels from `first` to the one before `end`, and the coefficients of a leaf unless they are there.
+    /// Makes the levels of these numbers, and the short lags unless they are there.
     ///
     /// The kernel is evaluated once for all of them.
-    fn make(
+    fn make_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        [first, end]: [usize; 2],
-        near: &mut Option<Arc<Tables>>,
+        numbers: Range<usize>,
+        short_lags: &mut Option<Arc<ShortLagTables>>,
         watch: &mut Watch,
-    ) -> Result<Vec<Arc<Level>>> {
-        let (count, classes) = (self.elements(), self.coefficients.classes.count());
-        let all = self.coefficients.classes.kinds();
+    ) -> Result<Vec<Arc<PairLevel>>> {
+        let count = self.elements();
+        let classes = self.coefficients.classes.count();
+        let kind_count = self.coefficients.classes.kinds();
         let mut levels = Vec::new();
-        for number in first..end {
-            let couples = self.couples(LEAF << number);
-            let kinds = if couples { all } else { COMPONENTS_IN_PLANE };
-            let level = Level::new(LEAF << number, classes, kinds, &mut self.planner);
-            self.work.grow(&level, if couples { 2 * count } else { count });
+        let end = numbers.end;
+        for number in numbers {
+            let couples = self.couples(LEAF_STEPS << number);
+            let kinds = if couples { kind_count } else { COMPONENTS_IN_PLANE };
+            let level = PairLevel::new(LEAF_STEPS << number, classes, kinds, &mut self.planner);
+            self.scratch.grow(&level, if couples { 2 * count } else { count });
             levels.push((level, kinds));
         }
-        let mut tables = near.is_none().then(Tables::default);
-        let far = if levels.is_empty() { 0 } else { LEAF << end };
-        let length = if tables.is_some() { far.max(self.coefficients.length()) } else { far };
+        let mut tables = short_lags.is_none().then(ShortLagTables::default);
+        let max_delay = if levels.is_empty() { 0 } else { LEAF_STEPS << end };
+        let length =
+            if tables.is_some() { max_delay.max(self.coefficients.length()) } else { max_delay };
         if length > 0 {
-            let mut values: Class =
-                std::array::from_fn(|kind| vec![0.0; if kind < all { length } else { 0 }]);
+            let mut values: ClassCoefficients =
+                std::array::from_fn(|kind| vec![0.0; if kind < kind_count { length } else { 0 }]);
             for class in 0..classes {
-                watch.reach(PARTS * class / classes)?;
+                watch.reach(SPECTRA_PROGRESS_PARTS * class / classes)?;
                 // The first weight is the step compliance, which does not belong to the history.
-                let kinds = values.iter_mut().take(all);
-                let mut slices: Vec<_> = kinds.map(|kind| &mut kind[1..]).collect();
-                all_kinds(kernel, class, 2, &mut slices)?;
+                let series = values.iter_mut().take(kind_count);
+                let mut slices: Vec<_> = series.map(|series| &mut series[1..]).collect();
+                read_coefficients(kernel, class, 2, &mut slices)?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }
                 for (level, kinds) in &mut levels {
-                    level.add_class(&values, *kinds, &mut self.work);
+                    level.add_class(&values, *kinds, &mut self.scratch);
                 }
             }
         }
         if let Some(tables) = tables {
-            *near = Some(Arc::new(tables));
+            *short_lags = Some(Arc::new(tables));
         }
         Ok(levels.into_iter().map(|(level, _)| Arc::new(level)).collect())
     }
 
-    /// Takes the `wanted` smallest levels and a leaf's coefficients from the kernel's store, or makes them.
+    /// Takes the smallest `level_count` levels and the short lags from the kernel's store, or makes them.
     ///
     /// Allocates scratch for their blocks.
     fn take_levels(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        wanted: usize,
+        level_count: usize,
         lags: usize,
         watch: &mut Watch,
     ) -> Result<()> {
         let count = self.elements();
-        // The kernel is prepared before the spectra are locked: it may work on several threads, which must not wait.
+        // The kernel is prepared before the spectra are locked: its threads must not wait for the lock.
         kernel.prepare(lags.max(self.coefficients.length()), &mut unobserved)?;
         let spectra = kernel.spectra().filter(|s| s.are_of(kernel.classes().elements()));
-        let shared = spectra.map(SharedSpectra::tables::<Levels<Level, Tables>>);
+        let shared = spectra.map(SharedSpectra::tables::<Levels<PairLevel, ShortLagTables>>);
         let mut shared = shared.as_deref().map(lock);
-        let near = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.near));
-        let mut own = Levels { levels: self.levels.clone(), near };
-        let store = shared.as_deref_mut().unwrap_or(&mut own);
-        (self.levels, self.coefficients.near) =
-            store.take(wanted, |range, near| self.make(kernel, range, near, watch))?;
-        for number in 0..wanted {
+        let short_lags = (self.capacity > 0).then(|| Arc::clone(&self.coefficients.short_lags));
+        let mut private_store = Levels { levels: self.levels.clone(), leaf: short_lags };
+        let store = shared.as_deref_mut().unwrap_or(&mut private_store);
+        let found = store.smallest(level_count, |numbers, short_lags| {
+            self.make_levels(kernel, numbers, short_lags, watch)
+        })?;
+        self.levels = found.levels;
+        self.coefficients.short_lags = found.leaf.unwrap_or_default();
+        for number in 0..level_count {
             let level = &self.levels[number];
             let components = if self.couples(level.size) { 2 * count } else { count };
-            self.work.grow(level, components);
+            self.scratch.grow(level, components);
         }
         Ok(())
     }
 }
 
-impl Blocks for Pairs {
+impl HistoryBlocks for PairBlocks {
     fn capacity(&self) -> usize {
         self.capacity
     }
 
     fn numbers(&self) -> usize {
         self.rows.capacity()
-            + self.coefficients.near.iter().flatten().map(Vec::len).sum::<usize>()
+            + self.coefficients.short_lags.iter().flatten().map(Vec::len).sum::<usize>()
             + self.levels.iter().map(|level| level.numbers()).sum::<usize>()
-            + self.work.numbers()
+            + self.scratch.numbers()
     }
 
     fn grow(
@@ -168,43 +183,51 @@ impl Blocks for Pairs {
         steps: usize,
         watch: &mut Watch,
     ) -> Result<()> {
-        let capacity = steps.div_ceil(LEAF).next_power_of_two() * LEAF;
+        let capacity = steps.div_ceil(LEAF_STEPS).next_power_of_two() * LEAF_STEPS;
         if capacity <= self.capacity {
             return Ok(());
         }
         let count = self.elements();
-        let wanted = (capacity / LEAF).ilog2() as usize;
-        self.take_levels(kernel, wanted, capacity, watch)?;
+        let level_count = (capacity / LEAF_STEPS).ilog2() as usize;
+        self.take_levels(kernel, level_count, capacity, watch)?;
         // Only a coupling that is summed directly has outputs beyond the capacity.
         let needed = capacity + self.coefficients.coupling_direct;
-        let stride = needed.next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
-        self.rows = widened(&self.rows, 2 * count, [self.stride, stride]);
-        (self.stride, self.capacity) = (stride, capacity);
+        let stride = needed.next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
+        self.rows = widened(&self.rows, 2 * count, self.stride, stride);
+        self.stride = stride;
+        self.capacity = capacity;
         Ok(())
     }
 
     fn bound(
         &mut self,
         kernel: &dyn ConvolutionWeights,
-        reach: usize,
+        last_delay: usize,
         watch: &mut Watch,
     ) -> Result<()> {
-        self.take_levels(kernel, (reach / LEAF).ilog2() as usize + 1, 2 * reach, watch)?;
-        self.ring = Ring(2 * reach);
-        self.stride = (2 * reach).next_multiple_of(PAGE_OF_NUMBERS) + LINE_OF_NUMBERS;
+        self.take_levels(
+            kernel,
+            (last_delay / LEAF_STEPS).ilog2() as usize + 1,
+            2 * last_delay,
+            watch,
+        )?;
+        self.ring = Ring(2 * last_delay);
+        self.stride = (2 * last_delay).next_multiple_of(NUMBERS_PER_PAGE) + NUMBERS_PER_CACHE_LINE;
         self.rows = vec![0.0; 2 * self.elements() * self.stride];
         self.capacity = usize::MAX;
         Ok(())
     }
 
-    fn work_in(&mut self, now: usize) {
+    fn add_effects(&mut self, now: usize) {
         let Some(last) = now.checked_sub(1) else { return };
         let coefficients = &self.coefficients;
-        let ahead = LEAF - 1 - last % LEAF;
+        let ahead = LEAF_STEPS - 1 - last % LEAF_STEPS;
         let coupled = if coefficients.couples_far { ahead } else { coefficients.coupling_direct };
-        let (ring, rows, stride) = (self.ring, &mut self.rows[..], self.stride);
+        let ring = self.ring;
+        let rows = &mut self.rows[..];
+        let stride = self.stride;
         vectorized(Scatter { coefficients, rows, stride, now: ring.place(last), ahead, coupled });
-        if !now.is_multiple_of(LEAF) {
+        if !now.is_multiple_of(LEAF_STEPS) {
             return;
         }
         if let Some(stale) = ring.stale(now) {
@@ -214,16 +237,13 @@ impl Blocks for Pairs {
         let number = ring.level(now, self.levels.len());
         let Some(level) = self.levels.get(number) else { return };
         let couples = self.couples(level.size);
-        let far = self.levels.iter().rfind(|level| self.couples(level.size));
-        let (rows, stride) = (&mut self.rows[..], self.stride);
-        let mut block = Block { rows, stride, ring, now, classes: &coefficients.classes };
-        level.apply(
-            &mut block,
-            if couples { Components::All } else { Components::Even },
-            &mut self.work,
-        );
-        if let Some(level) = far.filter(|_| !couples) {
-            level.apply(&mut block, Components::Coupling, &mut self.work);
+        let coupled_level = self.levels.iter().rfind(|level| self.couples(level.size));
+        let rows = &mut self.rows[..];
+        let mut block = BlockRows { rows, stride, ring, now, classes: &coefficients.classes };
+        let part = if couples { Components::All } else { Components::Even };
+        level.apply(&mut block, part, &mut self.scratch);
+        if let Some(level) = coupled_level.filter(|_| !couples) {
+            level.apply(&mut block, Components::Coupling, &mut self.scratch);
         }
     }
 
@@ -238,7 +258,7 @@ impl Blocks for Pairs {
         2 * self.elements()
     }
 
-    fn input(&self, step: usize, _worked_in: usize, values: &mut Vec<f64>) {
+    fn input(&self, step: usize, _effects_end: usize, values: &mut Vec<f64>) {
         values.extend(self.rows.chunks_exact(self.stride).map(|row| row[step]));
     }
 

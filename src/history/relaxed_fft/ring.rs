@@ -2,8 +2,9 @@
 
 /// Number of steps summed directly; the smallest block has this size.
 ///
-/// Measured with 10 and 14 elements: 16 takes as long, 64 a fifth longer by pairs; by wavenumbers it hardly matters.
-pub(crate) const LEAF: usize = 32;
+/// Measured with 10 and 14 elements by pairs, 16 takes as long and 64 a fifth longer; by wavenumbers the times differ
+/// little.
+pub(crate) const LEAF_STEPS: usize = 32;
 
 /// Number of steps that a row holds before its places are used again.
 #[derive(Debug, Clone, Copy)]
@@ -11,7 +12,7 @@ pub(super) struct Ring(pub(super) usize);
 
 impl Ring {
     /// A row that holds all steps.
-    pub(super) const ENDLESS: Self = Self(usize::MAX);
+    pub(super) const ALL_STEPS: Self = Self(usize::MAX);
 
     /// Place of a step in its row.
     pub(super) fn place(self, step: usize) -> usize {
@@ -31,7 +32,7 @@ impl Ring {
 
     /// Number of the level for the block that ends before `now`, a multiple of a leaf.
     pub(super) fn level(self, now: usize, levels: usize) -> usize {
-        let number = (now / LEAF).trailing_zeros() as usize;
+        let number = (now / LEAF_STEPS).trailing_zeros() as usize;
         if self.is_bounded() { number.min(levels - 1) } else { number }
     }
 
@@ -43,15 +44,16 @@ impl Ring {
     }
 }
 
-/// Copies `count` rows of the first stride into longer rows of the second stride.
+/// Copies `count` rows of `stride` values into longer rows of `new_stride` values.
 pub(super) fn widened<T: Copy + Default>(
     rows: &[T],
     count: usize,
-    [old, new]: [usize; 2],
+    stride: usize,
+    new_stride: usize,
 ) -> Vec<T> {
-    let mut wide = vec![T::default(); count * new];
-    for (wide, row) in wide.chunks_exact_mut(new).zip(rows.chunks_exact(old.max(1))) {
-        wide[..old].copy_from_slice(row);
+    let mut wide = vec![T::default(); count * new_stride];
+    for (wide, row) in wide.chunks_exact_mut(new_stride).zip(rows.chunks_exact(stride.max(1))) {
+        wide[..stride].copy_from_slice(row);
     }
     wide
 }

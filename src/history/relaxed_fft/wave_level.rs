@@ -7,25 +7,26 @@ use super::level::Components;
 use super::ring::Ring;
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
-use crate::history::pair_classes::KINDS as STRIP_KINDS;
+use crate::history::pair_classes::STRIP_KINDS;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
 /// Kind of the coefficient for each displacement (row) and traction (column): of two components, and of three.
-const KIND: [&[&[usize]]; 2] = [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
+const COMPONENT_KINDS: [&[&[usize]]; 2] =
+    [&[&[0, 2], &[2, 1]], &[&[0, 4, 5], &[4, 1, 3], &[5, 3, 2]]];
 
 /// Kinds of the coefficients of N components.
 pub(super) fn kinds<const N: usize>() -> [[usize; N]; N] {
-    let rows = KIND[usize::from(N == 3)];
+    let rows = COMPONENT_KINDS[usize::from(N == 3)];
     std::array::from_fn(|row| std::array::from_fn(|column| rows[row][column]))
 }
 
 /// Kind that ends on a strip: the coupling.
-pub(super) const COUPLING: usize = 2;
+pub(super) const COUPLING_KIND: usize = 2;
 
-/// Coefficients of a leaf, for each kind: d = 0 … leaf − 1, and in each the wavenumbers with spectra.
-pub(super) type Near = Vec<Vec<f64>>;
+/// Coefficients of a leaf, kind by kind: for each d = 0 … leaf − 1 the wavenumbers with spectra.
+pub(super) type LeafCoefficients = Vec<Vec<f64>>;
 
 /// Effect of b inputs on the next b outputs, separately for each wavenumber.
 ///
@@ -36,39 +37,42 @@ pub(super) struct WaveLevel {
     forward: Arc<dyn Fft<f64>>,
     inverse: Arc<dyn Fft<f64>>,
     waves: WaveNumbers,
-    /// Spectra of each kind: for each wavenumber, the b + 1 lower frequencies of 2b. The coefficients are real numbers
-    /// in time, so that the upper frequencies are conjugates. The coupling of pressure and shear is i times the stored
-    /// coefficients. A strip's coupling has no spectra if it ends within smaller blocks.
+    /// Spectra of each kind: for each wavenumber, the b + 1 lower frequencies of 2b.
+    ///
+    /// The coefficients are real numbers in time, so that the upper frequencies are conjugates. The coupling of
+    /// pressure and shear is i times the stored coefficients. A strip's coupling has no spectra if it ends within
+    /// smaller blocks.
     spectra: Vec<Vec<Complex<f64>>>,
 }
 
 impl WaveLevel {
-    /// Blocks of `size`, without spectra yet.
+    /// Blocks of `size`, without spectra yet; `kinds` tells which kinds will have them.
     pub(super) fn new(
         size: usize,
         waves: WaveNumbers,
         kinds: impl Iterator<Item = bool>,
         planner: &mut FftPlanner<f64>,
     ) -> Self {
-        let spectrum = |has| vec![Complex::default(); if has { waves.own * (size + 1) } else { 0 }];
+        let length = waves.with_spectra * (size + 1);
         Self {
             size,
             forward: planner.plan_fft_forward(2 * size),
             inverse: planner.plan_fft_inverse(2 * size),
             waves,
-            spectra: kinds.map(spectrum).collect(),
+            spectra: kinds
+                .map(|has| vec![Complex::default(); if has { length } else { 0 }])
+                .collect(),
         }
     }
 
-    /// Numbers held.
+    /// Number of real numbers stored.
     pub(super) fn numbers(&self) -> usize {
         2 * self.spectra.iter().map(Vec::len).sum::<usize>()
     }
 
     /// Length of the scratch that transforms need.
     pub(super) fn scratch(&self) -> usize {
-        let (forward, inverse) = (&self.forward, &self.inverse);
-        forward.get_inplace_scratch_len().max(inverse.get_inplace_scratch_len())
+        self.forward.get_inplace_scratch_len().max(self.inverse.get_inplace_scratch_len())
     }
 
     /// Whether there are spectra of this kind.
@@ -77,7 +81,7 @@ impl WaveLevel {
     }
 
     /// Stores the coefficients of d, one per wavenumber, in the memory of the spectra.
-    pub(super) fn keep(&mut self, kind: usize, d: usize, values: &[f64]) {
+    pub(super) fn store_coefficients(&mut self, kind: usize, d: usize, values: &[f64]) {
         let rows = self.spectra[kind].chunks_exact_mut(self.size + 1);
         if d.is_multiple_of(2) {
             rows.zip(values).for_each(|(row, value)| row[d / 2].re = *value);
@@ -87,7 +91,7 @@ impl WaveLevel {
     }
 
     /// Overwrites `time` with the coefficients stored for a wavenumber.
-    pub(super) fn kept(&self, kind: usize, wave: usize, time: &mut [f64]) {
+    pub(super) fn stored_coefficients(&self, kind: usize, wave: usize, time: &mut [f64]) {
         let row = &self.spectra[kind][wave * (self.size + 1)..][..self.size];
         for (pair, value) in time.chunks_exact_mut(2).zip(row) {
             pair.copy_from_slice(&[value.re, value.im]);
@@ -107,41 +111,43 @@ impl WaveLevel {
         scratch.resize(scratch.len().max(plan.get_scratch_len()), Complex::default());
         let spectrum = &mut self.spectra[kind][wave * (self.size + 1)..][..=self.size];
         let scratch = &mut scratch[..plan.get_scratch_len()];
-        // All lengths are the plan's own, so there is nothing that could fail.
+        // All lengths come from the plan, so that the transform cannot fail.
         let done = plan.process_with_scratch(time, spectrum, scratch);
         debug_assert!(done.is_ok());
     }
 
-    /// Adds the effect of the b inputs before `now` to the b outputs from `now` on, in all rows.
+    /// Adds the effect of the b inputs before `now` to the next b outputs, in all rows.
     ///
     /// There is one row per wavenumber for the first component, then as many for each other component.
     pub(super) fn apply(
         &self,
         rows: &mut [Complex<f64>],
         stride: usize,
-        (ring, now): (Ring, usize),
+        ring: Ring,
+        now: usize,
         part: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
         let size = self.size;
         // Rows may end before the block does.
-        let (before, begin) = (ring.before(now, size), ring.place(now));
+        let before = ring.before(now, size);
+        let begin = ring.place(now);
         let ahead = begin..stride.min(begin + size);
         if part == Components::Even {
             // One component at a time: the largest blocks need no more scratch than the blocks of the coupling.
             let block = &mut blocks[..2 * size];
-            for (kind, rows) in rows.chunks_exact_mut(self.waves.all * stride).enumerate() {
+            for (kind, rows) in rows.chunks_exact_mut(self.waves.count * stride).enumerate() {
                 for (wave, row) in rows.chunks_exact_mut(stride).enumerate() {
-                    self.take(&row[before.clone()], block, scratch);
+                    self.transform_inputs(&row[before.clone()], block, scratch);
                     multiply(block, self.spectrum(kind, wave));
-                    self.give(block, &mut row[ahead.clone()], scratch);
+                    self.add_to_outputs(block, &mut row[ahead.clone()], scratch);
                 }
             }
         } else if self.spectra.len() == STRIP_KINDS {
-            self.apply_coupled::<2>(rows, stride, [before, ahead], part, blocks, scratch);
+            self.apply_coupled::<2>(rows, stride, before, ahead, part, blocks, scratch);
         } else {
-            self.apply_coupled::<3>(rows, stride, [before, ahead], part, blocks, scratch);
+            self.apply_coupled::<3>(rows, stride, before, ahead, part, blocks, scratch);
         }
     }
 
@@ -150,39 +156,42 @@ impl WaveLevel {
         &self.spectra[kind][self.waves.spectrum(wave) * bins..][..bins]
     }
 
-    /// [`WaveLevel::apply`] of N components at once.
+    /// [`WaveLevel::apply`] of N components at once, from the inputs `before` to the outputs `ahead`.
+    #[allow(clippy::too_many_arguments, reason = "as of `apply`, with both ranges")]
     fn apply_coupled<const N: usize>(
         &self,
         rows: &mut [Complex<f64>],
         stride: usize,
-        [before, ahead]: [Range<usize>; 2],
+        before: Range<usize>,
+        ahead: Range<usize>,
         part: Components,
         blocks: &mut [Complex<f64>],
         scratch: &mut [Complex<f64>],
     ) {
         let blocks = &mut blocks[..2 * N * self.size];
-        for wave in 0..self.waves.all {
-            let begin = |component: usize| (component * self.waves.all + wave) * stride;
+        for wave in 0..self.waves.count {
             for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
-                let row = &rows[begin(component)..][..stride];
-                self.take(&row[before.clone()], block, scratch);
+                let begin = (component * self.waves.count + wave) * stride;
+                let row = &rows[begin..][..stride];
+                self.transform_inputs(&row[before.clone()], block, scratch);
             }
             if part == Components::All {
                 let spectra = kinds::<N>().map(|row| row.map(|kind| self.spectrum(kind, wave)));
                 multiply_all(blocks, spectra);
             } else {
-                let (one, two) = blocks.split_at_mut(2 * self.size);
-                exchange(one, two, self.spectrum(COUPLING, wave));
+                let (pressure, shear) = blocks.split_at_mut(2 * self.size);
+                multiply_coupling(pressure, shear, self.spectrum(COUPLING_KIND, wave));
             }
             for (component, block) in blocks.chunks_exact_mut(2 * self.size).enumerate() {
-                let row = &mut rows[begin(component)..][..stride];
-                self.give(block, &mut row[ahead.clone()], scratch);
+                let begin = (component * self.waves.count + wave) * stride;
+                let row = &mut rows[begin..][..stride];
+                self.add_to_outputs(block, &mut row[ahead.clone()], scratch);
             }
         }
     }
 
     /// Transforms b inputs, followed by as many zeros.
-    fn take(
+    fn transform_inputs(
         &self,
         inputs: &[Complex<f64>],
         block: &mut [Complex<f64>],
@@ -193,8 +202,8 @@ impl WaveLevel {
         self.forward.process_with_scratch(block, scratch);
     }
 
-    /// Transforms back, and adds the second half to the outputs, at most b.
-    fn give(
+    /// Transforms a block back, and adds its second half to the outputs, at most b.
+    fn add_to_outputs(
         &self,
         block: &mut [Complex<f64>],
         outputs: &mut [Complex<f64>],
@@ -224,9 +233,13 @@ fn multiply(block: &mut [Complex<f64>], spectrum: &[Complex<f64>]) {
 }
 
 /// (p, s) ← (i c s, −i c p).
-fn exchange(one: &mut [Complex<f64>], two: &mut [Complex<f64>], coupling: &[Complex<f64>]) {
-    let all = coupling.iter().copied().chain(upper(coupling));
-    for ((p, s), c) in one.iter_mut().zip(two).zip(all) {
+fn multiply_coupling(
+    pressure: &mut [Complex<f64>],
+    shear: &mut [Complex<f64>],
+    coupling: &[Complex<f64>],
+) {
+    let spectrum = coupling.iter().copied().chain(upper(coupling));
+    for ((p, s), c) in pressure.iter_mut().zip(shear).zip(spectrum) {
         let c = times_i(c);
         (*p, *s) = (c * *s, -c * *p);
     }
@@ -268,42 +281,40 @@ fn multiply_matrix<const N: usize, const UPPER: bool>(
                 if UPPER { row[m][length - place].conj() } else { row[m][place] }
             };
             block[place] = if n == 0 {
-                let own = factor(0) * values[0];
-                (1..N).fold(own, |sum, m| sum + times_i(factor(m)) * values[m])
+                (1..N).fold(factor(0) * values[0], |sum, m| sum + times_i(factor(m)) * values[m])
             } else {
-                let own = factor(1) * values[1];
-                let others = (2..N).fold(own, |sum, m| sum + factor(m) * values[m]);
-                others - times_i(factor(0)) * values[0]
+                let shears =
+                    (2..N).fold(factor(1) * values[1], |sum, m| sum + factor(m) * values[m]);
+                shears - times_i(factor(0)) * values[0]
             };
         }
     }
 }
 
-/// Levels of blocks, from the smallest on, for leaves of one length.
-pub(crate) struct Levels<L, N> {
+/// Levels of blocks, from the smallest on, with the coefficients C of a leaf.
+pub(crate) struct Levels<L, C> {
     pub(super) levels: Vec<Arc<L>>,
-    /// Coefficients of a leaf.
-    pub(super) near: Option<Arc<N>>,
+    /// Coefficients of a leaf; `None` until they are made.
+    pub(super) leaf: Option<Arc<C>>,
 }
 
-impl<L, N> Default for Levels<L, N> {
+impl<L, C> Default for Levels<L, C> {
     fn default() -> Self {
-        Self { levels: Vec::new(), near: None }
+        Self { levels: Vec::new(), leaf: None }
     }
 }
 
-impl<L, N: Default> Levels<L, N> {
-    /// Returns the `wanted` smallest levels and the coefficients of a leaf.
+impl<L, C> Levels<L, C> {
+    /// Returns the smallest `count` levels and the coefficients of a leaf.
     ///
-    /// `make` makes missing levels, from the first number given to the one before the second, and the coefficients if
-    /// they are missing.
-    pub(super) fn take(
+    /// `make` makes missing levels of a range of numbers, and the coefficients if they are missing.
+    pub(super) fn smallest(
         &mut self,
-        wanted: usize,
-        make: impl FnOnce([usize; 2], &mut Option<Arc<N>>) -> Result<Vec<Arc<L>>>,
-    ) -> Result<(Vec<Arc<L>>, Arc<N>)> {
-        let more = make([self.levels.len(), wanted], &mut self.near)?;
-        self.levels.extend(more);
-        Ok((self.levels[..wanted].to_vec(), self.near.clone().unwrap_or_default()))
+        count: usize,
+        make: impl FnOnce(Range<usize>, &mut Option<Arc<C>>) -> Result<Vec<Arc<L>>>,
+    ) -> Result<Self> {
+        let missing = make(self.levels.len()..count, &mut self.leaf)?;
+        self.levels.extend(missing);
+        Ok(Self { levels: self.levels[..count].to_vec(), leaf: self.leaf.clone() })
     }
 }

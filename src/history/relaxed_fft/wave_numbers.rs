@@ -1,24 +1,24 @@
 //! Wavenumbers of a lattice.
 
-/// Numbers of wavenumbers; some have spectra, and the others are mirror images.
+/// Numbers of wavenumbers: those with spectra, and mirror images of these.
 #[derive(Clone, Copy)]
 pub(super) struct WaveNumbers {
     /// Number of all wavenumbers.
-    pub(super) all: usize,
+    pub(super) count: usize,
     /// Number of wavenumbers with spectra, which come first.
-    pub(super) own: usize,
+    pub(super) with_spectra: usize,
     /// First wavenumber that has an image.
-    pub(super) first: usize,
+    pub(super) first_mirrored: usize,
 }
 
 impl WaveNumbers {
     /// Place of the spectrum of a wavenumber.
     pub(super) fn spectrum(self, wave: usize) -> usize {
-        if wave < self.own { wave } else { wave - self.own + self.first }
+        if wave < self.with_spectra { wave } else { wave - self.with_spectra + self.first_mirrored }
     }
 
     /// Ranges of wavenumbers, and the place of the first spectrum of each range.
-    pub(super) fn runs(self) -> [(std::ops::Range<usize>, usize); 2] {
-        [(0..self.own, 0), (self.own..self.all, self.first)]
+    pub(super) fn ranges(self) -> [(std::ops::Range<usize>, usize); 2] {
+        [(0..self.with_spectra, 0), (self.with_spectra..self.count, self.first_mirrored)]
     }
 }

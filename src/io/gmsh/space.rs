@@ -271,7 +271,7 @@ impl GmshSpaceMesh {
             let nodes = &cell.nodes[..];
             let faces: Vec<Vec<usize>> = match cell.kind.dimension() {
                 2 => vec![nodes.to_vec()],
-                3 => Hex8::FACES
+                3 => Hex8::FACE_CORNERS
                     .iter()
                     .map(|face| face.map(|corner| nodes[corner]).to_vec())
                     .collect(),

@@ -1,13 +1,13 @@
-//! Graphs with weights, made coarser by joining neighbours.
+//! Weighted graphs, made coarser by joining neighbours.
 
 use std::collections::HashMap;
 
-/// Vertices of a graph that is not made coarser.
-pub(super) const COARSE: usize = 80;
-/// Number of joined vertices of the largest weight that make up a graph.
-const PARTS: i64 = 40;
-/// Vertex without a number.
-pub(super) const NONE: usize = usize::MAX;
+/// Graphs up to this number of vertices are not made coarser.
+pub(super) const MAX_COARSEST_VERTICES: usize = 80;
+/// Joined vertices weigh at most this fraction of the graph (one over the constant).
+const MIN_COARSE_VERTICES: i64 = 40;
+/// Number of a vertex that is not in the subgraph, or has no partner.
+pub(super) const NO_VERTEX: usize = usize::MAX;
 
 /// Neighbour and weight of an edge.
 type Edge = (usize, i64);
@@ -20,40 +20,62 @@ pub(super) struct Graph {
     pub(super) weight: Vec<i64>,
 }
 
-impl Graph {
-    fn new() -> Self {
-        Self { start: vec![0], edges: Vec::new(), weight: Vec::new() }
-    }
+/// Neighbours of all vertices, without weights.
+pub(crate) struct Adjacency {
+    /// Place of the first neighbour of each vertex, and the number of neighbours.
+    pub(crate) start: Vec<usize>,
+    /// The neighbours of each vertex, ascending.
+    pub(crate) neighbours: Vec<usize>,
+}
 
-    /// Graph of a pattern, and the rows of each vertex.
-    pub(super) fn of_pattern<'a>(
-        order: usize,
-        row: impl Fn(usize) -> &'a [usize],
-    ) -> (Self, Vec<Vec<usize>>) {
-        let mut known: HashMap<&[usize], usize> = HashMap::new();
-        let (mut rows, mut vertex): (Vec<Vec<usize>>, _) = (Vec::new(), vec![0; order]);
+/// Graph whose vertices are one or two joined vertices of a finer graph.
+pub(super) struct CoarseGraph {
+    pub(super) graph: Graph,
+    /// Vertex of this graph for each vertex of the finer graph.
+    pub(super) coarse_vertex: Vec<usize>,
+}
+
+/// Graph of a matrix' symmetric pattern.
+pub(super) struct PatternGraph {
+    pub(super) graph: Graph,
+    /// Rows of each vertex, which have the same columns.
+    pub(super) rows: Vec<Vec<usize>>,
+}
+
+impl PatternGraph {
+    /// Graph of a pattern given by the ascending columns of each row.
+    pub(super) fn new<'a>(order: usize, columns_of_row: impl Fn(usize) -> &'a [usize]) -> Self {
+        let mut vertex_of_columns: HashMap<&[usize], usize> = HashMap::new();
+        let mut rows: Vec<Vec<usize>> = Vec::new();
+        let mut vertex = vec![0; order];
         for i in 0..order {
-            let at = *known.entry(row(i)).or_insert(rows.len());
-            if at == rows.len() {
+            let vertex_index = *vertex_of_columns.entry(columns_of_row(i)).or_insert(rows.len());
+            if vertex_index == rows.len() {
                 rows.push(Vec::new());
             }
-            rows[at].push(i);
-            vertex[i] = at;
+            rows[vertex_index].push(i);
+            vertex[i] = vertex_index;
         }
-        let mut graph = Self::new();
-        let mut last = vec![NONE; rows.len()];
-        for (v, own) in rows.iter().enumerate() {
+        let mut graph = Graph::new();
+        let mut last = vec![NO_VERTEX; rows.len()];
+        for (v, members) in rows.iter().enumerate() {
             last[v] = v;
-            for &column in row(own[0]) {
-                let other = vertex[column];
-                if std::mem::replace(&mut last[other], v) != v {
-                    graph.edges.push((other, 1));
+            for &column in columns_of_row(members[0]) {
+                let neighbour = vertex[column];
+                if std::mem::replace(&mut last[neighbour], v) != v {
+                    graph.edges.push((neighbour, 1));
                 }
             }
             graph.start.push(graph.edges.len());
-            graph.weight.push(i64::try_from(own.len()).unwrap_or(i64::MAX));
+            graph.weight.push(i64::try_from(members.len()).unwrap_or(i64::MAX));
         }
-        (graph, rows)
+        Self { graph, rows }
+    }
+}
+
+impl Graph {
+    fn new() -> Self {
+        Self { start: vec![0], edges: Vec::new(), weight: Vec::new() }
     }
 
     pub(super) fn len(&self) -> usize {
@@ -64,81 +86,88 @@ impl Graph {
         &self.edges[self.start[vertex]..self.start[vertex + 1]]
     }
 
-    /// First neighbour of each vertex, and the neighbours of each vertex in ascending order.
-    pub(super) fn pattern(&self) -> (Vec<usize>, Vec<usize>) {
+    /// The neighbours of all vertices, without weights.
+    pub(super) fn adjacency(&self) -> Adjacency {
         let mut neighbours: Vec<usize> = self.edges.iter().map(|(v, _)| *v).collect();
         for ends in self.start.windows(2) {
             neighbours[ends[0]..ends[1]].sort_unstable();
         }
-        (self.start.clone(), neighbours)
+        Adjacency { start: self.start.clone(), neighbours }
     }
 
     /// Subgraph of these vertices; `place` is scratch without numbers.
-    pub(super) fn part(&self, vertices: &[usize], place: &mut [usize]) -> Self {
-        let mut part = Self::new();
+    pub(super) fn subgraph(&self, vertices: &[usize], place: &mut [usize]) -> Self {
+        let mut subgraph = Self::new();
         vertices.iter().enumerate().for_each(|(k, &v)| place[v] = k);
         for &v in vertices {
-            let inner = self.neighbours(v).iter().filter(|(other, _)| place[*other] != NONE);
-            part.edges.extend(inner.map(|&(other, weight)| (place[other], weight)));
-            part.start.push(part.edges.len());
-            part.weight.push(self.weight[v]);
+            let inner = self.neighbours(v).iter().filter(|(other, _)| place[*other] != NO_VERTEX);
+            subgraph.edges.extend(inner.map(|&(other, weight)| (place[other], weight)));
+            subgraph.start.push(subgraph.edges.len());
+            subgraph.weight.push(self.weight[v]);
         }
         for &v in vertices {
-            place[v] = NONE;
+            place[v] = NO_VERTEX;
         }
-        part
+        subgraph
     }
 
-    /// The graph with neighbours joined in pairs, and the new vertex of each vertex.
-    pub(super) fn coarser(&self) -> (Self, Vec<usize>) {
+    /// The graph with neighbours joined in pairs.
+    pub(super) fn coarser(&self) -> CoarseGraph {
         let n = self.len();
         let total: i64 = self.weight.iter().sum();
-        let heaviest = (total / PARTS).max(2);
+        let max_weight = (total / MIN_COARSE_VERTICES).max(2);
         // An order without relation to the numbering, the same in every run.
         let mut visits: Vec<usize> = (0..n).collect();
         visits.sort_by_key(|v| v.wrapping_mul(2_654_435_761) & 0xffff_ffff);
-        let mut mate = vec![NONE; n];
+        let mut mate = vec![NO_VERTEX; n];
         for v in visits {
-            if mate[v] != NONE {
+            if mate[v] != NO_VERTEX {
                 continue;
             }
-            let free = self.neighbours(v).iter().filter(|(other, _)| {
-                mate[*other] == NONE && self.weight[*other] + self.weight[v] <= heaviest
+            let free = self.neighbours(v).iter().filter(|(neighbour, _)| {
+                mate[*neighbour] == NO_VERTEX
+                    && self.weight[*neighbour] + self.weight[v] <= max_weight
             });
-            let best = free.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NONE - u));
-            let other = best.map_or(v, |(other, _)| *other);
-            mate[v] = other;
-            mate[other] = v;
+            let best = free.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
+            // A vertex without a partner is its own mate.
+            let partner = best.map_or(v, |(neighbour, _)| *neighbour);
+            mate[v] = partner;
+            mate[partner] = v;
         }
-        let (mut new, mut firsts) = (vec![NONE; n], Vec::new());
+        let mut coarse_vertex = vec![NO_VERTEX; n];
+        let mut representatives = Vec::new();
         for v in 0..n {
-            if new[v] == NONE {
-                new[v] = firsts.len();
-                new[mate[v]] = firsts.len();
-                firsts.push(v);
+            if coarse_vertex[v] == NO_VERTEX {
+                coarse_vertex[v] = representatives.len();
+                coarse_vertex[mate[v]] = representatives.len();
+                representatives.push(v);
             }
         }
         let mut coarse = Self::new();
         // Edge to each neighbour, if it is at or beyond the first edge of the vertex.
-        let mut edge_to = vec![0; firsts.len()];
-        for (own, &v) in firsts.iter().enumerate() {
-            let (first, pair) = (coarse.edges.len(), [v, mate[v]]);
+        let mut edge_to = vec![0; representatives.len()];
+        for (new_vertex, &v) in representatives.iter().enumerate() {
+            let first_edge = coarse.edges.len();
+            let pair = [v, mate[v]];
             let members = if pair[0] == pair[1] { &pair[..1] } else { &pair };
             for &(u, weight) in members.iter().flat_map(|member| self.neighbours(*member)) {
-                let at = edge_to[new[u]];
-                if new[u] == own {
+                let neighbour = coarse_vertex[u];
+                if neighbour == new_vertex {
                     continue;
                 }
-                if coarse.edges.get(at).is_some_and(|edge| at >= first && edge.0 == new[u]) {
-                    coarse.edges[at].1 += weight;
-                } else {
-                    edge_to[new[u]] = coarse.edges.len();
-                    coarse.edges.push((new[u], weight));
+                let place = edge_to[neighbour];
+                let edge = coarse.edges.get_mut(place).filter(|_| place >= first_edge);
+                match edge.filter(|edge| edge.0 == neighbour) {
+                    Some(edge) => edge.1 += weight,
+                    None => {
+                        edge_to[neighbour] = coarse.edges.len();
+                        coarse.edges.push((neighbour, weight));
+                    }
                 }
             }
             coarse.start.push(coarse.edges.len());
             coarse.weight.push(members.iter().map(|member| self.weight[*member]).sum());
         }
-        (coarse, new)
+        CoarseGraph { graph: coarse, coarse_vertex }
     }
 }

@@ -4,17 +4,17 @@ use std::collections::BinaryHeap;
 
 use super::graph::Graph;
 
-/// Largest weight of a half, in hundredths of the graph's.
-const HEAVIEST: i64 = 55;
+/// Largest weight of a half, in per cent of the graph's weight.
+const MAX_HALF_PERCENT: i64 = 55;
 /// Largest number of passes that improve two halves.
-const PASSES: usize = 8;
+const MAX_IMPROVEMENT_PASSES: usize = 8;
 /// Moves without a better cut after which a pass ends.
-const PATIENCE: usize = 100;
-/// Gain of a vertex that has moved in a pass.
-const MOVED: i64 = i64::MIN;
+const MAX_MOVES_WITHOUT_GAIN: usize = 100;
+/// Gain stored for a vertex that has already moved in a pass.
+const GAIN_IF_MOVED: i64 = i64::MIN;
 
 /// Two halves of a graph.
-pub(super) struct Halves<'a> {
+pub(super) struct GraphHalves<'a> {
     graph: &'a Graph,
     pub(super) is_second: Vec<bool>,
     weights: [i64; 2],
@@ -24,50 +24,60 @@ pub(super) struct Halves<'a> {
     limit: i64,
 }
 
-impl<'a> Halves<'a> {
+impl<'a> GraphHalves<'a> {
     pub(super) fn new(graph: &'a Graph, is_second: Vec<bool>) -> Self {
-        let (mut weights, mut twice) = ([0; 2], 0);
+        let mut weights = [0; 2];
+        let mut double_cut = 0;
         for (v, second) in is_second.iter().enumerate() {
             weights[usize::from(*second)] += graph.weight[v];
             let across = graph.neighbours(v).iter().filter(|(u, _)| is_second[*u] != *second);
-            twice += across.map(|(_, weight)| weight).sum::<i64>();
+            double_cut += across.map(|(_, weight)| weight).sum::<i64>();
         }
-        let (total, heaviest) = (weights[0] + weights[1], graph.weight.iter().max());
-        let limit = (total * HEAVIEST / 100).max(total / 2 + heaviest.copied().unwrap_or(0));
-        Self { graph, is_second, weights, cut: twice / 2, limit }
+        let total = weights[0] + weights[1];
+        let heaviest = graph.weight.iter().max();
+        let limit =
+            (total * MAX_HALF_PERCENT / 100).max(total / 2 + heaviest.copied().unwrap_or(0));
+        Self { graph, is_second, weights, cut: double_cut / 2, limit }
     }
 
-    /// The first half grows from a vertex, by the neighbour that cuts the fewest edges.
+    /// Grows the first half from a vertex, by the neighbour that cuts the fewest edges.
     pub(super) fn grown(graph: &'a Graph, seed: usize) -> Self {
-        let mut own = Self::new(graph, vec![true; graph.len()]);
-        let (mut heap, mut rest) = (BinaryHeap::from([(own.gain(seed), seed)]), 0..graph.len());
-        while own.weights[0] < own.weights[1] {
+        let mut halves = Self::new(graph, vec![true; graph.len()]);
+        let mut heap = BinaryHeap::from([(halves.gain(seed), seed)]);
+        let mut unvisited = 0..graph.len();
+        while halves.weights[0] < halves.weights[1] {
             let Some((gain, v)) = heap.pop() else {
-                // The next part of a graph that is not connected.
-                let Some(other) = rest.find(|v| own.is_second[*v]) else { break };
-                heap.push((own.gain(other), other));
+                // The graph is not connected: continue with the next component.
+                let Some(other) = unvisited.find(|v| halves.is_second[*v]) else { break };
+                heap.push((halves.gain(other), other));
                 continue;
             };
-            if own.is_second[v] && gain == own.gain(v) {
-                own.shift(v);
-                let outer = graph.neighbours(v).iter().filter(|(u, _)| own.is_second[*u]);
-                heap.extend(outer.map(|&(u, _)| (own.gain(u), u)));
+            if halves.is_second[v] && gain == halves.gain(v) {
+                halves.shift(v);
+                let outer = graph.neighbours(v).iter().filter(|(u, _)| halves.is_second[*u]);
+                heap.extend(outer.map(|&(u, _)| (halves.gain(u), u)));
             }
         }
-        own
+        halves
     }
 
+    /// Cost of these halves, compared entry by entry.
+    ///
     /// Excess of a half over its limit, then the weight of the cut, then the difference of the halves.
     pub(super) fn cost(&self) -> [i64; 3] {
-        let [one, other] = self.weights;
-        [(one.max(other) - self.limit).max(0), self.cut, (one - other).abs()]
+        let first = self.weights[0];
+        let second = self.weights[1];
+        [(first.max(second) - self.limit).max(0), self.cut, (first - second).abs()]
     }
 
     /// Decrease of the cut when a vertex changes its half.
     fn gain(&self, v: usize) -> i64 {
-        let is_cut = |u: usize| self.is_second[u] != self.is_second[v];
-        let edges = self.graph.neighbours(v).iter();
-        edges.map(|&(u, weight)| if is_cut(u) { weight } else { -weight }).sum()
+        let mut gain = 0;
+        for &(u, weight) in self.graph.neighbours(v) {
+            let is_cut = self.is_second[u] != self.is_second[v];
+            gain += if is_cut { weight } else { -weight };
+        }
+        gain
     }
 
     /// Moves a vertex to the other half.
@@ -79,10 +89,10 @@ impl<'a> Halves<'a> {
         self.is_second[v] = from == 0;
     }
 
-    /// Moves vertices between the halves while that is better.
+    /// Moves vertices between the halves while the cost falls.
     pub(super) fn improve(&mut self) {
         let mut gains = vec![0; self.graph.len()];
-        for _ in 0..PASSES {
+        for _ in 0..MAX_IMPROVEMENT_PASSES {
             let before = self.cost();
             self.pass(&mut gains);
             if self.cost() >= before {
@@ -91,7 +101,7 @@ impl<'a> Halves<'a> {
         }
     }
 
-    /// Moves each vertex at most once, by the largest gain, and returns to the best halves.
+    /// Moves each vertex at most once, largest gain first, and returns to the best halves.
     fn pass(&mut self, gains: &mut [i64]) {
         let graph = self.graph;
         let mut heap = BinaryHeap::new();
@@ -102,7 +112,9 @@ impl<'a> Halves<'a> {
                 heap.push((gains[v], v));
             }
         }
-        let (mut moves, mut kept, mut best) = (Vec::new(), 0, self.cost());
+        let mut moves = Vec::new();
+        let mut kept_moves = 0;
+        let mut best = self.cost();
         while let Some((gain, v)) = heap.pop() {
             let from = usize::from(self.is_second[v]);
             let after = self.weights[1 - from] + graph.weight[v];
@@ -110,10 +122,10 @@ impl<'a> Halves<'a> {
                 continue;
             }
             self.shift(v);
-            gains[v] = MOVED;
+            gains[v] = GAIN_IF_MOVED;
             moves.push(v);
             for &(u, weight) in graph.neighbours(v) {
-                if gains[u] != MOVED {
+                if gains[u] != GAIN_IF_MOVED {
                     let is_cut = self.is_second[u] != self.is_second[v];
                     gains[u] += if is_cut { 2 * weight } else { -2 * weight };
                     heap.push((gains[u], u));
@@ -121,11 +133,12 @@ impl<'a> Halves<'a> {
             }
             let cost = self.cost();
             if cost < best {
-                (best, kept) = (cost, moves.len());
-            } else if moves.len() > kept + PATIENCE {
+                best = cost;
+                kept_moves = moves.len();
+            } else if moves.len() > kept_moves + MAX_MOVES_WITHOUT_GAIN {
                 break;
             }
         }
-        moves.drain(kept..).rev().for_each(|v| self.shift(v));
+        moves.drain(kept_moves..).rev().for_each(|v| self.shift(v));
     }
 }

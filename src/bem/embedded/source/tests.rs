@@ -2,7 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
-use crate::history::KINDS;
+use crate::history::STRIP_KINDS;
 use crate::soil::{KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
@@ -105,7 +105,7 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
         weights.coefficients_around_trench(class, 1, [nn, tt, nt, tn]).unwrap();
     });
     let wanted = matrix_of_sums(strip.classes(), |class, values| {
-        let values: &mut [&mut [f64]; KINDS] = values.try_into().unwrap();
+        let values: &mut [&mut [f64]; STRIP_KINDS] = values.try_into().unwrap();
         let [zz, xx, zx] = values;
         strip.coefficients(class, 1, [zz, xx, zx]).unwrap();
     });

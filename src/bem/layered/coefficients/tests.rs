@@ -4,7 +4,7 @@ use super::*;
 use crate::bem::layered::test_profiles::{gmb, p1, p3};
 use crate::bem::layered::wavenumber::StripWorkspace;
 use crate::bem::{Grading, Strip};
-use crate::history::KINDS;
+use crate::history::STRIP_KINDS;
 use crate::soil::{Elastic, SoilProfile};
 
 fn quadrature(profile: SoilProfile, stages: Stages) -> Quadrature {
@@ -32,7 +32,7 @@ fn panels_and_points_give_equal_values() {
             let quadrature = quadrature(profile.clone(), stages);
             let self_pairs = quadrature.panels[0].self_pairs.clone();
             let mut work = StripWorkspace::default();
-            let mut values = vec![[Complex::default(); KINDS]; quadrature.classes];
+            let mut values = vec![[Complex::default(); STRIP_KINDS]; quadrature.classes];
             let mut scratch = values.clone();
             let mut worst = 0.0_f64;
             let mut covered = 0;
@@ -51,7 +51,7 @@ fn panels_and_points_give_equal_values() {
                             .map(|class| values[class][0].abs().min(values[class][1].abs()));
                         let unit = (sizes[0] * sizes[1]).sqrt();
                         for (component, value) in value.iter().enumerate() {
-                            let found = spectra[(class * KINDS + component) * count + point];
+                            let found = spectra[(class * STRIP_KINDS + component) * count + point];
                             worst = worst.max((found - *value).abs() / unit);
                         }
                     }
@@ -96,7 +96,7 @@ fn lags_are_those_of_all_points() {
     ] {
         let panels = quadrature(profile.clone(), Stages::Two);
         let points = quadrature(profile, Stages::Two);
-        let mut largest = [0.0_f64; KINDS];
+        let mut largest = [0.0_f64; STRIP_KINDS];
         let mut worst = 0.0_f64;
         for number in 0..4 {
             // All panels are marked as unresolved.
@@ -111,7 +111,7 @@ fn lags_are_those_of_all_points() {
             let one = block(&panels, number, 1);
             let two = block(&points, number, 1);
             for (place, (one, two)) in one.values.iter().zip(&two.values).enumerate() {
-                let largest = &mut largest[place % KINDS];
+                let largest = &mut largest[place % STRIP_KINDS];
                 *largest = two.iter().fold(*largest, |size, x| size.max(x.abs()));
                 let error = one.iter().zip(two).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
                 worst = worst.max(error / *largest);

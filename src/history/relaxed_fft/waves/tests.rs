@@ -1,5 +1,4 @@
-//! Compares the convolution over cells in plan by transforms, by the direct sum, and by a sum
-//! written here.
+//! Compares three convolutions over cells in plan: by transforms, by the direct sum, and by a sum written here.
 
 use std::sync::Arc;
 
@@ -7,30 +6,32 @@ use basemat_problems::random::Random;
 
 use super::*;
 use crate::error::Error;
-use crate::geometry::{Lattice as Plan, SERIES_PER_OFFSET, offset};
+use crate::geometry::{Lattice as PlanLattice, SERIES_PER_OFFSET, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
 
 /// Random coefficients that decay, with the zeros that symmetry requires.
-struct Made {
+struct RandomWeights {
     classes: PairClasses,
-    lattice: Plan,
+    lattice: PlanLattice,
 }
 
-impl Made {
-    fn new(lattice: &Plan, cells: Vec<[usize; 2]>) -> Arc<Self> {
+impl RandomWeights {
+    fn new(lattice: &PlanLattice, cells: Vec<[usize; 2]>) -> Arc<Self> {
         let classes = PairClasses::in_plan(lattice.clone(), cells, [0.0; 2]).unwrap();
         Arc::new(Self { classes, lattice: lattice.clone() })
     }
 
     fn lag(&self, class: usize, lag: usize) -> [f64; SERIES_PER_OFFSET] {
         let mut random = Random((class * 100_003 + lag) as u64);
-        let [i, j] = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
-        let zeros = [1.0, 1.0, 1.0, i * j, i, j];
-        zeros.map(|zero| zero * random.within(-1.0, 1.0) / lag as f64)
+        // Factors that are zero where symmetry requires it.
+        let is_off_axis = self.lattice.classes()[class].map(|n| if n == 0 { 0.0 } else { 1.0 });
+        let factors =
+            [1.0, 1.0, 1.0, is_off_axis[0] * is_off_axis[1], is_off_axis[0], is_off_axis[1]];
+        factors.map(|factor| factor * random.within(-1.0, 1.0) / lag as f64)
     }
 }
 
-impl ConvolutionWeights for Made {
+impl ConvolutionWeights for RandomWeights {
     fn classes(&self) -> &PairClasses {
         &self.classes
     }
@@ -53,14 +54,22 @@ impl ConvolutionWeights for Made {
     }
 }
 
-fn cells(mask: &str) -> (Vec<[usize; 2]>, [usize; 2]) {
-    let rows: Vec<Vec<char>> = mask.lines().map(|line| line.chars().collect()).collect();
-    let counts = [rows[0].len(), rows.len()];
-    let all = (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]);
-    (all.filter(|[i, j]| rows[*j][*i] == '#').collect(), counts)
+/// Cells that are `#` in a picture of a lattice.
+struct Mask {
+    cells: Vec<[usize; 2]>,
+    counts: [usize; 2],
 }
 
-const MASKS: [&str; 6] = [
+impl Mask {
+    fn new(picture: &str) -> Self {
+        let rows: Vec<Vec<char>> = picture.lines().map(|line| line.chars().collect()).collect();
+        let counts = [rows[0].len(), rows.len()];
+        let all = (0..counts[0] * counts[1]).map(|n| [n % counts[0], n / counts[0]]);
+        Self { cells: all.filter(|[i, j]| rows[*j][*i] == '#').collect(), counts }
+    }
+}
+
+const CELL_MASKS: [&str; 6] = [
     "####\n####\n####\n####",
     "#####\n#####",
     "##...\n##...\n#####",
@@ -72,15 +81,16 @@ const MASKS: [&str; 6] = [
 /// Transforms with and without cells missing, square and oblong, over blocks of four sizes.
 #[test]
 fn transforms_are_the_direct_sum() {
-    for mask in MASKS {
+    for mask in CELL_MASKS {
         for pitch in [[0.5; 2], [0.5, 0.8]] {
-            let (cells, counts) = cells(mask);
-            let lattice = Plan { pitch, counts };
+            let Mask { cells, counts } = Mask::new(mask);
+            let lattice = PlanLattice { pitch, counts };
             let size = 3 * cells.len();
-            let kernel = Made::new(&lattice, cells.clone());
+            let kernel = RandomWeights::new(&lattice, cells.clone());
             let mut direct = DirectHistory::new(kernel.clone());
             let mut fast = RelaxedFftHistory::new(kernel.clone());
-            let [mut wanted, mut found] = [vec![0.0; size], vec![0.0; size]];
+            let mut wanted = vec![0.0; size];
+            let mut found = vec![0.0; size];
             let mut random = Random(3);
             let mut past: Vec<Vec<f64>> = vec![];
             let mut worst = [0.0_f64; 2];
@@ -92,9 +102,9 @@ fn transforms_are_the_direct_sum() {
                     worst[0] = worst[0].max((found - wanted).abs() / largest);
                 }
                 if step == 20 {
-                    let own = summed(&kernel, &cells, &past);
-                    for (own, wanted) in own.iter().zip(&wanted) {
-                        worst[1] = worst[1].max((own - wanted).abs() / largest);
+                    let reference = summed(&kernel, &cells, &past);
+                    for (reference, wanted) in reference.iter().zip(&wanted) {
+                        worst[1] = worst[1].max((reference - wanted).abs() / largest);
                     }
                 }
                 let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
@@ -109,7 +119,7 @@ fn transforms_are_the_direct_sum() {
 }
 
 /// Σ G τ, block by block.
-fn summed(kernel: &Made, cells: &[[usize; 2]], past: &[Vec<f64>]) -> Vec<f64> {
+fn summed(kernel: &RandomWeights, cells: &[[usize; 2]], past: &[Vec<f64>]) -> Vec<f64> {
     let count = cells.len();
     let mut sums = vec![0.0; 3 * count];
     let area = kernel.lattice.pitch.iter().product::<f64>();
@@ -132,11 +142,11 @@ fn summed(kernel: &Made, cells: &[[usize; 2]], past: &[Vec<f64>]) -> Vec<f64> {
 
 /// Saved and restored anywhere, with the same bits.
 #[test]
-fn histories_go_on_where_they_were() {
-    let (cells, counts) = cells(MASKS[2]);
+fn histories_resume_where_they_were_saved() {
+    let Mask { cells, counts } = Mask::new(CELL_MASKS[2]);
     let size = 3 * cells.len();
-    let kernel = Made::new(&Plan { pitch: [0.5; 2], counts }, cells);
-    let all = |stop: Option<usize>| {
+    let kernel = RandomWeights::new(&PlanLattice { pitch: [0.5; 2], counts }, cells);
+    let result_with_stop = |stop: Option<usize>| {
         let mut history = RelaxedFftHistory::new(kernel.clone());
         let mut random = Random(5);
         let mut values = vec![0.0; size];
@@ -151,6 +161,8 @@ fn histories_go_on_where_they_were() {
         }
         values.into_iter().map(f64::to_bits).collect::<Vec<_>>()
     };
-    let whole = all(None);
-    assert!([1, 31, 32, 63, 128, 257].into_iter().all(|stop| all(Some(stop)) == whole));
+    let without_stop = result_with_stop(None);
+    for stop in [1, 31, 32, 63, 128, 257] {
+        assert_eq!(result_with_stop(Some(stop)), without_stop, "stop at {stop}");
+    }
 }
