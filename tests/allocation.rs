@@ -1,7 +1,7 @@
 //! GOAL: no step allocates after warm-up, whatever the scene, nor does recording once memory is
 //! reserved.
 //! SCENE: bonded, sliding and uplifting blocks and towers, in modes and in degrees of freedom; both grounds.
-//! REFERENCE: a global allocator that counts per thread, which is why this is a binary of its own.
+//! REFERENCE: a global allocator that counts per thread, so tests on other threads do not disturb the count.
 #![allow(unsafe_code, reason = "an allocator that counts has to be one")]
 
 use std::alloc::{GlobalAlloc, Layout, System};

@@ -179,7 +179,7 @@ impl OnBed {
 mod tests {
     use super::*;
     use crate::linalg::dense_condition;
-    use basemat_problems::random::Random;
+    use basemat_testkit::random::Random;
 
     /// A random soil, areas, and a structure B M Bᵀ A of this rank; W of it, entry by entry.
     fn random_parts(random: &mut Random, size: usize, rank: usize) -> ([Vec<f64>; 2], Vec<f64>) {

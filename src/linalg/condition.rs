@@ -132,7 +132,7 @@ pub(crate) fn sparse_condition(matrix: &SparseMatrix, factor: &SparseFactor) -> 
 mod tests {
     use super::*;
     use crate::linalg::Triplets;
-    use basemat_problems::random::Random;
+    use basemat_testkit::random::Random;
 
     #[test]
     fn estimates_are_within_a_factor_of_three_of_the_inverse() {
@@ -157,7 +157,7 @@ mod tests {
                     matrix[i * n + j] = matrix[i * n + j].abs();
                 }
             }
-            let exact = basemat_problems::dense::condition_by_inverse(&matrix, n);
+            let exact = basemat_testkit::dense::condition_by_inverse(&matrix, n);
             let mut triplets = Triplets::new(n);
             for (k, value) in matrix.iter().enumerate() {
                 triplets.add(k / n, k % n, *value);

@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn small_solves_are_exact_for_any_number_of_whole_and_broken_blocks() {
-        let mut random = basemat_problems::random::Random(7);
+        let mut random = basemat_testkit::random::Random(7);
         let mut factor = DenseFactor::with_capacity(18);
         for order in 0..=18 {
             let matrix: Vec<f64> = (0..order * order).map(|_| random.within(-1.0, 1.0)).collect();

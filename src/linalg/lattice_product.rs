@@ -240,7 +240,7 @@ fn is_smooth(mut number: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use basemat_problems::random::Random;
+    use basemat_testkit::random::Random;
 
     /// Symmetric block for an offset, without any other symmetry.
     fn block(to: [usize; 2], from: [usize; 2]) -> [[f64; 3]; 3] {

@@ -171,7 +171,7 @@ fn shake(scene: &Glued, steps: usize, tally: &mut Tally) {
     }
 }
 
-/// `CONTACT_SCENES=10000 cargo test --release --test contact ordinary_scenes` shakes more of them.
+/// `CONTACT_SCENES=10000 cargo test --release --test fast ordinary_scenes` shakes more of them.
 #[test]
 fn ordinary_scenes_are_solved() {
     let scenes = std::env::var("CONTACT_SCENES").ok().and_then(|text| text.parse().ok());

@@ -5,7 +5,7 @@
 //! REFERENCE: all 4ⁿ sets of modes of up to eight elements; the seed is fixed, so that the scenes are the
 //! same before and after a change of the search.
 //!
-//! `CONTACT_SCENES=600 cargo test --release --test contact extreme_scenes -- --nocapture` runs more.
+//! `CONTACT_SCENES=600 cargo test --release --test fast extreme_scenes -- --nocapture` runs more.
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::StepError;

@@ -2,7 +2,7 @@
 //! SCENE: random buildings on the half-plane, c₁Δt/l from 13 to 60, shaken strongly.
 //! REFERENCE: Signorini's conditions and sticking, written down anew.
 //!
-//! `LONG_STEPS=10000 cargo test --test contact long_steps` runs more scenes.
+//! `LONG_STEPS=10000 cargo test --test fast long_steps` runs more scenes.
 
 use basemat::bem::{ElasticGround, Grading, Strip};
 use basemat::contact::SearchMethod;

@@ -13,7 +13,7 @@ use basemat::structure::RigidBlock;
 use basemat::{Error, Simulation, unobserved};
 
 use super::soil;
-use crate::incident_waves::{canyon, waves};
+use crate::full_plane::incident_waves::{canyon, waves};
 
 /// GOAL: no silent answers: a boundary that is not flat needs its incident field, and that one does
 /// not go with a motion of the scene.

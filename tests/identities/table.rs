@@ -20,7 +20,7 @@ const WITHOUT_ROWS: [(&str, &str); 4] = [
 /// Types for which the library's sources in a folder implement a trait.
 fn implemented(name: &str, folder: &str) -> BTreeSet<String> {
     let mut found = BTreeSet::new();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(folder);
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src").join(folder);
     let mut folders = vec![root];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(folder).unwrap() {

@@ -13,7 +13,7 @@ use basemat_problems::dense::{dot, product};
 const FILES: [(&str, usize); 2] = [("block_linear", 4), ("block_second_order", 8)];
 
 fn file(name: &str) -> GmshMesh {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/gmsh");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/gmsh");
     GmshMesh::read(format!("{folder}/{name}.msh")).unwrap()
 }
 

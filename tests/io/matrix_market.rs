@@ -15,7 +15,7 @@ fn dense(matrix: &Triplets) -> Vec<f64> {
 }
 
 fn data(name: &str) -> Triplets {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/matrix_market/");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/matrix_market/");
     Triplets::read_matrix_market(format!("{folder}{name}.mtx")).unwrap()
 }
 

@@ -2,7 +2,7 @@
 //! damaged in every way, sources that fail midway, and a corpus of files that are hard to read (`tests/data/fuzz`).
 //! REFERENCE: a record on which every method works, or a typed error with its line.
 //!
-//! `PROPTEST_CASES=100000 cargo test --release --test motion fuzz` looks longer. Checkpoints are read
+//! `PROPTEST_CASES=100000 cargo test --release --test fast fuzz` looks longer. Checkpoints are read
 //! by serde: `tests/coupled/checkpoint/text.rs` damages those.
 
 use std::io::Read;

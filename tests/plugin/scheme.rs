@@ -8,7 +8,7 @@ use basemat::coupled::{Midpoint, SchemeCoefficients, Theta, TimeScheme};
 use basemat::interface::Bonded;
 
 use super::scene::{assert_same_motion, run, shaken};
-use crate::structure::Hardening;
+use crate::plugin::structure::Hardening;
 use basemat_problems::block_on_springs::bed;
 use basemat_problems::wrapped::Bare;
 

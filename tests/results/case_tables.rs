@@ -496,7 +496,7 @@ fn lines_stay_below_a_hundred_characters() {
     }
 
     // Runs side by side: twelve cases.
-    let mut simulation = crate::simulation();
+    let mut simulation = crate::results::simulation();
     let run = simulation.run(50, |_| {}).unwrap();
     let cases = (0..12).map(|k| (format!("a case with friction 0.{k}"), run.clone()));
     let comparison: Comparison = cases.collect();

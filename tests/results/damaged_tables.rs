@@ -173,7 +173,7 @@ fn a_stray_quotation_mark_drops_no_rows() {
 #[test]
 fn a_full_disk_ends_the_sweep_with_its_rows() {
     const CASES: u32 = 200;
-    const NAME: &str = "damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
+    const NAME: &str = "results::damaged_tables::a_full_disk_ends_the_sweep_with_its_rows";
     let (begin, end) = ("rows begin\n", "rows end\n");
     let compute = |case: &SweepCase<'_>| Result::Ok([case.index as f64, 0.5]);
     if let Some(path) = std::env::var_os("BASEMAT_FULL_DISK") {

@@ -2,7 +2,6 @@
 //! shown.
 //! SCENE: every picture, with odd values, long words and distant foundations.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
-#![cfg(feature = "plot")]
 
 use basemat::bem::{ElasticGround, Strip};
 use basemat::coupled::{Probe, interaction};
@@ -17,7 +16,7 @@ use basemat::structure::{DofCombination, RigidBlock, ShearBuilding, Storey, Stru
 use basemat::{Error, Simulation, Soil, unobserved};
 use basemat_problems::faults::is_unwritable;
 
-use crate::layout::assert_readable;
+use crate::results::layout::assert_readable;
 use basemat_problems::scenes::{self, SI, block, friction, scene};
 
 fn simulation() -> (Simulation, DeformedShape) {

@@ -4,7 +4,7 @@ use crate::soil::{GeneralizedMaxwell, Relaxation, Soil, SoilProfile};
 
 /// The damping law of `gmb.json` for 5 % or 1 %.
 pub(in crate::bem) fn gmb(percent: u32) -> GeneralizedMaxwell {
-    let (long_term, moduli, frequencies) = basemat_problems::profiles::gmb_numbers(percent);
+    let (long_term, moduli, frequencies) = basemat_testkit::gmb_numbers(percent);
     GeneralizedMaxwell::new(long_term, moduli, frequencies).unwrap()
 }
 

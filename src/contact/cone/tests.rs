@@ -4,7 +4,7 @@ use super::newton::Newton;
 use super::problem::{Bounds, Problem};
 use super::status::{Normal, Status, Tangential};
 use super::{proximal::Proximal, search::search, system::System};
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 /// A random positive definite W for `count` elements, and q.
 fn problem(random: &mut Random, count: usize, friction: f64) -> Problem {
@@ -226,7 +226,7 @@ fn is_among(problem: &Problem, solutions: &[Vec<f64>]) -> bool {
 
 /// Fraction of this many random problems: a fifth, or all of them if `HEAVY_TESTS` is set.
 fn cases(all: usize) -> usize {
-    if basemat_problems::heavy() { all } else { all / 5 }
+    if basemat_testkit::heavy() { all } else { all / 5 }
 }
 
 #[test]

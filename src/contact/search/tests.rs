@@ -21,7 +21,7 @@ use crate::linalg::dense_multiply_add;
 use crate::linalg::matrix::SparseMatrix;
 use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 

@@ -162,7 +162,7 @@ fn alternating(base: &PlacedBase, soil: &[f64], component: usize, elements: [usi
 mod tests {
     use super::*;
     use crate::linalg::magnitude;
-    use basemat_problems::random::Random;
+    use basemat_testkit::random::Random;
 
     /// REFERENCE: the matrix with the springs that hold means, (K + Σ HELD · modulus · area · b bᵀ) x = f.
     #[test]

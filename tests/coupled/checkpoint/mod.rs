@@ -2,15 +2,12 @@
 //! SCENE: half-planes with every history, spring beds, structures with internal variables.
 //! REFERENCE: the uninterrupted run.
 
-#[cfg(feature = "serde")]
 mod damaged;
 mod histories;
 mod refused;
 mod resumed;
 mod state_variables;
-#[cfg(feature = "serde")]
 mod sum;
-#[cfg(feature = "serde")]
 mod text;
 
 use basemat::bem::{ElasticGround, SpringGround, Strip};
@@ -35,16 +32,10 @@ fn spring_bed() -> SpringGround {
     SpringGround::new(-2.0..2.0, 8, 5e7, 4e7).unwrap().with_dashpots(4e5, 3e5).unwrap()
 }
 
-/// Through a text format where the crate is built to do so.
-#[cfg(feature = "serde")]
+/// Through a text format.
 fn carried(checkpoint: &Checkpoint) -> Checkpoint {
     let text = serde_json::to_string(checkpoint).unwrap();
     serde_json::from_str(&text).unwrap()
-}
-
-#[cfg(not(feature = "serde"))]
-fn carried(checkpoint: &Checkpoint) -> Checkpoint {
-    checkpoint.clone()
 }
 
 fn refusal(simulation: &mut Simulation, checkpoint: &Checkpoint) -> CheckpointError {

@@ -74,7 +74,6 @@ fn other_memories_are_refused() {
     }
 }
 
-#[cfg(feature = "serde")]
 #[test]
 fn damaged_memories_are_refused() {
     use super::sum::sealed;

@@ -4,8 +4,8 @@
 //! REFERENCE: balances and contact conditions in every step; repeated, mirrored, rescaled and
 //! delayed runs.
 //!
-//! `PROPTEST_CASES=2000 cargo test --release --test invariants random_scenes` runs more scenes, different ones each
-//! time.
+//! `PROPTEST_CASES=2000 cargo test --release --test heavy invariants::random_scenes` runs more scenes, different ones
+//! each time.
 
 mod recipe;
 mod run_checks;

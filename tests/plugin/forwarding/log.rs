@@ -32,7 +32,7 @@ pub(crate) fn methods(source: &str, name: &str) -> BTreeSet<String> {
 
 macro_rules! source {
     ($path:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/", $path))
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../src/", $path))
     };
 }
 pub(crate) use source;

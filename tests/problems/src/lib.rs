@@ -10,16 +10,10 @@
     reason = "not published"
 )]
 
-/// Whether tests take all their scenes, as every night: `HEAVY_TESTS` is set.
-pub fn heavy() -> bool {
-    std::env::var_os("HEAVY_TESTS").is_some()
-}
-
 pub mod block_on_springs;
 pub mod boundary_passivity;
 pub mod bricks;
 pub mod chatter;
-pub mod check_sum;
 pub mod columns;
 pub mod contact_problems;
 pub mod containment;
@@ -35,21 +29,17 @@ pub mod passivity;
 pub mod patch;
 pub mod prescribed;
 pub mod profiles;
-pub mod random;
 pub mod rigid_strip;
 pub mod rocking;
 pub mod sampled_block;
 pub mod scenes;
-pub mod series;
 pub mod space_beams;
 pub mod stiff_element;
 pub mod supported;
-pub mod table;
 pub mod tabled_structures;
 pub mod tower;
 pub mod truncation;
 pub mod welded_block;
 pub mod wrapped;
 
-pub use csv;
-pub use table::{Table, close, data_path, table};
+pub use basemat_testkit::{Table, check_sum, close, csv, data_path, heavy, random, series, table};

@@ -109,7 +109,7 @@ fn linked_nodes_move_by_finite_rotations() {
     let weight: f64 = masses.iter().map(|(_, mass)| mass * GRAVITY).sum();
     for i in 0..6 {
         for j in 0..6 {
-            let exact = crate::curvature(&potential, [i, j], 1e-4);
+            let exact = crate::structures::curvature(&potential, [i, j], 1e-4);
             let error = (found[dofs[i]][dofs[j]] - exact).abs();
             assert!(error < 1e-3 * weight, "{i} {j}: {} {exact}", found[dofs[i]][dofs[j]]);
         }

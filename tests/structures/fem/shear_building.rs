@@ -2,7 +2,7 @@
 //! SCENE: uniform and uneven buildings.
 //! REFERENCE: closed-form frequencies, Jacobi's method, free bodies, potential energy.
 
-use crate::curvature;
+use crate::structures::curvature;
 use basemat::Error;
 use basemat::fem::{Direction, Layer, Material, Mesh};
 use basemat::structure::{DofCombination, FemModel, ShearBuilding, Storey, Structure};

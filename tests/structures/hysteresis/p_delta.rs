@@ -2,7 +2,7 @@
 //! SCENE: bearings under their weight, a storey at its buckling load, columns that collapse.
 //! REFERENCE: the potential energy of the weight, differentiated twice; typed errors.
 
-use crate::curvature;
+use crate::structures::curvature;
 use basemat::bem::{ElasticGround, SpringGround, Strip};
 use basemat::coupled::Probe;
 use basemat::coupled::StepError;

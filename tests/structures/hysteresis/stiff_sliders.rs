@@ -2,7 +2,7 @@
 //! SCENE: random nonlinear buildings with long steps; friction pendulums that slide after 0.1 mm.
 //! REFERENCE: every run ends, and its energy balance closes.
 //!
-//! `NONLINEAR_SCENES=300 cargo test --test structures stiff_sliders` runs more scenes.
+//! `NONLINEAR_SCENES=300 cargo test --test fast stiff_sliders` runs more scenes.
 
 use basemat::Simulation;
 use basemat::Soil;

@@ -3,7 +3,7 @@ use crate::bem::embedded::Trench;
 use crate::bem::embedded::soil::TrenchSoil;
 use crate::linalg::{Complex, hermitian_range};
 use crate::soil::{Elastic, GeneralizedMaxwell, Hysteretic, Soil, SoilProfile};
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 fn soil(speed: f64, density: f64) -> Soil {
     Soil::from_shear_wave_speed(speed, 1.0 / 3.0, density).unwrap()
@@ -95,7 +95,7 @@ fn strips_on_damped_layers_match_the_tables() {
     ] {
         let profile = bedrock.with_layer(layer, 2.0).unwrap();
         let profile = profile.with_damping(Hysteretic::new(0.05).unwrap());
-        let table = basemat_problems::table(&format!("layered/{file}.csv"));
+        let table = basemat_testkit::table(&format!("layered/{file}.csv"));
         for a0 in ["0.785398163", "2"] {
             let row = table.row("a0", a0, names);
             let s = Complex::new(0.0, a0.parse().unwrap());

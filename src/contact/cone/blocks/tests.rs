@@ -5,7 +5,7 @@ use super::super::problem::{Bounds, Problem};
 use super::super::wide::Wide;
 use super::super::{proximal::Proximal, search::search};
 use super::*;
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 /// Elements along a side of the mat.
 const SIDE: usize = 10;

@@ -8,7 +8,7 @@ use super::*;
 use crate::contact::cone::status::Normal;
 use crate::contact::{OnBed, StructurePart};
 use crate::linalg::{dense_multiply_add, dot};
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 /// The same random problem with W of low rank, and with all entries of W.
 fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [Problem; 2] {

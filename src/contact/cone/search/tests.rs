@@ -2,7 +2,7 @@
 
 use super::super::problem::Bounds;
 use super::*;
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 /// Columns and rows of the lattice.
 const COUNTS: [usize; 2] = [9, 8];

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use basemat_problems::random::Random;
+use basemat_testkit::random::Random;
 
 use super::*;
 use crate::error::Error;

@@ -3,7 +3,7 @@
 //! accepts, from `parts.rs`; HEAVY_TESTS: some twenty times as many.
 //! REFERENCE: the same scene written another way, each row with its limit.
 //!
-//! `cargo test --test identities -- --nocapture` prints the scenes and pairs of parts that each row covered.
+//! `cargo test --test heavy identities -- --nocapture` prints the scenes and pairs of parts that each row covered.
 
 mod beds;
 mod blueprint;

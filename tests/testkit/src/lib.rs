@@ -1,0 +1,27 @@
+//! Random numbers, reference tables, comparison of series and plain dense algebra for tests.
+//!
+//! Nothing here depends on basemat, so its unit tests and those of its parts can use it.
+
+#![allow(missing_docs, missing_debug_implementations, reason = "not published")]
+#![allow(
+    clippy::len_without_is_empty,
+    clippy::missing_errors_doc,
+    clippy::missing_panics_doc,
+    reason = "not published"
+)]
+
+/// Whether tests take all their scenes, as every night: `HEAVY_TESTS` is set.
+pub fn heavy() -> bool {
+    std::env::var_os("HEAVY_TESTS").is_some()
+}
+
+pub mod check_sum;
+pub mod dense;
+mod maxwell;
+pub mod random;
+pub mod series;
+pub mod table;
+
+pub use csv;
+pub use maxwell::gmb_numbers;
+pub use table::{Table, close, data_path, table};
