@@ -76,11 +76,12 @@ impl<const N: usize> Frame<N> {
         let links: [_; N] = std::array::from_fn(|node| self.transformation(node));
         for (i, rows) in links.iter().enumerate() {
             for (j, columns) in links.iter().enumerate() {
-                let right = local_block(membrane, bending, i, j, columns);
+                let local_stiffness = local_block(membrane, bending, i, j, columns);
                 for (row, entries) in matrix.chunks_exact_mut(6 * N).skip(6 * i).take(6).enumerate()
                 {
                     for (column, entry) in entries[6 * j..6 * j + 6].iter_mut().enumerate() {
-                        *entry += (0..6).map(|k| rows[k][row] * right[k][column]).sum::<f64>();
+                        *entry +=
+                            (0..6).map(|k| rows[k][row] * local_stiffness[k][column]).sum::<f64>();
                     }
                 }
             }

@@ -40,8 +40,9 @@ impl TriangleBending<'_> {
     pub(super) fn stiffness(&self) -> [[f64; FULL_DOF_COUNT]; FULL_DOF_COUNT] {
         let shears = self.shears();
         let moduli = self.section.bending_and_shear();
-        let mut matrix =
-            integrate_stiffness(&moduli, rule().into_iter(), |point| self.strains(point, &shears));
+        let mut matrix = integrate_stiffness(&moduli, radon_rule().into_iter(), |point| {
+            self.strains(point, &shears)
+        });
         condense(&mut matrix, NODAL_DOF_COUNT);
         matrix
     }
@@ -179,7 +180,7 @@ fn rotation_slopes([r, s]: [f64; 2]) -> [[f64; 2]; 4] {
 }
 
 /// Radon's rule of seven points in (r, s), exact to degree 5; the weights sum to 1/2.
-fn rule() -> [([f64; 2], f64); 7] {
+fn radon_rule() -> [([f64; 2], f64); 7] {
     let mut points = [([1.0 / 3.0, 1.0 / 3.0], 9.0 / 80.0); 7];
     for (orbit, sign) in points[1..].chunks_exact_mut(3).zip([-1.0, 1.0]) {
         let near = (6.0 + sign * 15.0_f64.sqrt()) / 21.0;

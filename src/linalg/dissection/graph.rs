@@ -35,7 +35,7 @@ pub(super) struct CoarseGraph {
     pub(super) coarse_vertex: Vec<usize>,
 }
 
-/// Graph of a matrix' symmetric pattern.
+/// Graph of the symmetric pattern of a matrix.
 pub(super) struct PatternGraph {
     pub(super) graph: Graph,
     /// Rows of each vertex, which have the same columns.
@@ -111,35 +111,41 @@ impl Graph {
         subgraph
     }
 
-    /// The graph with neighbours joined in pairs.
-    pub(super) fn coarser(&self) -> CoarseGraph {
+    /// Partner of each vertex: a neighbour, or the vertex itself.
+    fn matching(&self) -> Vec<usize> {
         let n = self.len();
         let total: i64 = self.weight.iter().sum();
         let max_weight = (total / MIN_COARSE_VERTICES).max(2);
         // An order without relation to the numbering, the same in every run.
         let mut visits: Vec<usize> = (0..n).collect();
         visits.sort_by_key(|v| v.wrapping_mul(2_654_435_761) & 0xffff_ffff);
-        let mut mate = vec![NO_VERTEX; n];
+        let mut partner_of = vec![NO_VERTEX; n];
         for v in visits {
-            if mate[v] != NO_VERTEX {
+            if partner_of[v] != NO_VERTEX {
                 continue;
             }
             let free = self.neighbours(v).iter().filter(|(neighbour, _)| {
-                mate[*neighbour] == NO_VERTEX
+                partner_of[*neighbour] == NO_VERTEX
                     && self.weight[*neighbour] + self.weight[v] <= max_weight
             });
             let best = free.max_by_key(|(u, weight)| (*weight, -self.weight[*u], NO_VERTEX - u));
-            // A vertex without a partner is its own mate.
             let partner = best.map_or(v, |(neighbour, _)| *neighbour);
-            mate[v] = partner;
-            mate[partner] = v;
+            partner_of[v] = partner;
+            partner_of[partner] = v;
         }
+        partner_of
+    }
+
+    /// The graph with neighbours joined in pairs.
+    pub(super) fn coarser(&self) -> CoarseGraph {
+        let n = self.len();
+        let partner_of = self.matching();
         let mut coarse_vertex = vec![NO_VERTEX; n];
         let mut representatives = Vec::new();
         for v in 0..n {
             if coarse_vertex[v] == NO_VERTEX {
                 coarse_vertex[v] = representatives.len();
-                coarse_vertex[mate[v]] = representatives.len();
+                coarse_vertex[partner_of[v]] = representatives.len();
                 representatives.push(v);
             }
         }
@@ -148,7 +154,7 @@ impl Graph {
         let mut edge_to = vec![0; representatives.len()];
         for (new_vertex, &v) in representatives.iter().enumerate() {
             let first_edge = coarse.edges.len();
-            let pair = [v, mate[v]];
+            let pair = [v, partner_of[v]];
             let members = if pair[0] == pair[1] { &pair[..1] } else { &pair };
             for &(u, weight) in members.iter().flat_map(|member| self.neighbours(*member)) {
                 let neighbour = coarse_vertex[u];
