@@ -8,6 +8,7 @@ use basemat::coupled::Checkpoint;
 use basemat::coupled::CheckpointError;
 use basemat::history::HistoryMethod;
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 use serde_json::Value;
 
 use super::histories::auto;
@@ -92,7 +93,12 @@ fn a_damaged_kind_of_history_is_refused() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(60))]
+    #![proptest_config(ProptestConfig {
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "proptest-regressions/checkpoint/text.txt",
+        ))),
+        ..ProptestConfig::with_cases(60)
+    })]
 
     /// Whatever a file says, it is read, refused, or marched from, without a panic.
     #[test]

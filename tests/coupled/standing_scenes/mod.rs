@@ -3,7 +3,7 @@
 //! REFERENCE: dense generalized eigenvalues of the stiffness on the ground's static compliance; equilibria of unilateral
 //! contact, followed from no load by active sets.
 //!
-//! `STANDING_SCENES=3000 cargo test --test coupled standing_scenes -- --nocapture` draws more scenes, `STANDING_FIRST=40`
+//! `STANDING_SCENES=3000 cargo test --test heavy standing_scenes -- --nocapture` draws more scenes, `STANDING_FIRST=40`
 //! from that one on.
 
 mod reference;
