@@ -4,8 +4,8 @@ use crate::bem::plan::faces::side;
 
 /// Largest number of Newton steps to the coordinates of a point in a quadrilateral; final step, relative to its
 /// size.
-const ITERATIONS: usize = 50;
-const CONVERGED: f64 = 1e-14;
+const MAX_NEWTON_ITERATIONS: usize = 50;
+const NEWTON_STEP_TOLERANCE: f64 = 1e-14;
 pub(crate) type Point = [f64; 2];
 
 /// Weights of the corners in the displacement of a point.
@@ -72,10 +72,11 @@ impl Quadrilateral {
     /// Coordinates of a point, by Newton's method from the middle.
     fn coordinates(&self, p: Point) -> Option<Point> {
         let [mut s, mut t] = [0.5_f64; 2];
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_NEWTON_ITERATIONS {
             let [ds, dt] = self.step([s, t], p)?;
-            (s, t) = (s + ds, t + dt);
-            if ds.abs().max(dt.abs()) <= CONVERGED * s.abs().max(t.abs()).max(1.0) {
+            s += ds;
+            t += dt;
+            if ds.abs().max(dt.abs()) <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0) {
                 return Some([s, t]);
             }
         }

@@ -25,9 +25,9 @@ use crate::structure::{
 };
 
 /// Number of passes that refine the influence vectors.
-const REFINEMENTS: usize = 3;
+const INFLUENCE_REFINEMENT_COUNT: usize = 3;
 /// Longest time (s) in which springs under the base move its inertia; it excludes stiffnesses that are rounding.
-const SWAY: f64 = 0.1;
+const MAX_SWAY_TIME: f64 = 0.1;
 
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
@@ -214,7 +214,8 @@ impl Assembled {
 
     /// Stiffness of the springs at the contact nodes that hold the base.
     pub(super) fn spring(&self) -> f64 {
-        stiffest(self.stiffness_at_rest()).max(self.base_inertia() / (SWAY * SWAY))
+        stiffest(self.stiffness_at_rest())
+            .max(self.base_inertia() / (MAX_SWAY_TIME * MAX_SWAY_TIME))
     }
 
     /// The influence vectors, and the factored stiffness with its base held.
@@ -239,7 +240,7 @@ impl Assembled {
         }
         let pulls = held.pulls().concat();
         let mut found = vec![0.0; pulls.len()];
-        for _ in 0..=REFINEMENTS {
+        for _ in 0..=INFLUENCE_REFINEMENT_COUNT {
             let mut rest = matrix.times(&found);
             rest.iter_mut().zip(&pulls).for_each(|(rest, pull)| *rest = pull - *rest);
             factor.solve_many(&mut rest);

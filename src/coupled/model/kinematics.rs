@@ -107,7 +107,7 @@ impl Kinematics {
     }
 }
 
-const ALL: [(DofResponse, &str); 4] = [
+const RESPONSE_QUANTITIES: [(DofResponse, &str); 4] = [
     (DofResponse::Displacement, "displacement"),
     (DofResponse::Velocity, "velocity"),
     (DofResponse::Acceleration, "acceleration"),
@@ -116,14 +116,14 @@ const ALL: [(DofResponse, &str); 4] = [
 
 impl PartialEq for Kinematics {
     fn eq(&self, other: &Self) -> bool {
-        ALL.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
+        RESPONSE_QUANTITIES.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
     }
 }
 
 impl std::fmt::Debug for Kinematics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut shown = f.debug_struct("Kinematics");
-        for (which, name) in ALL {
+        for (which, name) in RESPONSE_QUANTITIES {
             shown.field(name, &self.dofs(which));
         }
         shown.finish()

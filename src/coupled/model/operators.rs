@@ -30,7 +30,7 @@ pub(crate) enum Factor {
     Diagonal(Vec<f64>),
 }
 
-pub(crate) const NAME: &str = "effective stiffness matrix";
+pub(crate) const EFFECTIVE_STIFFNESS_NAME: &str = "effective stiffness matrix";
 
 impl Operators {
     /// Condenses the factored K_eff with this tangent.
@@ -95,7 +95,7 @@ fn effective_stiffness(
     let k = c.displacement[0];
     let terms =
         [(c.acceleration[0], &*mass), (c.velocity[0], &*damping), (k, &*stiffness), (k, tangent)];
-    SparseMatrix::sum(NAME, model.coordinates, &terms)
+    SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinates, &terms)
 }
 
 impl Factor {
@@ -106,7 +106,7 @@ impl Factor {
         tangent: &SparseMatrix,
     ) -> Result<Box<SparseFactor>> {
         let matrix = effective_stiffness(model, coefficients, tangent)?;
-        SparseFactor::of(NAME, &matrix, &model.elimination).map(Box::new)
+        SparseFactor::of(EFFECTIVE_STIFFNESS_NAME, &matrix, &model.elimination).map(Box::new)
     }
 
     /// Inverts K_eff of modes, or factors it if the damping couples them.
@@ -122,7 +122,7 @@ impl Factor {
         if inverse.iter().all(|x| x.is_finite()) {
             return Ok(Self::Diagonal(inverse));
         }
-        Err(Error::Singular { matrix: NAME, order: model.coordinates })
+        Err(Error::Singular { matrix: EFFECTIVE_STIFFNESS_NAME, order: model.coordinates })
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.
