@@ -94,7 +94,7 @@ impl<'a> Reduction<'a> {
         let coefficients = &parts.coefficients;
         let n = assembled.dofs();
         let size = base.layout().len();
-        let mut rows = ResponseRows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
+        let mut rows = ResponseRows::default();
         for load in &given.loads {
             push_nonzero(&mut rows.all, spread(load.row(), n));
         }
@@ -114,7 +114,7 @@ impl<'a> Reduction<'a> {
                 push_nonzero(&mut rows.all, load);
             }
         }
-        rows.counts[0] = rows.all.len() / n;
+        rows.load_count = rows.all.len() / n;
         let mut unit = vec![0.0; size];
         for i in 0..size {
             let mut force = vec![0.0; n];
@@ -132,11 +132,11 @@ impl<'a> Reduction<'a> {
             }
             motions.extend_from_slice(motion);
         }
-        rows.counts[1] = rows.all.len() / n;
+        rows.force_count = rows.all.len() / n;
         rows.probes = vec![[None; 3]; given.probes.len()];
         for kind in 0..3 {
             if kind == 2 {
-                rows.counts[2] = rows.all.len() / n;
+                rows.first_acceleration = rows.all.len() / n;
             }
             for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
                 let place = rows.all.len() / n;
@@ -185,7 +185,7 @@ impl<'a> Reduction<'a> {
 
     /// Whether vibration modes and static responses replace shifts.
     pub(super) fn has_many_forces(&self) -> bool {
-        self.rows.counts[1] >= MANY_FORCES_THRESHOLD
+        self.rows.force_count >= MANY_FORCES_THRESHOLD
     }
 
     /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
@@ -207,7 +207,7 @@ impl<'a> Reduction<'a> {
         let count = (rows.len() / self.assembled.dofs()).max(1);
         self.floating.take();
         let effective = self.effective()?;
-        let factors = self.shifts(self.held.lowest, matrices).collect::<Result<Vec<_>>>()?;
+        let factors = self.shifts().map(|shift| self.shifted(shift)).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(&*effective).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         // Rows in terms of the vectors.
@@ -303,31 +303,26 @@ impl<'a> Reduction<'a> {
         Ok(matrices)
     }
 
-    /// Factors at the shifts below the scheme's, and at one above it.
-    fn shifts<'m>(
-        &'m self,
-        lowest: f64,
-        matrices: [&'m SparseMatrix; 3],
-    ) -> impl Iterator<Item = Result<SparseFactor>> + 'm {
-        let [mass, _, stiffness] = matrices;
+    /// The shifts below the scheme's, and one above it, 1/s.
+    fn shifts(&self) -> impl Iterator<Item = f64> + use<> {
+        let Assembled { mass, stiffness, .. } = self.assembled;
         let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
         let max_shift = pairs.fold(0.0, |largest: f64, (k, m)| largest.max(k / m)).sqrt();
         let c = self.coefficients;
         let scheme_shift =
             (c.acceleration[0] / c.displacement[0]).sqrt().min(SHIFT_RATIO * max_shift);
-        let lowest = lowest.max(MIN_SHIFT_RATIO * scheme_shift);
+        let lowest = self.held.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
         let first_below = scheme_shift / SHIFT_RATIO;
         let below = std::iter::successors(Some(first_below), |shift| Some(shift / SHIFT_RATIO))
             .take_while(move |shift| *shift > lowest);
         let above = std::iter::once(SHIFT_RATIO * scheme_shift);
-        let shifts = above.chain(below).filter(move |shift| *shift < max_shift);
-        shifts.map(move |shift| self.shifted(shift, matrices))
+        above.chain(below).filter(move |shift| *shift < max_shift)
     }
 
-    /// Factor at a shift.
-    fn shifted(&self, shift: f64, matrices: [&SparseMatrix; 3]) -> Result<SparseFactor> {
-        let [mass, _, stiffness] = matrices;
-        let terms = [(shift * shift, mass), (1.0, stiffness)];
+    /// Factored K + σ²M at a shift σ.
+    fn shifted(&self, shift: f64) -> Result<SparseFactor> {
+        let Assembled { mass, stiffness, .. } = self.assembled;
+        let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
         SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
     }

@@ -120,7 +120,7 @@ impl Reduction<'_> {
             last = Some((self.smooth_responses(&modes, &products), modes));
         }
         let vectors = space.count();
-        let forces = self.rows.counts[1];
+        let forces = self.rows.force_count;
         let remedy = format!(
             "with {vectors} vectors; it has {forces} forces, and with more than 99 few powers of the effective stiffness are \
              tried, by which section forces of stiff structures do not converge below it: ask for 1e-4, leave out such \
@@ -149,7 +149,7 @@ impl Reduction<'_> {
 
     /// Numbers of the rows of probes.
     fn probes(&self) -> Range<usize> {
-        self.rows.counts[1]..self.rows.counts[2]
+        self.rows.force_count..self.rows.first_acceleration
     }
 
     /// Factor on the length of directions that are left out, where the weakest response of a probe is small.

@@ -18,12 +18,17 @@ use crate::linalg::{largest, row_products};
 const RESPONSE_ROUNDING: f64 = 1e-13;
 
 /// Rows of degrees of freedom with forces, and rows of probes.
+#[derive(Default)]
 pub(crate) struct ResponseRows {
     /// Rows of loads, other forces, displacements and velocities, accelerations: an entry for every degree of
     /// freedom.
     pub(crate) all: Vec<f64>,
-    /// Number of loads, of all forces, and of all rows except accelerations.
-    pub(crate) counts: [usize; 3],
+    /// Number of loads, which are the first rows.
+    pub(crate) load_count: usize,
+    /// Number of all forces, loads included.
+    pub(crate) force_count: usize,
+    /// Number of the first row of an acceleration.
+    pub(crate) first_acceleration: usize,
     /// Row numbers of displacements, velocities and accelerations that each probe sums.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
@@ -52,7 +57,9 @@ impl StepResponses {
         steps: usize,
         growth_steps: usize,
     ) -> Self {
-        let [loads, forces, accelerations] = rows.counts;
+        let loads = rows.load_count;
+        let forces = rows.force_count;
+        let accelerations = rows.first_acceleration;
         let count = modes.stiffness.len().max(1);
         let mut effective = Vec::with_capacity(count);
         for (k, d) in modes.stiffness.iter().zip(&modes.damping) {

@@ -257,8 +257,8 @@ impl PlacedBase {
             }
             return mean;
         }
-        let mean = |values: &[f64]| dot(values, areas) / area;
-        [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
+        let away = if across.is_empty() { 0.0 } else { dot(across, areas) / area };
+        [dot(along, areas) / area, -(dot(down, areas) / area), away]
     }
 
     /// f ← f + factor · BᵀA τ.

@@ -37,7 +37,8 @@ impl<'a> LoadedStiffness<'a> {
         if !stands_at(0.0) || stands_at(limit) {
             return None;
         }
-        let (mut low, mut high) = (0.0, limit);
+        let mut low = 0.0;
+        let mut high = limit;
         while high - low > LOAD_FACTOR_ACCURACY * high && high > f64::MIN_POSITIVE {
             let middle = 0.5 * (low + high);
             if stands_at(middle) {

@@ -9,7 +9,6 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::geometry::check_count;
 use crate::linalg::CompressedMatrix;
-use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_multiply_add};
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
@@ -43,10 +42,10 @@ impl Operators {
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Result<Self> {
-        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, base, soil, model.coordinates)?;
-        let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
-        let delassus = delassus.with_parts(soil, &columns, means);
+        let (columns, delassus) =
+            condense(|rhs| factor.solve_many(rhs), base, soil, model.coordinates)?;
+        let delassus =
+            delassus.with_parts(soil, &columns, |u: &[f64], out: &mut [f64]| base.means(u, out));
         Ok(Self { tangent, factor, columns, delassus })
     }
 
@@ -90,11 +89,15 @@ fn effective_stiffness(
     c: &SchemeCoefficients,
     tangent: &SparseMatrix,
 ) -> Result<SparseMatrix> {
-    let [mass, damping, stiffness] =
-        [&model.mass, &model.damping, &model.stiffness].map(Matrix::as_sparse);
-    let k = c.displacement[0];
-    let terms =
-        [(c.acceleration[0], &*mass), (c.velocity[0], &*damping), (k, &*stiffness), (k, tangent)];
+    let mass = model.mass.as_sparse();
+    let damping = model.damping.as_sparse();
+    let stiffness = model.stiffness.as_sparse();
+    let terms = [
+        (c.acceleration[0], &*mass),
+        (c.velocity[0], &*damping),
+        (c.displacement[0], &*stiffness),
+        (c.displacement[0], tangent),
+    ];
     SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinates, &terms)
 }
 

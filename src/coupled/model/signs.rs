@@ -56,7 +56,8 @@ fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool
     let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
     for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {
         if value != 0.0 {
-            (multipliers[row], multipliers[column]) = (false, false);
+            multipliers[row] = false;
+            multipliers[column] = false;
         }
     }
     multipliers

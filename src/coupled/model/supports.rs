@@ -139,22 +139,22 @@ pub(crate) fn joined_by_force(
 ) -> Result<Vec<bool>> {
     let parts = influence.parts();
     let mut joined = vec![false; parts.len()];
-    let Some(own) = structure.nonlinear() else { return Ok(joined) };
+    let Some(nonlinear) = structure.nonlinear() else { return Ok(joined) };
     let n = displacement.len();
     let tangent = Tangent::at(structure, displacement)?;
     let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
     let deformed = largest(displacement);
     let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
-        let [_, around] = products(&tangent.matrix, translation);
+        let [_, magnitudes] = products(&tangent.matrix, translation);
         let mut force = vec![0.0; n];
         for distance in TRIAL_TRANSLATIONS {
             let pairs = displacement.iter().zip(translation);
             let moved: Vec<f64> = pairs.map(|(u, r)| u + distance * r).collect();
             force.fill(0.0);
-            own.force(&moved, &mut force)?;
+            nonlinear.force(&moved, &mut force)?;
             for (dof, (force, before)) in force.iter().zip(static_force).enumerate() {
                 let force = force - before;
-                let scale = distance.abs() * around[dof] + before.abs();
+                let scale = distance.abs() * magnitudes[dof] + before.abs();
                 let rounding = f64::EPSILON
                     * stiffest
                     * (distance.abs() + NONLINEAR_ROUNDING_FACTOR * deformed);
@@ -199,24 +199,23 @@ struct Resistance {
 impl Resistance {
     fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
         let whole: Vec<f64> = translation.iter().map(|r| r.round()).collect();
-        let apart: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
-        let bent = largest(&apart);
+        let differences: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
+        let bent = largest(&differences);
         let [force, around] = products(stiffness, translation);
         let work: f64 = translation.iter().zip(&force).map(|(r, f)| r * f).sum();
         let scale: f64 = translation.iter().zip(&around).map(|(r, f)| (r * f).abs()).sum();
         let is_whole = bent <= MAX_ROUNDING_DISTANCE;
         let [force, around] = if is_whole { products(stiffness, &whole) } else { [force, around] };
         let diagonal = stiffness.diagonal();
-        let over = |scale: f64| if scale > 0.0 { work.abs() / scale } else { 0.0 };
         let is_free = (0..translation.len()).all(|i| {
             force[i].abs()
                 <= ROW_FORCE_TOLERANCE * around[i] + DIAGONAL_FORCE_TOLERANCE * diagonal[i].abs()
         });
-        let ratio = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
+        let ratio = |i: usize| ratio_or_zero(force[i].abs(), around[i]);
         let dof = (0..translation.len()).fold(0, |a, b| if ratio(b) > ratio(a) { b } else { a });
         Self {
-            work: over(scale),
-            reaction: over(stiffest(stiffness, &diagonal)),
+            work: ratio_or_zero(work.abs(), scale),
+            reaction: ratio_or_zero(work.abs(), stiffest(stiffness, &diagonal)),
             bent,
             is_free: is_whole && is_free,
             force: force.get(dof).copied().unwrap_or(0.0),
@@ -236,18 +235,24 @@ impl Resistance {
     }
 }
 
+/// A value over its scale; zero without a scale.
+fn ratio_or_zero(value: f64, scale: f64) -> f64 {
+    if scale > 0.0 { value / scale } else { 0.0 }
+}
+
 /// Largest stiffness between two degrees of freedom; a support adds nothing to it.
 ///
 /// Without such entries, the largest stiffness on the diagonal.
 fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
     let between = stiffness.entries().filter(|(row, column, _)| row != column);
-    let most = between.fold(0.0_f64, |most, entry| most.max(entry.2.abs()));
-    if most > 0.0 { most } else { largest(diagonal) }
+    let stiffest = between.fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
+    if stiffest > 0.0 { stiffest } else { largest(diagonal) }
 }
 
 /// The products A x and |A| |x|.
 fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
-    let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
+    let mut sums = vec![0.0; x.len()];
+    let mut sizes = vec![0.0; x.len()];
     for (row, column, value) in matrix.entries() {
         let term = value * x[column];
         sums[row] += term;

@@ -67,8 +67,9 @@ impl Compliance {
         base: &PlacedBase,
         soil: &CompressedMatrix,
     ) -> Result<Self> {
-        let solve = |rhs: &mut [f64]| floating.factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, base, soil, floating.matrix.order())?;
+        let order = floating.matrix.order();
+        let (columns, delassus) =
+            condense(|rhs| floating.factor.solve_many(rhs), base, soil, order)?;
         Ok(Self { floating, columns, delassus })
     }
 }

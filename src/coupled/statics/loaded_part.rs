@@ -36,7 +36,8 @@ impl LoadedPart {
     /// Way in which the base fails under the load; `None` if it bears the load.
     pub(super) fn failure(&self) -> Option<StabilityError> {
         if self.normal <= 0.0 {
-            let (ends, across) = self.ends();
+            let ends = self.ends();
+            let across = self.ends_across();
             let lifted = StabilityError::Uplift { ends, across, upward: -self.normal };
             return self.opens().then(|| self.once_parted(lifted));
         }
@@ -58,12 +59,10 @@ impl LoadedPart {
             return None;
         }
         // By the right-hand rule about y, a moment that lifts the right side is negative.
-        let [about_y, about_x, _] = self.moments;
-        let moment = [-self.layout.turn() * about_y, about_x][axis];
-        let (ends, across) = self.ends();
+        let moment = [-self.layout.turn() * self.moments[0], self.moments[1]][axis];
         Some(self.once_parted(StabilityError::Overturning {
-            ends,
-            across,
+            ends: self.ends(),
+            across: self.ends_across(),
             axis: axis_name(self.layout.is_plan(), axis),
             moment,
             normal: self.normal,
@@ -81,7 +80,8 @@ impl LoadedPart {
             if resultant < reach[0] - slack || resultant > reach[1] + slack {
                 let axis = axis_name(self.layout.is_plan(), axis);
                 let elements = self.elements.len();
-                let (ends, across) = self.ends();
+                let ends = self.ends();
+                let across = self.ends_across();
                 let error =
                     StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
                 return self.opens().then(|| self.once_parted(error));
@@ -96,7 +96,8 @@ impl LoadedPart {
         let normal = self.normal;
         let resistance = self.friction() * normal;
         let ratio = horizontal.abs() / resistance;
-        let (ends, across) = self.ends();
+        let ends = self.ends();
+        let across = self.ends_across();
         let error = StabilityError::Sliding { ends, across, horizontal, normal, resistance, ratio };
         let is_beyond = horizontal.abs() > self.friction().max(RESULTANT_ROUNDING) * normal;
         is_beyond.then(|| self.once_sheared(error))
@@ -104,7 +105,8 @@ impl LoadedPart {
 
     /// In plan: the torque is larger than the torque of friction.
     fn twists(&self) -> Option<StabilityError> {
-        let (ends, Some(across)) = self.ends() else { return None };
+        let across = self.ends_across()?;
+        let ends = self.ends();
         let normal = self.normal;
         let torque = self.moments[2];
         let pressure_moment = self.pressure * area_moment(&self.elements, self.middles());
@@ -124,7 +126,8 @@ impl LoadedPart {
         let normal = self.normal;
         let capacity = self.bearing_capacity(width);
         let ratio = normal / capacity;
-        let (ends, across) = self.ends();
+        let ends = self.ends();
+        let across = self.ends_across();
         let failure =
             StabilityError::BearingFailure { ends, across, normal, width, capacity, ratio };
         (ratio > 1.0).then_some(failure)
@@ -167,10 +170,14 @@ impl LoadedPart {
         self.strengths.iter().map(|strength| strength.friction).fold(0.0, f64::max)
     }
 
-    /// Ends of the base along x, and in plan along y.
-    fn ends(&self) -> ([f64; 2], Option<[f64; 2]>) {
-        let [ends, across] = self.bounds;
-        (ends, self.layout.is_plan().then_some(across))
+    /// Ends of the base along x, m.
+    fn ends(&self) -> [f64; 2] {
+        self.bounds[0]
+    }
+
+    /// Ends of the base along y, m; `None` in the plane.
+    fn ends_across(&self) -> Option<[f64; 2]> {
+        self.layout.is_plan().then_some(self.bounds[1])
     }
 
     fn middles(&self) -> [f64; 2] {
