@@ -102,7 +102,7 @@ pub(crate) fn conditioning(
     let (matrix, condition, limit, (quantity, ratio)) =
         if effective_stiffness.is_nan() || effective_stiffness > STIFFNESS_LIMIT {
             let cause = cause_of_stiffness(scene, operators, effective_stiffness);
-            (operators::NAME, effective_stiffness, STIFFNESS_LIMIT, cause)
+            (operators::EFFECTIVE_STIFFNESS_NAME, effective_stiffness, STIFFNESS_LIMIT, cause)
         } else if delassus.is_nan() || delassus > DELASSUS_LIMIT {
             let cause = cause_of_delassus(scene, operators, delassus, ground);
             ("Delassus operator", delassus, DELASSUS_LIMIT, cause)

@@ -36,12 +36,15 @@ pub(crate) fn solve(
     let mut soil = CompressedMatrix::full(Vec::new());
     if parts.given.is_static() {
         soil = compliance(parts)?;
-        let [own, weight, load] = loads(parts, assembled)?;
-        let (laws, on_soil) = (&parts.given.laws, (&soil, shared));
+        let loads = loads(parts, assembled)?;
+        let weight = &loads.weight;
+        let load = &loads.load;
+        let laws = &parts.given.laws;
+        let on_soil = (&soil, shared);
         let on_base = condensed.as_ref().and_then(|condensed| {
             let loads = condensed.loads.each_ref().map(Vec::as_slice);
             let mut base = under_loads(parts, &condensed.assembled, on_soil, laws, loads).ok()?;
-            let mut force: Vec<f64> = weight.iter().zip(&load).map(|(w, f)| w + f).collect();
+            let mut force: Vec<f64> = weight.iter().zip(load).map(|(w, f)| w + f).collect();
             assembled.base.add_forces(-1.0, &base.traction, &mut force);
             base.displacement = condensed.expanded(assembled, &base.displacement, &force);
             Some(base)
@@ -49,15 +52,18 @@ pub(crate) fn solve(
         if on_base.is_none() {
             (*condensed, *shared.borrow_mut()) = (None, None);
         }
-        let whole = || under_loads(parts, assembled, on_soil, laws, [&weight, &load]);
-        state = on_base.map_or_else(whole, Ok)?;
-        state.load = own;
+        state = match on_base {
+            Some(state) => state,
+            None => under_loads(parts, assembled, on_soil, laws, [weight, load])?,
+        };
+        state.load = loads.of_structure;
     } else if has_p_delta {
         soil = compliance(parts)?;
     }
-    // A fixed base was held before, and stood.
+    // The build has checked a fixed base before.
     if has_p_delta && !holds(parts.ground.as_ref()) {
-        let (structure, laws) = (parts.structure.as_ref(), &parts.given.laws);
+        let structure = parts.structure.as_ref();
+        let laws = &parts.given.laws;
         let grounded = Grounded { assembled, structure, soil: &soil, laws };
         let on_base = condensed.as_ref().map(|condensed| &condensed.assembled);
         buckling::check(grounded, on_base, &state)?;
@@ -80,10 +86,10 @@ pub(crate) fn solve(
 /// Static compliance of the ground, for tractions inside the outline; a diagonal where the step compliance is one.
 pub(crate) fn compliance(parts: &Parts) -> Result<CompressedMatrix> {
     if parts.soil.as_diagonal().is_some()
-        && let Some(own) = parts.ground.diagonal_compliance()?
+        && let Some(compliance) = parts.ground.diagonal_compliance()?
     {
         let quantity = "diagonal static compliance of the ground";
-        let diagonal = bed_compliance::inside(quantity, own.at_rest, &parts.elements)?;
+        let diagonal = bed_compliance::inside(quantity, compliance.at_rest, &parts.elements)?;
         return Ok(CompressedMatrix::of_diagonal(diagonal));
     }
     let mut soil = vec![0.0; parts.elements.layout().square()];
@@ -97,17 +103,27 @@ pub(crate) fn weight_and_load(parts: &Parts, assembled: &Assembled) -> Result<[V
     if !parts.given.is_static() {
         return Ok([vec![], vec![]]);
     }
-    loads(parts, assembled).map(|[_, weight, load]| [weight, load])
+    loads(parts, assembled).map(|loads| [loads.weight, loads.load])
 }
 
-/// The structure's own load at t = 0, the weight with the loads that come on with it, and all other loads at t = 0.
-fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
+/// Forces on the degrees of freedom at t = 0, N.
+struct Loads {
+    /// Load that the structure brings.
+    of_structure: Vec<f64>,
+    /// Weight with the loads that come on with it.
+    weight: Vec<f64>,
+    /// All other loads.
+    load: Vec<f64>,
+}
+
+/// The forces at t = 0.
+fn loads(parts: &Parts, assembled: &Assembled) -> Result<Loads> {
     let Parts { structure, given, .. } = parts;
     let n = assembled.dofs();
-    let mut own = vec![0.0; n];
-    structure.load(0.0, &mut own)?;
-    all_finite("load of the structure at t = 0", &own)?;
-    let mut load = own.clone();
+    let mut of_structure = vec![0.0; n];
+    structure.load(0.0, &mut of_structure)?;
+    all_finite("load of the structure at t = 0", &of_structure)?;
+    let mut load = of_structure.clone();
     let mut weight = vec![0.0; n];
     let up = assembled.influence.of(UP, n);
     assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
@@ -118,7 +134,7 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<[Vec<f64>; 3]> {
     }
     all_finite("weight", &weight)?;
     all_finite("load at t = 0", &load)?;
-    Ok([own, weight, load])
+    Ok(Loads { of_structure, weight, load })
 }
 
 /// The state under weight and loads at t = 0 on elements of this static compliance, with these laws.
@@ -132,8 +148,14 @@ pub(crate) fn under_loads(
     [weight, load]: [&[f64]; 2],
 ) -> Result<StaticState> {
     let Parts { structure, given, .. } = parts;
-    let (structure, frictionless) = (structure.as_ref(), false);
-    let stage = Standing { assembled, structure, soil, frictionless, offset: &[], shared };
+    let stage = Standing {
+        assembled,
+        structure: structure.as_ref(),
+        soil,
+        frictionless: false,
+        offset: &[],
+        shared,
+    };
     let walls = parts.elements.has_walls() && !holds(parts.ground.as_ref());
     if walls && given.gravity_stage != GravityStage::WishedInPlace {
         backfilled::state(parts, &stage, laws, [weight, load])

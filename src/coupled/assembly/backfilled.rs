@@ -9,7 +9,7 @@
 
 use std::cell::RefCell;
 
-use super::static_stages::{TIME_STEP, loaded, placed};
+use super::static_stages::{GRAVITY_STAGE_TIME_STEP, loaded, placed};
 use crate::bem::GroundDescription;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
@@ -29,24 +29,26 @@ pub(super) fn state(
 ) -> Result<StaticState> {
     let base = &stage.assembled.base;
     let elements = base.elements();
-    let (layout, floor) = (elements.layout(), elements.floor());
+    let layout = elements.layout();
+    let floor = elements.floor();
     let below = Patch::new(elements[floor.clone()].to_vec())?;
-    let (own, _) = Assembled::new(stage.structure, &below)?;
+    let assembled = Assembled::new(stage.structure, &below)?.0;
     let places: Vec<usize> = places(layout, floor.clone()).collect();
     let mut soil = Vec::with_capacity(places.len() * places.len());
     for row in &places {
         soil.extend(places.iter().map(|column| stage.soil[row * layout.len() + column]));
     }
-    let (soil, shared) = (CompressedMatrix::full(soil), RefCell::default());
-    let on_floor = Standing { assembled: &own, soil: &soil, shared: &shared, ..*stage };
+    let soil = CompressedMatrix::full(soil);
+    let shared = RefCell::default();
+    let on_floor = Standing { assembled: &assembled, soil: &soil, shared: &shared, ..*stage };
 
     let mut traction = at_rest(parts, elements, false)?;
     let mut total = weight.to_vec();
     base.add_forces(-1.0, &traction, &mut total);
-    let own_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
-    let (found, contact) = placed(&on_floor, own_laws, parts.given.gravity_stage, &total)?;
+    let floor_laws = if laws.len() > 1 { &laws[floor.clone()] } else { laws };
+    let (found, contact) = placed(&on_floor, floor_laws, parts.given.gravity_stage, &total)?;
 
-    places.iter().zip(&found.traction).for_each(|(place, own)| traction[*place] = *own);
+    places.iter().zip(&found.traction).for_each(|(place, value)| traction[*place] = *value);
     let mut state = StaticState::weightless(layout, weight.len());
     state.traction = traction;
     let mut states: Vec<ContactState> = (0..layout.elements())
@@ -55,20 +57,23 @@ pub(super) fn state(
     for (e, mode) in state.modes.iter_mut().enumerate() {
         *mode = law_of(laws, e).modes()[0];
     }
-    let rest =
-        |(e, own): (usize, &ContactState)| PreviousContact::new(*own, state.modes[e], TIME_STEP);
-    let start: Vec<_> = states.iter().enumerate().map(rest).collect();
+    let mut start = Vec::with_capacity(states.len());
+    for (contact, mode) in states.iter().zip(&state.modes) {
+        start.push(PreviousContact::new(*contact, *mode, GRAVITY_STAGE_TIME_STEP));
+    }
     state.close_gaps(laws, &PreviousContacts::new(laws, &start)?, &states)?;
     state.gap[floor.clone()].copy_from_slice(&found.gap);
     state.modes[floor.clone()].copy_from_slice(&found.modes);
     state.state_variables = vec![Vec::new(); layout.elements()];
     state.state_variables[floor.clone()].clone_from_slice(&found.state_variables);
-    (state.displacement, state.stand_in) = (found.displacement, found.stand_in);
+    state.displacement = found.displacement;
+    state.stand_in = found.stand_in;
     states[floor].copy_from_slice(&contact);
 
     // Jumps count from the placed state.
-    for own in &mut states {
-        (own.slip, own.slip_across) = (0.0, 0.0);
+    for element in &mut states {
+        element.slip = 0.0;
+        element.slip_across = 0.0;
     }
     let mut offset = vec![0.0; layout.len()];
     base.means(&state.displacement, &mut offset);
@@ -95,16 +100,16 @@ pub(super) fn at_rest(parts: &Parts, elements: &Patch, base: bool) -> Result<Vec
         same_length(quantity, depths.len(), parts.elements.len())?;
         all_finite(quantity, depths)?;
     }
-    let (floor, each) = (elements.floor(), elements.len() / parts.elements.len());
-    let pressures = pressures.iter().flat_map(|own| std::iter::repeat_n(own, each));
-    for (e, own) in pressures.enumerate().filter(|(e, _)| base || !floor.contains(e)) {
-        traction[layout.place(0, e)] = parts.given.gravity * own;
+    let floor = elements.floor();
+    let parts_of_element = elements.len() / parts.elements.len();
+    for e in (0..pressures.len() * parts_of_element).filter(|e| base || !floor.contains(e)) {
+        traction[layout.place(0, e)] = parts.given.gravity * pressures[e / parts_of_element];
     }
     Ok(traction)
 }
 
 /// Places of the numbers of some elements in a contact vector.
 fn places(layout: ContactLayout, elements: std::ops::Range<usize>) -> impl Iterator<Item = usize> {
-    let of = move |component| elements.clone().map(move |e| layout.place(component, e));
-    (0..layout.components()).flat_map(of)
+    (0..layout.components())
+        .flat_map(move |component| elements.clone().map(move |e| layout.place(component, e)))
 }

@@ -28,26 +28,26 @@ use crate::coupled::run::warning::Warning;
 use crate::coupled::statics::compliance::{Compliance, Floating, springs};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{CoarseBaseError, Result};
-use crate::geometry::{axis_name, far_ends, in_a_row};
+use crate::geometry::{ContactElement, axis_name, far_ends, in_a_row};
 use crate::linalg::{CompressedMatrix, dot, magnitude};
 use crate::structure::{BaseNode, Tangent};
 
 /// Smallest ρ at which elements are short enough.
-const STIFF: f64 = 6.0;
+const MIN_SHAPE_STIFFNESS_RATIO: f64 = 6.0;
 /// ρ at which the number named for a wall aims.
-const OF_WALLS: f64 = 28.0;
+const WALL_STIFFNESS_RATIO_GOAL: f64 = 28.0;
 /// Relative difference of static shapes with as many and with twice as many elements: limits of a warning for
 /// solids, and of an error.
-const DIFFERENCE: f64 = 0.03;
-const ANOTHER: f64 = 0.3;
+const WARNING_SHAPE_DIFFERENCE: f64 = 0.03;
+const ERROR_SHAPE_DIFFERENCE: f64 = 0.3;
 /// Increase of ρ when elements are halved, as a power of two: 3 for beams and plates, 0 for solids.
-const POWERS: [f64; 2] = [1.0, 3.0];
+const REFINEMENT_POWER_RANGE: [f64; 2] = [1.0, 3.0];
 /// Distance of a node from the line of its face that counts as rounding, relative to an element.
-const LINE: f64 = 1e-9;
+const ON_FACE_TOLERANCE: f64 = 1e-9;
 /// Largest order of a matrix with twice the elements.
-const MOST: usize = 3600;
+const MAX_REFINED_ORDER: usize = 3600;
 /// Asymmetry of K that counts as rounding.
-const ROUNDING: f64 = 1e-9;
+const STIFFNESS_ASYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Warning of a flexible base with too few elements; `None` for enough elements or a rigid base.
 ///
@@ -84,58 +84,61 @@ fn check_on(
     finer: impl Fn(&PlacedBase) -> Option<(PlacedBase, CompressedMatrix)>,
 ) -> Result<Option<Warning>> {
     let base = &assembled.base;
-    let own_soil = at_rest::compliance(parts)?;
-    let own = (&own_soil, shared);
-    let Some(floating) = floating(parts, assembled, own)? else { return Ok(None) };
-    // The only element of a face has no neighbour that shows how stiff its soil is: its halves do.
-    let alone = faces(base).any(|(.., own)| own.len() == 1);
-    let halves = if alone { finer(base) } else { None };
-    let shape = UnseenShape::softest(assembled, base, own, halves.as_ref())
-        .filter(|shape| shape.ratio < STIFF);
+    let soil = at_rest::compliance(parts)?;
+    let on_soil = (&soil, shared);
+    let Some(floating) = floating(parts, assembled, on_soil)? else { return Ok(None) };
+    // The stiffness of the soil follows from neighbouring elements, or from the halves of the only element of a face.
+    let has_single_element = faces(base).any(|(.., elements)| elements.len() == 1);
+    let halves = if has_single_element { finer(base) } else { None };
+    let shape = UnseenShape::softest(assembled, base, on_soil, halves.as_ref())
+        .filter(|shape| shape.ratio < MIN_SHAPE_STIFFNESS_RATIO);
     let Some(UnseenShape { ratio, mut face }) = shape else { return Ok(None) };
-    let (mut power, mut difference) = (POWERS[1], None);
-    if let Some((finer, soil)) = if alone { halves } else { finer(base) } {
-        // If twice the elements leave no such shape, they are enough.
+    let mut power = REFINEMENT_POWER_RANGE[1];
+    let mut difference = None;
+    if let Some((finer, soil)) = if has_single_element { halves } else { finer(base) } {
+        // If no soft shape remains after halving the elements, the refined base is sufficient.
         let compliance = RefCell::new(Some(Compliance::new(floating, &finer, &soil)?));
         let halved = (&soil, &compliance);
-        let next = UnseenShape::softest(assembled, &finer, halved, None);
-        power = next.map_or(POWERS[1], |next| (next.ratio / ratio).log2());
+        let refined = UnseenShape::softest(assembled, &finer, halved, None);
+        power = refined.map_or(REFINEMENT_POWER_RANGE[1], |next| (next.ratio / ratio).log2());
         if parts.given.is_static() {
             // With a law for each element, the first law is used in both states.
             let law = &parts.given.laws[..1];
             let under = |assembled: &Assembled, soil| {
                 at_rest::under_loads(parts, assembled, soil, law, [weight, load]).ok()
             };
-            let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, own));
+            let with_first = (parts.given.laws.len() > 1).then(|| under(assembled, on_soil));
             let coarse = with_first.as_ref().map_or(Some(at_rest), Option::as_ref);
             let fine = under(&assembled.on(finer), halved);
             let both = coarse.zip(fine.as_ref());
             difference = both.map(|(coarse, fine)| largest_difference(base, coarse, fine));
         }
     }
-    let is_off = difference.is_some_and(|(_, own)| own > DIFFERENCE);
-    if let (true, Some((worst, _))) = (is_off, difference) {
+    let is_inaccurate = difference.is_some_and(|(_, value)| value > WARNING_SHAPE_DIFFERENCE);
+    if let (true, Some((worst, _))) = (is_inaccurate, difference) {
         face = worst;
     }
-    // Solids, which more elements hardly stiffen, are stiff enough between elements.
-    if power <= POWERS[0] && !is_off {
+    // More elements hardly change ρ of a solid, which is stiff enough between elements.
+    if power <= REFINEMENT_POWER_RANGE[0] && !is_inaccurate {
         return Ok(None);
     }
-    let difference = difference.map(|(_, own)| own);
+    let difference = difference.map(|(_, value)| value);
     let (foundation, axis, elements) = count(base, face);
-    let aim = if axis == Some('z') { OF_WALLS } else { STIFF };
-    let factor = (aim / ratio).powf(1.0 / power.clamp(POWERS[0], POWERS[1])).max(1.25);
+    let goal =
+        if axis == Some('z') { WALL_STIFFNESS_RATIO_GOAL } else { MIN_SHAPE_STIFFNESS_RATIO };
+    let power = power.clamp(REFINEMENT_POWER_RANGE[0], REFINEMENT_POWER_RANGE[1]);
+    let factor = (goal / ratio).powf(1.0 / power).max(1.25);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let needed = (elements as f64 * factor).ceil() as usize;
-    // A soft base with an even pressure has the right shape on few elements: without the shape on twice as many, the
-    // elements may be too few.
-    if difference.is_some_and(|own| own > ANOTHER) {
+    // A soft base with an even pressure has the right shape on few elements. An error therefore needs a comparison with
+    // the shape on twice the elements.
+    if difference.is_some_and(|value| value > ERROR_SHAPE_DIFFERENCE) {
         return Err(CoarseBaseError { foundation, elements, needed, difference, axis }.into());
     }
     Ok(Some(Warning::CoarseBase { foundation, elements, needed, difference, axis }))
 }
 
-/// The factored structure of the compliance on its own elements, which becomes known.
+/// The factored structure of the compliance on the base's elements; `shared` receives the compliance.
 ///
 /// `None` if its stiffness is not symmetric or cannot be factored.
 fn floating(
@@ -143,11 +146,11 @@ fn floating(
     assembled: &Assembled,
     (soil, shared): OnSoil<'_>,
 ) -> Result<Option<Rc<Floating>>> {
-    if assembled.stiffness_at_rest().asymmetry() > ROUNDING {
+    if assembled.stiffness_at_rest().asymmetry() > STIFFNESS_ASYMMETRY_TOLERANCE {
         return Ok(None);
     }
-    if let Some(known) = &*shared.borrow() {
-        return Ok(Some(Rc::clone(&known.floating)));
+    if let Some(compliance) = &*shared.borrow() {
+        return Ok(Some(Rc::clone(&compliance.floating)));
     }
     let tangent = Tangent::at(parts.structure.as_ref(), &vec![0.0; assembled.dofs()])?.matrix;
     let springs = springs(assembled, soil)?;
@@ -162,7 +165,7 @@ fn floating(
 /// `None` if the compliance is unknown, or too large for a check.
 fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, CompressedMatrix)> {
     let patch = base.elements();
-    if patch[0].parts().count() * patch.layout().len() > MOST {
+    if patch[0].parts().count() * patch.layout().len() > MAX_REFINED_ORDER {
         return None;
     }
     let finer = patch.finer().ok()?;
@@ -179,37 +182,50 @@ fn finer(parts: &Parts, base: &PlacedBase) -> Option<(PlacedBase, CompressedMatr
 /// Root mean squares over the nodes of displacements into the soil, without the best rigid motions, relative to the
 /// largest shape of any face of the foundation in the second state.
 fn largest_difference(base: &PlacedBase, one: &StaticState, other: &StaticState) -> (usize, f64) {
-    let shapes = faces(base).map(|(foundation, nodes, own)| {
-        let element = &base.elements()[own.start];
-        let into = |vector: [f64; 3]| element.components(vector)[0];
-        let depth = into(element.center());
-        let is_on = |node: &&BaseNode| {
-            (into([node.x, node.y, node.z]) - depth).abs() <= LINE * element.length()
-        };
-        let nodes: Vec<&BaseNode> = nodes.iter().filter(is_on).collect();
-        let shape = |state: &StaticState| -> Vec<f64> {
-            let moved = |node: &&BaseNode| {
-                let [right, up, away] = node.rows().map(|row| row.value(&state.displacement));
-                into([right, away, up])
-            };
-            nodes.iter().map(moved).collect()
-        };
-        let [one, other] = [one, other].map(shape);
-        let apart = one.iter().zip(&other).map(|(a, b)| a - b).collect();
-        (foundation, [apart, other].map(|values| bent(&nodes, values)))
-    });
-    let shapes: Vec<_> = shapes.collect();
-    let differences = shapes.iter().map(|(foundation, [apart, _])| {
-        let own = shapes.iter().filter(|(other, _)| other == foundation);
-        let whole = own.fold(0.0_f64, |most, (_, [_, whole])| most.max(*whole));
-        if whole > 0.0 { apart / whole } else { 0.0 }
-    });
-    let worst = |most: (usize, f64), own: (usize, f64)| if own.1 > most.1 { own } else { most };
-    differences.enumerate().fold((0, 0.0), worst)
+    let mut shapes = Vec::new();
+    for (foundation, nodes, elements) in faces(base) {
+        let element = &base.elements()[elements.start];
+        let depth = element.components(element.center())[0];
+        let mut on_face: Vec<&BaseNode> = Vec::new();
+        for node in nodes {
+            let distance = element.components([node.x, node.y, node.z])[0] - depth;
+            if distance.abs() <= ON_FACE_TOLERANCE * element.length() {
+                on_face.push(node);
+            }
+        }
+        let first = normal_displacements(&on_face, element, one);
+        let second = normal_displacements(&on_face, element, other);
+        let change = first.iter().zip(&second).map(|(a, b)| a - b).collect();
+        shapes.push((foundation, bending_norm(&on_face, change), bending_norm(&on_face, second)));
+    }
+    let mut worst = (0, 0.0);
+    for (face, (foundation, change, _)) in shapes.iter().enumerate() {
+        let on_foundation = shapes.iter().filter(|(other, ..)| other == foundation);
+        let reference = on_foundation.fold(0.0_f64, |largest, (.., norm)| largest.max(*norm));
+        let difference = if reference > 0.0 { change / reference } else { 0.0 };
+        if difference > worst.1 {
+            worst = (face, difference);
+        }
+    }
+    worst
+}
+
+/// Displacements of nodes into the soil under a face, m.
+fn normal_displacements(
+    nodes: &[&BaseNode],
+    element: &ContactElement,
+    state: &StaticState,
+) -> Vec<f64> {
+    let mut displacements = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        let [right, up, away] = node.rows().map(|row| row.value(&state.displacement));
+        displacements.push(element.components([right, away, up])[0]);
+    }
+    displacements
 }
 
 /// Norm of values at the nodes minus their best linear fit; NaN becomes infinite.
-fn bent(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
+fn bending_norm(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
     let count = nodes.len() as f64;
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let columns = [
@@ -221,13 +237,13 @@ fn bent(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
     ];
     let mut norm = 0.0;
     for mut column in columns {
-        let whole = magnitude(&column);
-        for known in basis.iter().chain(&basis) {
-            let share = dot(known, &column);
-            column.iter_mut().zip(known).for_each(|(x, known)| *x -= share * known);
+        let initial_norm = magnitude(&column);
+        for direction in basis.iter().chain(&basis) {
+            let component = dot(direction, &column);
+            column.iter_mut().zip(direction).for_each(|(x, unit)| *x -= component * unit);
         }
         norm = magnitude(&column);
-        if norm > 1e-12 * whole {
+        if norm > 1e-12 * initial_norm {
             basis.push(column.iter().map(|x| x / norm).collect());
         } else {
             norm = 0.0;
@@ -239,18 +255,18 @@ fn bent(nodes: &[&BaseNode], values: Vec<f64>) -> f64 {
 /// Foundation and number of elements of a face; in plan along its shorter side, with the name of that axis.
 fn count(base: &PlacedBase, face: usize) -> (usize, Option<char>, usize) {
     let patch = base.elements();
-    let (foundation, _, own) = faces(base).nth(face).unwrap_or((0, &[], 0..0));
-    if patch[own.clone()].iter().any(|own| !own.faces_down()) {
-        return (foundation, Some('z'), own.len());
+    let (foundation, _, range) = faces(base).nth(face).unwrap_or((0, &[], 0..0));
+    let elements = &patch[range];
+    if elements.iter().any(|element| !element.faces_down()) {
+        return (foundation, Some('z'), elements.len());
     }
-    let along = |axis: usize| {
-        let ends: Vec<_> = patch[own.clone()].iter().map(|own| own.ends()[axis]).collect();
-        let [least, most] = far_ends(ends.iter().copied());
-        (most - least, in_a_row(ends))
-    };
-    let sides: Vec<_> = patch.layout().axes().map(|axis| (along(axis), axis)).collect();
-    let shorter = sides.into_iter().min_by(|((one, _), _), ((other, _), _)| one.total_cmp(other));
-    let ((_, count), axis) = shorter.unwrap_or_default();
+    let sides = patch.layout().axes().map(|axis| {
+        let ends: Vec<_> = elements.iter().map(|element| element.ends()[axis]).collect();
+        let [start, end] = far_ends(ends.iter().copied());
+        (end - start, in_a_row(ends), axis)
+    });
+    let shorter = sides.min_by(|(one, ..), (other, ..)| one.total_cmp(other));
+    let (_, count, axis) = shorter.unwrap_or_default();
     (foundation, axis_name(patch.is_plan(), axis), count)
 }
 
@@ -270,8 +286,8 @@ mod tests {
     /// Bricks, 16 × 16 × 12, on 3 × 3 elements.
     fn parts() -> Result<Parts> {
         let mut mesh = Mesh::in_space();
-        let line = |k: usize| 10.0 * (k as f64 / 16.0 - 0.5);
-        let foot = mesh.add_grid(17, 17, |row, column| [line(column), line(row), 0.0])?;
+        let places: Vec<f64> = (0..17).map(|k| 10.0 * (f64::from(k) / 16.0 - 0.5)).collect();
+        let foot = mesh.add_grid(17, 17, |row, column| [places[column], places[row], 0.0])?;
         let heights: Vec<f64> = (1..=12).map(|k| 0.4 * f64::from(k)).collect();
         for (k, brick) in foot.extrude(&mut mesh, &heights)?.into_iter().enumerate() {
             // A stiff column on one side.
@@ -289,29 +305,30 @@ mod tests {
     fn a_condensed_structure_has_the_same_static_state_and_check() -> Result<()> {
         let mut parts = parts()?;
         let (assembled, held) = Assembled::new(parts.structure.as_ref(), &parts.elements)?;
-        let own = OfHeldBase::new(&parts, &assembled, held)?.condensed;
-        assert!(own.is_some());
-        let [own, whole] = [own, None].map(|mut condensed| {
+        let on_base = OfHeldBase::new(&parts, &assembled, held)?.condensed;
+        assert!(on_base.is_some());
+        let results = [on_base, None].map(|mut condensed| {
             let shared = RefCell::default();
             let is_condensed = condensed.is_some();
             let at_rest = at_rest::solve(&mut parts, &assembled, &mut condensed, &shared).unwrap();
             assert_eq!(condensed.is_some(), is_condensed);
             match check(&parts, (&assembled, condensed.as_ref()), &at_rest, &shared) {
-                Err(Error::CoarseBase(own)) => (own.needed, own.difference.unwrap(), at_rest),
+                Err(Error::CoarseBase(error)) => (error.needed, error.difference.unwrap(), at_rest),
                 other => panic!("{other:?}"),
             }
         });
-        assert!(own.0 == whole.0 && own.1 > ANOTHER);
-        assert!((own.1 - whole.1).abs() < 1e-7 * whole.1, "{own:?} for {whole:?}");
+        let [found, whole] = &results;
+        assert!(found.0 == whole.0 && found.1 > ERROR_SHAPE_DIFFERENCE);
+        assert!((found.1 - whole.1).abs() < 1e-7 * whole.1, "{found:?} for {whole:?}");
         // Without friction, any motion along the ground is a static state.
         let of = |state: &StaticState| {
-            let up = |node: &BaseNode| node.vertical.value(&state.displacement);
-            let heights: Vec<f64> = assembled.base.nodes().iter().map(up).collect();
+            let nodes = assembled.base.nodes().iter();
+            let heights = nodes.map(|node| node.vertical.value(&state.displacement)).collect();
             [heights, assembled.stiffness.times(&state.displacement), state.traction.clone()]
         };
-        for (own, whole) in of(&own.2).iter().zip(of(&whole.2)) {
-            let apart: Vec<f64> = own.iter().zip(&whole).map(|(a, b)| a - b).collect();
-            assert!(largest(&apart) < 1e-8 * largest(&whole));
+        for (found, whole) in of(&found.2).iter().zip(of(&whole.2)) {
+            let differences: Vec<f64> = found.iter().zip(&whole).map(|(a, b)| a - b).collect();
+            assert!(largest(&differences) < 1e-8 * largest(&whole));
         }
         Ok(())
     }

@@ -34,21 +34,21 @@ pub(super) fn state_under_growing_weight(
     let Some(loaded) = LoadedStiffness::new(stage.structure, &assembled.stiffness) else {
         return Err(error);
     };
-    let under = |factor: f64, state: StaticState| {
-        if factor == 1.0 {
-            return settle(stage, laws, start.clone(), state, weight);
-        }
-        let assembled = assembled.with_stiffness(loaded.at(factor)?);
-        let shared = RefCell::default();
-        let stage = Standing { assembled: &assembled, shared: &shared, ..*stage };
-        let share: Vec<f64> = weight.iter().map(|force| factor * force).collect();
-        settle(&stage, laws, start.clone(), state, &share)
-    };
-    let (mut reached, mut increment) = (0.0, FIRST_INCREMENT);
+    let mut reached = 0.0;
+    let mut increment = FIRST_INCREMENT;
     let mut state = unloaded;
     loop {
         let factor = f64::min(reached + increment, 1.0);
-        match under(factor, state.clone()) {
+        let settled = if factor == 1.0 {
+            settle(stage, laws, start.clone(), state.clone(), weight)
+        } else {
+            let assembled = assembled.with_stiffness(loaded.at(factor)?);
+            let shared = RefCell::default();
+            let stage = Standing { assembled: &assembled, shared: &shared, ..*stage };
+            let reduced_weight: Vec<f64> = weight.iter().map(|force| factor * force).collect();
+            settle(&stage, laws, start.clone(), state.clone(), &reduced_weight)
+        };
+        match settled {
             Ok(found) if factor == 1.0 => return Ok(found),
             Ok((found, _)) => (reached, state) = (factor, found),
             Err(Error::Preload { .. }) if increment > SMALLEST_INCREMENT => increment *= 0.5,

@@ -11,7 +11,7 @@ use crate::coupled::parts::Parts;
 use crate::coupled::statics::compliance::Floating;
 use crate::error::Result;
 use crate::linalg::{SparseFactor, SparseMatrix, dot};
-use crate::structure::{BaseNode, HeldBase, stiffest};
+use crate::structure::{HeldBase, stiffest};
 
 /// Results of a structure with its base held.
 pub(super) struct OfHeldBase {
@@ -40,8 +40,11 @@ impl OfHeldBase {
         let is_reduced = matches!(parts.given.coordinates, Coordinates::Reduced { .. });
         let responses = is_reduced.then(|| HeldResponses::new(assembled, &held));
         let is_condensed = assembled.base.is_flexible() && !holds(parts.ground.as_ref());
-        let loads = || at_rest::weight_and_load(parts, assembled);
-        let condensed = if is_condensed { Condensed::new(assembled, held, loads)? } else { None };
+        let condensed = if is_condensed {
+            Condensed::new(assembled, held, || at_rest::weight_and_load(parts, assembled))?
+        } else {
+            None
+        };
         Ok(Self { period, is_firm, responses, condensed })
     }
 
@@ -51,9 +54,9 @@ impl OfHeldBase {
         assembled: &'a Assembled,
         floating: Option<&'a Floating>,
     ) -> Option<&'a SparseMatrix> {
-        let known = floating?.positive_definite()?;
-        // The inner part of K, whose base was held, is positive definite too.
-        Some(if self.condensed.is_some() { &assembled.stiffness } else { known })
+        let stiffness = floating?.positive_definite()?;
+        // The inner part of K, factored with the base held, is positive definite too.
+        Some(if self.condensed.is_some() { &assembled.stiffness } else { stiffness })
     }
 
     /// Hands on the input of reduced coordinates, with the static state's factor; nothing for other coordinates.
@@ -65,7 +68,7 @@ impl OfHeldBase {
         let condensed = self.condensed.take();
         let responses = self.responses.take()?;
         let Some(condensed) = condensed else { return Some((responses, floating)) };
-        let whole = floating.and_then(|own| own.of_whole(assembled, condensed));
+        let whole = floating.and_then(|floating| floating.of_whole(assembled, condensed));
         Some((responses, whole.map(Rc::new)))
     }
 }
@@ -82,25 +85,26 @@ pub(crate) struct HeldResponses {
 impl HeldResponses {
     /// Responses by the factored stiffness with the base held.
     pub(crate) fn new(assembled: &Assembled, factor: &SparseFactor) -> Self {
-        let [mass, _, stiffness] = assembled.matrices();
+        let mass: &SparseMatrix = &assembled.mass;
+        let stiffness: &SparseMatrix = &assembled.stiffness;
         let n = assembled.dofs();
         let translations = assembled.influence.translations(n);
         let held = HeldBase::new(assembled.base.nodes(), stiffness, stiffest(stiffness));
         let mut rotations = Vec::new();
         for part in assembled.influence.parts() {
             let nodes = part.nodes(&assembled.base);
-            let mean = |place: fn(&BaseNode) -> f64| {
-                nodes.iter().map(|node| place(node)).sum::<f64>() / nodes.len().max(1) as f64
-            };
-            let middle = [mean(|node| node.x), mean(|node| node.y)];
+            let count = nodes.len().max(1) as f64;
+            let middle_x = nodes.iter().map(|node| node.x).sum::<f64>() / count;
+            let middle_y = nodes.iter().map(|node| node.y).sum::<f64>() / count;
+            let middle = [middle_x, middle_y];
             rotations.extend(held.turns(nodes.iter().copied(), middle).concat());
         }
         factor.solve_many(&mut rotations);
         let inertia = mass.times(&translations);
-        let mut bent = inertia.clone();
-        factor.solve_many(&mut bent);
-        let pairs = inertia.chunks_exact(n).zip(bent.chunks_exact(n));
-        let squares = pairs.map(|(force, bent)| dot(force, bent) / mass.form(bent, bent));
+        let mut deflections = inertia.clone();
+        factor.solve_many(&mut deflections);
+        let pairs = inertia.chunks_exact(n).zip(deflections.chunks_exact(n));
+        let squares = pairs.map(|(force, shape)| dot(force, shape) / mass.form(shape, shape));
         Self { rotations, lowest: squares.fold(f64::INFINITY, f64::min).max(0.0).sqrt() }
     }
 }

@@ -10,7 +10,7 @@ use crate::linalg::{SparseFactor, SparseMatrix, Triplets, largest};
 use crate::structure::{Structure, massless, nonlinear_state};
 
 /// Gap relative to the largest displacement below which an element is closed.
-const CLOSED: f64 = 1e-12;
+const CLOSED_GAP_TOLERANCE: f64 = 1e-12;
 
 /// Sets `state`, which is at rest, and the structure's internal variables to the initial motion.
 ///
@@ -27,11 +27,11 @@ pub(crate) fn set_in_motion(
         return Ok(());
     }
     let motion = &mut state.kinematics;
-    for (start, own) in [(displacement, &mut motion.displacement), (velocity, &mut motion.velocity)]
-    {
-        if !start.is_empty() {
-            *own = scene.model.transformation.coordinates(start, mass);
-        }
+    if !displacement.is_empty() {
+        motion.displacement = scene.model.transformation.coordinates(displacement, mass);
+    }
+    if !velocity.is_empty() {
+        motion.velocity = scene.model.transformation.coordinates(velocity, mass);
     }
     set_contact(given, scene, state)?;
     if let Some(force) = structure.nonlinear_mut() {
@@ -52,24 +52,24 @@ pub(crate) fn set_in_motion(
 /// Sets gaps, slips and modes of the displaced base.
 fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> Result<()> {
     let layout = scene.layout();
-    let [mut moved, mut rate] = [(); 2].map(|()| vec![0.0; layout.len()]);
-    scene.base.means(&state.kinematics.displacement, &mut moved);
-    scene.base.means(&state.kinematics.velocity, &mut rate);
-    let closed = CLOSED * largest(&given.displacement);
+    let mut displacement = vec![0.0; layout.len()];
+    scene.base.means(&state.kinematics.displacement, &mut displacement);
+    let mut velocity = vec![0.0; layout.len()];
+    scene.base.means(&state.kinematics.velocity, &mut velocity);
+    let closed = CLOSED_GAP_TOLERANCE * largest(&given.displacement);
     if given.is_static() {
         let needed = "zero where weight holds it on the ground (begin with \
                       `GravityStage::Unloaded`, or with a load that is released)";
-        for value in moved {
+        for value in displacement {
             require("initial displacement of the base, m", value, value.abs() <= closed, needed)?;
         }
     } else {
         let mut starts = Vec::with_capacity(scene.count());
         for (e, (contact, mode)) in state.contact.iter_mut().zip(&mut state.modes).enumerate() {
-            let jump = [&mut contact.gap, &mut contact.slip, &mut contact.slip_across];
-            for ((own, sign), component) in
-                jump.into_iter().zip([-1.0, 1.0, 1.0]).zip(0..layout.components())
-            {
-                *own = sign * moved[layout.place(component, e)];
+            contact.gap = -displacement[layout.place(0, e)];
+            contact.slip = displacement[layout.place(1, e)];
+            if layout.components() > 2 {
+                contact.slip_across = displacement[layout.place(2, e)];
             }
             let quantity = "gap of an element under the initial displacement, m";
             require(quantity, contact.gap, contact.gap >= -closed, "zero or more")?;
@@ -84,16 +84,17 @@ fn set_contact(given: &SimulationBuilder, scene: &Scene, state: &mut State) -> R
         }
         state.start = PreviousContacts::new(&scene.laws, &starts)?;
     }
-    let [_, along, across] = layout.split(&rate);
-    for (e, own) in state.start.slip_rates_mut().enumerate() {
-        *own = across.get(e).map_or(along[e], |across| along[e].hypot(*across));
+    let [_, along, across] = layout.split(&velocity);
+    for (e, rate) in state.start.slip_rates_mut().enumerate() {
+        *rate = across.get(e).map_or(along[e], |across| along[e].hypot(*across));
     }
     Ok(())
 }
 
 /// Acceleration a from M a + C v + K u + f(u) = p at t = 0, before the soil has responded.
 fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Result<Vec<f64>> {
-    let (model, at_rest) = (&scene.model, &scene.static_state);
+    let model = &scene.model;
+    let at_rest = &scene.static_state;
     let mut force = vec![0.0; model.coordinates];
     let mut scratch = vec![0.0; model.dofs];
     model.load(structure, 0.0, &at_rest.load, &mut scratch, &mut force)?;
@@ -115,10 +116,10 @@ fn acceleration(scene: &Scene, structure: &dyn Structure, state: &State) -> Resu
 }
 
 /// Force on a massless degree of freedom, relative to the largest force, that counts as zero.
-const BALANCED: f64 = 1e-9;
+const MASSLESS_FORCE_TOLERANCE: f64 = 1e-9;
 
 /// Square of a time, s², that is short for every structure.
-const SMALL: f64 = 1e-20;
+const MASSLESS_STIFFNESS_SCALE: f64 = 1e-20;
 
 /// Replaces `force` by the acceleration that it gives a structure at rest.
 ///
@@ -133,15 +134,18 @@ fn accelerate(mass: &SparseMatrix, stiffness: &SparseMatrix, force: &mut [f64]) 
     for (force, _) in force.iter_mut().zip(&massless).filter(|(_, massless)| **massless) {
         let needed = "zero where there is no mass, for the acceleration at t = 0, which \
                       `Midpoint` does not take";
-        require_part("force at t = 0", force.abs() <= BALANCED * largest, needed)?;
+        require_part("force at t = 0", force.abs() <= MASSLESS_FORCE_TOLERANCE * largest, needed)?;
         *force = 0.0;
     }
     let mut matrix = Triplets::new(mass.order());
-    for (own, factor, follows) in [(mass, 1.0, false), (stiffness, SMALL, true)] {
-        for (row, column, value) in own.entries() {
-            if (massless[row] || massless[column]) == follows {
-                matrix.add(row, column, factor * value);
-            }
+    for (row, column, value) in mass.entries() {
+        if !(massless[row] || massless[column]) {
+            matrix.add(row, column, value);
+        }
+    }
+    for (row, column, value) in stiffness.entries() {
+        if massless[row] || massless[column] {
+            matrix.add(row, column, MASSLESS_STIFFNESS_SCALE * value);
         }
     }
     SparseFactor::new("mass matrix, for the acceleration at t = 0", &matrix)?.solve(force);

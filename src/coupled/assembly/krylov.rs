@@ -18,7 +18,7 @@ use std::rc::Rc;
 
 use crate::coupled::assembly::held_responses::HeldResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
-use crate::coupled::assembly::subspace::{REDUCED, Ritz, Subspace};
+use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::parts::Parts;
@@ -30,30 +30,30 @@ use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::combination;
 
 /// Ratio of a shift to the previous one.
-const RATIO: f64 = 4.0;
+const SHIFT_RATIO: f64 = 4.0;
 /// Number of forces from which vibration modes and static responses replace shifts.
-const MANY: usize = 100;
-/// A direction is left out if the new fraction of it is below this, and below this multiple of the root of the
-/// tolerance.
+const MANY_FORCES_THRESHOLD: usize = 100;
+/// A direction is left out if its part outside the space is below this fraction, and below this multiple of the root
+/// of the tolerance.
 ///
 /// The responses depend on the square of that fraction.
-pub(super) const NEW: f64 = 1e-2;
-const NEW_BY_ROOT: f64 = 10.0;
+pub(super) const MIN_NEW_FRACTION: f64 = 1e-2;
+const NEW_FRACTION_PER_ROOT_TOLERANCE: f64 = 10.0;
 /// Smallest new fraction of a direction, in the last rounds.
-pub(super) const LEAST_NEW: f64 = 1e-7;
+pub(super) const FINAL_MIN_NEW_FRACTION: f64 = 1e-7;
 /// Smallest ratio of a round's change to the previous round's in the prediction.
-pub(super) const FASTEST: f64 = 0.1;
+pub(super) const MIN_CHANGE_RATIO: f64 = 0.1;
 /// Largest number of rounds; half of them if the tolerance cannot be expected.
-const ROUNDS: usize = 16;
+const MAX_KRYLOV_ROUNDS: usize = 16;
 /// Smallest ratio of the lowest shift to the scheme's.
-const LOWEST: f64 = 1e-6;
+const MIN_SHIFT_RATIO: f64 = 1e-6;
 /// Largest number of steps over which responses are compared.
-const LONGEST: usize = 10_000;
+const MAX_COMPARED_STEPS: usize = 10_000;
 
-const DYNAMIC: &str = "dynamic stiffness matrix";
+const DYNAMIC_STIFFNESS_NAME: &str = "dynamic stiffness matrix";
 
 /// Number of times at which the structure's own load is sampled.
-const SAMPLES: u32 = 16;
+const LOAD_SAMPLE_COUNT: u32 = 16;
 
 /// Factors an effective stiffness.
 pub(crate) type Factored<'a> = dyn Fn() -> Result<Box<SparseFactor>> + 'a;
@@ -89,17 +89,21 @@ impl<'a> Reduction<'a> {
         (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
         steps: usize,
     ) -> Result<Self> {
-        let (given, base, coefficients) = (&parts.given, &assembled.base, &parts.coefficients);
-        let (n, size) = (assembled.dofs(), base.layout().len());
-        let mut rows = ResponseRows { all: Vec::new(), counts: [0; 3], probes: Vec::new() };
+        let given = &parts.given;
+        let base = &assembled.base;
+        let coefficients = &parts.coefficients;
+        let n = assembled.dofs();
+        let size = base.layout().len();
+        let mut rows = ResponseRows::default();
         for load in &given.loads {
-            keep(&mut rows.all, spread(load.row(), n));
+            push_nonzero(&mut rows.all, spread(load.row(), n));
         }
         let duration = steps as f64 * given.time_step;
-        for k in 0..=SAMPLES {
+        for k in 0..=LOAD_SAMPLE_COUNT {
             let mut load = vec![0.0; n];
-            let loaded =
-                parts.structure.load(duration * f64::from(k) / f64::from(SAMPLES), &mut load);
+            let loaded = parts
+                .structure
+                .load(duration * f64::from(k) / f64::from(LOAD_SAMPLE_COUNT), &mut load);
             if k == 0 {
                 loaded?;
             } else if loaded.is_err() {
@@ -107,43 +111,43 @@ impl<'a> Reduction<'a> {
                 continue;
             }
             if load.iter().all(|force| force.is_finite()) {
-                keep(&mut rows.all, load);
+                push_nonzero(&mut rows.all, load);
             }
         }
-        rows.counts[0] = rows.all.len() / n;
+        rows.load_count = rows.all.len() / n;
         let mut unit = vec![0.0; size];
         for i in 0..size {
             let mut force = vec![0.0; n];
             unit[i] = 1.0;
             base.add_forces(1.0, &unit, &mut force);
             unit[i] = 0.0;
-            keep(&mut rows.all, force);
+            push_nonzero(&mut rows.all, force);
         }
         let mut motions = Vec::new();
         for motion in [&given.displacement, &given.velocity] {
             for motion in motion.chunks_exact(n) {
                 let mut force = vec![0.0; n];
                 assembled.mass.multiply_add(1.0, motion, &mut force);
-                keep(&mut rows.all, force);
+                push_nonzero(&mut rows.all, force);
             }
             motions.extend_from_slice(motion);
         }
-        rows.counts[1] = rows.all.len() / n;
+        rows.force_count = rows.all.len() / n;
         rows.probes = vec![[None; 3]; given.probes.len()];
         for kind in 0..3 {
             if kind == 2 {
-                rows.counts[2] = rows.all.len() / n;
+                rows.first_acceleration = rows.all.len() / n;
             }
             for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
                 let place = rows.all.len() / n;
-                let kept = keep(&mut rows.all, spread(probe.rows()[kind], n));
-                places[kind] = kept.then_some(place);
+                let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[kind], n));
+                places[kind] = is_nonzero.then_some(place);
             }
         }
         let floating = Cell::new(floating);
-        let [mass, damping, stiffness] = assembled.matrices();
-        let is_proportional =
-            damping.is_empty() || combination(damping, [stiffness, mass]).is_some();
+        let damping = &assembled.damping;
+        let is_proportional = damping.is_empty()
+            || combination(damping, [&assembled.stiffness, &assembled.mass]).is_some();
         let without_p_delta = if is_proportional {
             None
         } else {
@@ -164,9 +168,14 @@ impl<'a> Reduction<'a> {
 
     /// The Ritz modes whose responses to forces are within `tolerance`.
     pub(crate) fn modes(&self, tolerance: f64) -> Result<ModalBasis> {
-        const NAME: &str = "tolerance of reduced coordinates";
-        finite(NAME, tolerance)?;
-        require(NAME, tolerance, tolerance > 0.0 && tolerance < 1.0, "above 0 and below 1")?;
+        const TOLERANCE_NAME: &str = "tolerance of reduced coordinates";
+        finite(TOLERANCE_NAME, tolerance)?;
+        require(
+            TOLERANCE_NAME,
+            tolerance,
+            tolerance > 0.0 && tolerance < 1.0,
+            "above 0 and below 1",
+        )?;
         let matrices = self.matrices()?;
         if self.has_many_forces() {
             return self.modes_of_many(tolerance, matrices);
@@ -176,7 +185,7 @@ impl<'a> Reduction<'a> {
 
     /// Whether vibration modes and static responses replace shifts.
     pub(super) fn has_many_forces(&self) -> bool {
-        self.rows.counts[1] >= MANY
+        self.rows.force_count >= MANY_FORCES_THRESHOLD
     }
 
     /// The rigid motions; `rounding`: of the vectors' orthogonality after one pass.
@@ -186,55 +195,58 @@ impl<'a> Reduction<'a> {
         if let Some(proportional) = self.without_p_delta {
             space = space.with_proportional_damping(proportional);
         }
-        space.extend(self.held.rotations.clone(), LEAST_NEW);
+        space.extend(self.held.rotations.clone(), FINAL_MIN_NEW_FRACTION);
         space
     }
 
     /// Ritz modes for few forces: powers of several shifts.
     fn modes_of_few(&self, tolerance: f64, matrices: [&SparseMatrix; 3]) -> Result<ModalBasis> {
-        let (mut space, lowest) = (self.rigid(matrices, 0.0), self.held.lowest);
-        space.extend(self.motions.clone(), LEAST_NEW);
+        let mut space = self.rigid(matrices, 0.0);
+        space.extend(self.motions.clone(), FINAL_MIN_NEW_FRACTION);
         let rows = &self.rows.all;
         let count = (rows.len() / self.assembled.dofs()).max(1);
         self.floating.take();
         let effective = self.effective()?;
-        let factors = self.shifts(lowest, matrices).collect::<Result<Vec<_>>>()?;
+        let factors = self.shifts().map(|shift| self.shifted(shift)).collect::<Result<Vec<_>>>()?;
         let factors: Vec<_> = std::iter::once(&*effective).chain(&factors).collect();
         let mut blocks = vec![rows.clone(); factors.len()];
         // Rows in terms of the vectors.
         let mut products = Vec::new();
-        let mut least = NEW.min(NEW_BY_ROOT * tolerance.sqrt());
+        let mut min_fraction =
+            MIN_NEW_FRACTION.min(NEW_FRACTION_PER_ROOT_TOLERANCE * tolerance.sqrt());
         let mut last: Option<StepResponses> = None;
-        let [mut change, mut reached] = [f64::INFINITY; 2];
-        for round in 1..=ROUNDS {
-            if !grow(&mut space, &factors, &mut blocks, least) {
-                if least <= LEAST_NEW {
+        let mut change = f64::INFINITY;
+        let mut reached = f64::INFINITY;
+        for round in 1..=MAX_KRYLOV_ROUNDS {
+            if !grow(&mut space, &factors, &mut blocks, min_fraction) {
+                if min_fraction <= FINAL_MIN_NEW_FRACTION {
                     let modes = space.ritz()?;
                     return self.basis(space, &modes, &factors, tolerance);
                 }
                 // Repeats with a lower limit for the directions that were left out.
-                least = LEAST_NEW.max(NEW * least);
+                min_fraction = FINAL_MIN_NEW_FRACTION.max(MIN_NEW_FRACTION * min_fraction);
                 blocks.fill(rows.clone());
                 continue;
             }
             let modes = space.ritz()?;
             products.extend(space.products(products.len() / count, rows));
-            let shares = Subspace::shares(&modes, &products);
-            let responses = self.responses(&modes, shares, 0);
+            let modal_rows = Subspace::modal_rows(&modes, &products);
+            let responses = self.responses(&modes, modal_rows, 0);
             let mut rate = 1.0;
             if let Some(last) = &last {
-                let by = responses.difference(last, tolerance);
+                let new_change = responses.difference(last, tolerance);
                 if change.is_finite() {
-                    rate = (by / change).clamp(FASTEST, 1.0);
+                    rate = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
                 }
+                change = new_change;
                 // Estimated change by the next round, at the rate of this round.
-                (change, reached) = (by, by * rate);
+                reached = new_change * rate;
             }
             if reached <= tolerance || space.count() == self.assembled.dofs() {
                 return self.basis(space, &modes, &factors, tolerance);
             }
-            let left = i32::try_from(ROUNDS - round).unwrap_or(0);
-            if 2 * round >= ROUNDS && reached * rate.powi(left) > tolerance {
+            let remaining_rounds = i32::try_from(MAX_KRYLOV_ROUNDS - round).unwrap_or(0);
+            if 2 * round >= MAX_KRYLOV_ROUNDS && reached * rate.powi(remaining_rounds) > tolerance {
                 break;
             }
             last = Some(responses);
@@ -244,66 +256,75 @@ impl<'a> Reduction<'a> {
         Err(inaccurate(reached, tolerance, remedy))
     }
 
-    /// Factored K_eff, with proportional damping if P–Δ alone makes it another.
+    /// Factored K_eff, with the proportional damping if the damping differs from it by P–Δ alone.
     pub(super) fn effective(&self) -> Result<Box<SparseFactor>> {
         let Some([beta, alpha]) = self.without_p_delta else { return (self.factored)() };
-        let ([mass, _, stiffness], c) = (self.assembled.matrices(), self.coefficients);
-        let [a, d, k] = [c.acceleration[0], c.velocity[0], c.displacement[0]];
-        let terms = [(a + d * alpha, mass), (k + d * beta, stiffness)];
-        let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
-        SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination).map(Box::new)
+        let mass: &SparseMatrix = &self.assembled.mass;
+        let c = self.coefficients;
+        let mass_factor = c.acceleration[0] + c.velocity[0] * alpha;
+        let stiffness_factor = c.displacement[0] + c.velocity[0] * beta;
+        let terms = [(mass_factor, mass), (stiffness_factor, &self.assembled.stiffness)];
+        let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
+        SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination).map(Box::new)
     }
 
-    /// Responses over the steps of the run to forces that grow over `smooth` steps.
-    pub(super) fn responses(&self, modes: &Ritz, shares: Vec<f64>, smooth: usize) -> StepResponses {
-        let steps = self.steps.clamp(1, LONGEST);
-        StepResponses::new(modes, shares, &self.rows, self.coefficients, [steps, smooth])
+    /// Responses over the steps of the run to forces that grow over `growth_steps` steps.
+    pub(super) fn responses(
+        &self,
+        modes: &Ritz,
+        modal_rows: Vec<f64>,
+        growth_steps: usize,
+    ) -> StepResponses {
+        let steps = self.steps.clamp(1, MAX_COMPARED_STEPS);
+        StepResponses::new(modes, modal_rows, &self.rows, self.coefficients, steps, growth_steps)
     }
 
     /// Mass, damping and stiffness; an error if they cannot be reduced.
     fn matrices(&self) -> Result<[&SparseMatrix; 3]> {
-        require_part(REDUCED, self.assembled.linear, "they need a linear structure")?;
+        require_part(
+            REDUCED_COORDINATES_NAME,
+            self.assembled.linear,
+            "they need a linear structure",
+        )?;
         let matrices = self.assembled.matrices();
         let names = ["mass matrix", "damping matrix", "stiffness matrix"];
         for (matrix, name) in matrices.iter().zip(names) {
             if matrix.asymmetry() > 1e-13 {
                 let needed = "it must be symmetric";
                 let error = Error::Scene { quantity: name, needed };
-                return Err(error.within(REDUCED));
+                return Err(error.within(REDUCED_COORDINATES_NAME));
             }
         }
         if !self.assembled.is_massive {
             let needed = "it must be positive definite";
             let error = Error::Scene { quantity: names[0], needed };
-            return Err(error.within(REDUCED));
+            return Err(error.within(REDUCED_COORDINATES_NAME));
         }
         Ok(matrices)
     }
 
-    /// Factors at the shifts below the scheme's, and at one above it.
-    fn shifts<'m>(
-        &'m self,
-        lowest: f64,
-        matrices: [&'m SparseMatrix; 3],
-    ) -> impl Iterator<Item = Result<SparseFactor>> + 'm {
-        let [mass, _, stiffness] = matrices;
+    /// The shifts below the scheme's, and one above it, 1/s.
+    fn shifts(&self) -> impl Iterator<Item = f64> + use<> {
+        let Assembled { mass, stiffness, .. } = self.assembled;
         let pairs = stiffness.diagonal().into_iter().zip(mass.diagonal());
-        let stiffest = pairs.fold(0.0, |most: f64, (k, m)| most.max(k / m)).sqrt();
+        let max_shift = pairs.fold(0.0, |largest: f64, (k, m)| largest.max(k / m)).sqrt();
         let c = self.coefficients;
-        let own = (c.acceleration[0] / c.displacement[0]).sqrt().min(RATIO * stiffest);
-        let lowest = lowest.max(LOWEST * own);
-        let below = std::iter::successors(Some(own / RATIO), |shift| Some(shift / RATIO));
-        let shifts = std::iter::once(RATIO * own).chain(below.take_while(move |s| *s > lowest));
-        let shifts = shifts.filter(move |shift| *shift < stiffest);
-        shifts.map(move |shift| self.shifted(shift, matrices))
+        let scheme_shift =
+            (c.acceleration[0] / c.displacement[0]).sqrt().min(SHIFT_RATIO * max_shift);
+        let lowest = self.held.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
+        let first_below = scheme_shift / SHIFT_RATIO;
+        let below = std::iter::successors(Some(first_below), |shift| Some(shift / SHIFT_RATIO))
+            .take_while(move |shift| *shift > lowest);
+        let above = std::iter::once(SHIFT_RATIO * scheme_shift);
+        above.chain(below).filter(move |shift| *shift < max_shift)
     }
 
-    /// Factor at a shift.
-    fn shifted(&self, shift: f64, matrices: [&SparseMatrix; 3]) -> Result<SparseFactor> {
-        let [mass, _, stiffness] = matrices;
-        let terms = [(shift * shift, mass), (1.0, stiffness)];
-        let matrix = SparseMatrix::sum(DYNAMIC, mass.order(), &terms)?;
-        SparseFactor::of(DYNAMIC, &matrix, &self.assembled.elimination)
+    /// Factored K + σ²M at a shift σ.
+    fn shifted(&self, shift: f64) -> Result<SparseFactor> {
+        let Assembled { mass, stiffness, .. } = self.assembled;
+        let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
+        let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
+        SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
     }
 }
 
@@ -312,25 +333,25 @@ fn grow(
     space: &mut Subspace<'_>,
     factors: &[&SparseFactor],
     blocks: &mut [Vec<f64>],
-    least: f64,
+    min_fraction: f64,
 ) -> bool {
     let start = space.count();
     for (factor, block) in factors.iter().zip(blocks) {
         let before = space.count();
         factor.solve_many(block);
-        space.extend(std::mem::take(block), least);
+        space.extend(std::mem::take(block), min_fraction);
         block.extend_from_slice(space.momenta(before));
     }
     space.count() > start
 }
 
 /// Adds a row unless it is zero; returns whether it was added.
-fn keep(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
-    let kept = row.iter().any(|value| *value != 0.0);
-    if kept {
+fn push_nonzero(rows: &mut Vec<f64>, row: Vec<f64>) -> bool {
+    let is_nonzero = row.iter().any(|value| *value != 0.0);
+    if is_nonzero {
         rows.extend(row);
     }
-    kept
+    is_nonzero
 }
 
 /// Error for reduced coordinates that do not reach a tolerance.

@@ -268,7 +268,7 @@ impl SimulationBuilder {
     ///     .build()?;
     /// let run = simulation.run(2000, |_| {})?;
     /// assert!(run.is_overturned && run.steps < 2000);
-    /// assert!(run.warnings.iter().any(|own| matches!(own, Warning::Overturned { .. })));
+    /// assert!(run.warnings.iter().any(|warning| matches!(warning, Warning::Overturned { .. })));
     /// // A further call goes on.
     /// assert_eq!(simulation.run(10, |_| {})?.steps, 10);
     /// # Ok::<(), basemat::Error>(())
@@ -335,15 +335,16 @@ impl SimulationBuilder {
         let mut held = OfHeldBase::new(&parts, &assembled, held)?;
         let shared = RefCell::default();
         let at_rest = at_rest::solve(&mut parts, &assembled, &mut held.condensed, &shared)?;
-        let own = (&assembled, held.condensed.as_ref());
-        let coarse = flexible_base::check(&parts, own, &at_rest, &shared)?;
-        let floating = shared.take().map(|own: Compliance| own.floating);
-        let own = parts.structure.as_ref();
-        assembled.check_damping(own, held.positive_definite(&assembled, floating.as_deref()))?;
+        let models = (&assembled, held.condensed.as_ref());
+        let coarse = flexible_base::check(&parts, models, &at_rest, &shared)?;
+        let floating = shared.take().map(|compliance: Compliance| compliance.floating);
+        let structure = parts.structure.as_ref();
+        let positive_definite = held.positive_definite(&assembled, floating.as_deref());
+        assembled.check_damping(structure, positive_definite)?;
         let reduction = held.take_for_reduction(&assembled, floating);
         let Assembled { stiffness, influence, .. } = &assembled;
         let motion: [&[f64]; 2] = [&at_rest.displacement, &at_rest.force];
-        let joined = supports::joined_by_force(own, stiffness, influence, motion)?;
+        let joined = supports::joined_by_force(structure, stiffness, influence, motion)?;
         let Stepped { model, base, operators } =
             Stepped::choose(&parts, &assembled, reduction, &at_rest)?;
         let scene = Scene::new(&mut parts, model, base, at_rest, joined);
@@ -354,10 +355,12 @@ impl SimulationBuilder {
         let compliant = scene.is_compliant(&state.start)?;
         let mass = &assembled.mass;
         initial_motion::set_in_motion(&given, mass, &scene, structure.as_mut(), &mut state)?;
-        let books = || EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant);
-        let books = given.energy_balance.then(books).transpose()?;
+        let mut energy = None;
+        if given.energy_balance {
+            energy = Some(EnergyAccumulator::new(&scene, structure.as_ref(), &state, compliant)?);
+        }
         state.energy_balance =
-            books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
+            energy.as_ref().map_or(EnergyBalance::LEFT_OUT, |energy| energy.energy_balance);
         let mut warnings =
             Warning::of_scene(&scene, &description, given.motion.as_ref(), held.period);
         warnings.extend(first_order_ground.then_some(Warning::Mistake(Mistake::FirstOrderGround)));
@@ -369,12 +372,12 @@ impl SimulationBuilder {
         let pressures_above =
             wall_pressure::pressures_above(&scene, &description.mass_above, given.gravity);
         let conditioning = conditioning(&scene, &mut solver, &state.start)?;
-        // Last, since stiffnesses too far apart for double precision look like a mechanism.
+        // Checked last: stiffnesses too far apart for double precision look like a mechanism.
         held.is_firm?;
         Ok(Simulation {
             forcing: Forcing::new(&scene),
             increment: Increment::new(&scene, &state, compliant && given.energy_balance),
-            books,
+            books: energy,
             motion: given.motion,
             structure,
             ground,

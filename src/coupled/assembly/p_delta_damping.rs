@@ -31,7 +31,9 @@ impl Reduction<'_> {
         tolerance: f64,
     ) -> Result<ModalBasis> {
         let Some([beta, alpha]) = self.without_p_delta else { return Ok(space.basis(modes)) };
-        let [mass, damping, stiffness] = self.assembled.matrices();
+        let mass: &SparseMatrix = &self.assembled.mass;
+        let damping: &SparseMatrix = &self.assembled.damping;
+        let stiffness: &SparseMatrix = &self.assembled.stiffness;
         let order = mass.order();
         let terms = [(1.0, damping), (-beta, stiffness), (-alpha, mass)];
         let coupling = SparseMatrix::sum("damping matrix of P–Δ", order, &terms)?;

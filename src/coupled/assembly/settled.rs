@@ -6,10 +6,10 @@ use crate::error::{Error, Result};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
 
 /// Largest number of passes until state variables of laws are constant.
-const PASSES: usize = 10;
+const MAX_SETTLING_PASSES: usize = 10;
 
 /// Relative change of a state variable in the last pass that counts as rounding.
-const UNSETTLED: f64 = 1e-6;
+const STATE_VARIABLE_TOLERANCE: f64 = 1e-6;
 
 /// Equilibrium under `load`, starting from `start` and `state`; returns the final state.
 ///
@@ -22,21 +22,22 @@ pub(super) fn settle(
     load: &[f64],
 ) -> Result<(StaticState, PreviousContacts)> {
     let mut state_variables = start.state_variables().to_vec();
-    for pass in 1..=PASSES {
+    for pass in 1..=MAX_SETTLING_PASSES {
         let contact;
         (state, contact) = stage.equilibrium(laws, &start, state, load)?;
         let mut seen = contact.clone();
         if stage.frictionless {
-            // Laws see a base that sticks at its place.
+            // The laws update their variables for a base that sticks at its place.
             state.modes.iter_mut().for_each(|mode| *mode = mode.sticking());
-            for (e, own) in seen.iter_mut().enumerate() {
+            for (e, element) in seen.iter_mut().enumerate() {
                 let ContactState { slip, slip_across, .. } = *start.state(e);
-                (own.slip, own.slip_across) = (slip, slip_across);
+                element.slip = slip;
+                element.slip_across = slip_across;
             }
         }
         start.update_state_variables(laws, &seen, &state.modes, &mut state_variables)?;
         let is_settled = state_variables == start.state_variables();
-        if pass == PASSES && !is_settled {
+        if pass == MAX_SETTLING_PASSES && !is_settled {
             check_settled(start.state_variables(), &state_variables)?;
         }
         start.advance(&contact, &state.modes, &state_variables);
@@ -55,10 +56,10 @@ fn check_settled(before: &[f64], now: &[f64]) -> Result<()> {
         if size > 0.0 { (now - before).abs() / size } else { 0.0 }
     });
     let change = changes.fold(0.0, f64::max);
-    if change <= UNSETTLED {
+    if change <= STATE_VARIABLE_TOLERANCE {
         return Ok(());
     }
-    let change = format!("by {:.2} % in the last of {PASSES} passes", 100.0 * change);
+    let change = format!("by {:.2} % in the last of {MAX_SETTLING_PASSES} passes", 100.0 * change);
     let reason = format!(
         "its state variables do not settle under weight and loads at t = 0: they change {change}"
     );

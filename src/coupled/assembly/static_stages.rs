@@ -17,13 +17,13 @@ use crate::interface::{
 use crate::linalg::largest;
 
 /// Number of load increments if elements slide, since friction depends on the path.
-const INCREMENTS: usize = 10;
+const LOAD_INCREMENT_COUNT: usize = 10;
 
 /// Tolerance of a law's conditions in a static state, relative to the largest pressure and displacement.
-const PLACED: f64 = 1e-6;
+const LAW_CONDITION_TOLERANCE: f64 = 1e-6;
 
 /// Step length that laws see in a gravity stage, s.
-pub(super) const TIME_STEP: f64 = 1.0;
+pub(super) const GRAVITY_STAGE_TIME_STEP: f64 = 1.0;
 
 /// The state under `weight` by the chosen gravity stage, and the contact states at which laws start.
 pub(super) fn placed(
@@ -42,7 +42,8 @@ pub(super) fn placed(
     // A base that never opens is bonded from the start.
     let is_smooth = is_placed && !by_limits && can_open;
     let placing = if is_smooth { &smooth } else { laws };
-    let at_rest = PreviousContact::new(ContactState::default(), Mode::Stick, TIME_STEP);
+    let at_rest =
+        PreviousContact::new(ContactState::default(), Mode::Stick, GRAVITY_STAGE_TIME_STEP);
     let first = PreviousContacts::new(placing, &vec![at_rest; count])?;
     let mut state = StaticState::weightless(layout, weight.len());
     for (e, mode) in state.modes.iter_mut().enumerate() {
@@ -59,16 +60,14 @@ pub(super) fn placed(
     }
     // A frictionless law with as many state variables is the same law and keeps them. Other laws start with new
     // ones, and so do elements whose state variables have not changed.
-    let keeps = |e: usize, own: &[f64]| {
-        let is_same = own.len() == law_of(laws, e).state_variables();
-        is_same && !(by_limits && own == first.state_variables_of(e))
-    };
-    state.state_variables = (0..count)
-        .map(|e| {
-            let own = start.state_variables_of(e);
-            if keeps(e, own) { own.to_vec() } else { Vec::new() }
-        })
-        .collect();
+    state.state_variables = Vec::with_capacity(count);
+    for e in 0..count {
+        let values = start.state_variables_of(e);
+        let is_same_law = values.len() == law_of(laws, e).state_variables();
+        let is_unchanged = values == first.state_variables_of(e);
+        let is_kept = is_same_law && !(by_limits && is_unchanged);
+        state.state_variables.push(if is_kept { values.to_vec() } else { Vec::new() });
+    }
     Ok((state, (0..count).map(|e| *start.state(e)).collect()))
 }
 
@@ -99,41 +98,46 @@ fn under_growing_load(
     let count = state.modes.len();
     let placed: Vec<_> = (0..count)
         .map(|e| {
-            let start = PreviousContact::new(contact[e], state.modes[e], TIME_STEP);
+            let start = PreviousContact::new(contact[e], state.modes[e], GRAVITY_STAGE_TIME_STEP);
             start.with_state_variables(&state.state_variables[e])
         })
         .collect();
     let begin = PreviousContacts::new(laws, &placed)?;
-    let total =
-        |share: f64| -> Vec<f64> { weight.iter().zip(load).map(|(w, f)| w + share * f).collect() };
+    let total_load = |factor: f64| -> Vec<f64> {
+        weight.iter().zip(load).map(|(weight, load)| weight + factor * load).collect()
+    };
     let reached = Cell::new(0.0);
     let path = |increments: usize| -> Result<StaticState> {
-        let (mut state, mut start) = (state.clone(), begin.clone());
+        let mut state = state.clone();
+        let mut start = begin.clone();
         reached.set(0.0);
         for k in 1..=increments {
-            let share = k as f64 / increments as f64;
-            (state, start) = settle(stage, laws, start, state, &total(share))?;
-            reached.set(share);
+            let factor = k as f64 / increments as f64;
+            (state, start) = settle(stage, laws, start, state, &total_load(factor))?;
+            reached.set(factor);
         }
         state.state_variables = (0..count).map(|e| start.state_variables_of(e).to_vec()).collect();
         Ok(state)
     };
-    let sticks = |e: usize| law_of(laws, e).modes().contains(&Mode::Stick);
-    let takes_a_path = |state: &StaticState| {
-        let mut modes = state.modes.iter().enumerate();
-        modes.any(|(e, mode)| mode.is_slip() && sticks(e) || mode.is_yield() || mode.is_active())
-    };
     match path(1) {
-        Ok(state) if !takes_a_path(&state) => Ok(state),
-        _ => path(INCREMENTS).map_err(|error| {
-            let error = cause(stage, laws, &total(1.0), error);
-            named_by_loads(stage, reached.get(), error)
+        Ok(state) if !is_path_dependent(laws, &state) => Ok(state),
+        _ => path(LOAD_INCREMENT_COUNT).map_err(|error| {
+            let error = cause(stage, laws, &total_load(1.0), error);
+            toppling_by_loads(stage, reached.get(), error)
         }),
     }
 }
 
-/// The reason of `error`, if no other is known: a structure with P–Δ falls over beyond the share `reached` of its loads.
-fn named_by_loads(stage: &Standing<'_>, reached: f64, error: Error) -> Error {
+/// Whether an element slides against its friction, or yields.
+fn is_path_dependent(laws: &[Box<dyn InterfaceLaw>], state: &StaticState) -> bool {
+    state.modes.iter().enumerate().any(|(e, mode)| {
+        let can_stick = law_of(laws, e).modes().contains(&Mode::Stick);
+        mode.is_slip() && can_stick || mode.is_yield() || mode.is_active()
+    })
+}
+
+/// Toppling beyond the fraction `reached` of the loads, where P–Δ explains an unexplained `error`.
+fn toppling_by_loads(stage: &Standing<'_>, reached: f64, error: Error) -> Error {
     if matches!(error, Error::Preload { .. }) && has_p_delta(stage.structure) {
         let cause = StabilityError::Toppling { factor: reached, by_loads: true };
         return Error::Stability(Box::new(cause));
@@ -150,8 +154,10 @@ fn check_placed(
     start: &PreviousContacts,
 ) -> Result<()> {
     let pressures = &state.traction[..state.modes.len()];
-    let [pressure, length] = [pressures, &state.displacement].map(largest);
-    let tolerance = Tolerance::new(PLACED * length, PLACED * pressure);
+    let pressure = largest(pressures);
+    let length = largest(&state.displacement);
+    let tolerance =
+        Tolerance::new(LAW_CONDITION_TOLERANCE * length, LAW_CONDITION_TOLERANCE * pressure);
     for (element, mode) in state.modes.iter().enumerate().filter(|(_, mode)| mode.is_closed()) {
         let law = law_of(laws, element);
         let contact = ContactState {
@@ -160,20 +166,24 @@ fn check_placed(
             ..ContactState::default()
         };
         let at_rest = law.modes()[0];
-        let previous = PreviousContact::new(contact, at_rest, TIME_STEP);
-        let own = start.state_variables_of(element);
+        let previous = PreviousContact::new(contact, at_rest, GRAVITY_STAGE_TIME_STEP);
+        let values = start.state_variables_of(element);
         let first = previous.first_state_variables(law);
-        let previous =
-            previous.with_state_variables(if own.len() == first.len() { own } else { &first });
-        let misses = |condition: &Condition| {
+        let previous = previous.with_state_variables(if values.len() == first.len() {
+            values
+        } else {
+            &first
+        });
+        let is_violated = |condition: &Condition| {
             let Condition { gap, pressure: factor, value, .. } = *condition;
-            let miss = gap * contact.gap + factor * contact.pressure - value;
-            miss.abs() > PLACED * (gap.abs() * length + factor.abs() * pressure + value.abs())
+            let residual = gap * contact.gap + factor * contact.pressure - value;
+            let scale = gap.abs() * length + factor.abs() * pressure + value.abs();
+            residual.abs() > LAW_CONDITION_TOLERANCE * scale
         };
         let next = law.next_mode(at_rest, &previous, &contact, tolerance);
         let is_at_limit = mode.is_yield() || mode.is_active();
         let yields = (next.is_yield() || next.is_active()) && !is_at_limit;
-        if !yields && (is_at_limit || !law.conditions(at_rest, &previous).iter().any(misses)) {
+        if !yields && (is_at_limit || !law.conditions(at_rest, &previous).iter().any(is_violated)) {
             continue;
         }
         let needed = "one that the law holds at rest: give the law a `frictionless` of its own, or take \

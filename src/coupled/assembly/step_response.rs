@@ -15,15 +15,20 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::linalg::{largest, row_products};
 
 /// Rounding of a response, relative to the largest response.
-const ROUNDING: f64 = 1e-13;
+const RESPONSE_ROUNDING: f64 = 1e-13;
 
 /// Rows of degrees of freedom with forces, and rows of probes.
+#[derive(Default)]
 pub(crate) struct ResponseRows {
     /// Rows of loads, other forces, displacements and velocities, accelerations: an entry for every degree of
     /// freedom.
     pub(crate) all: Vec<f64>,
-    /// Number of loads, of all forces, and of all rows except accelerations.
-    pub(crate) counts: [usize; 3],
+    /// Number of loads, which are the first rows.
+    pub(crate) load_count: usize,
+    /// Number of all forces, loads included.
+    pub(crate) force_count: usize,
+    /// Number of the first row of an acceleration.
+    pub(crate) first_acceleration: usize,
     /// Row numbers of displacements, velocities and accelerations that each probe sums.
     pub(crate) probes: Vec<[Option<usize>; 3]>,
 }
@@ -41,64 +46,70 @@ pub(crate) struct StepResponses {
 }
 
 impl StepResponses {
-    /// Responses over `steps` steps of `rows`; `shares`: the rows in terms of the modes.
+    /// Responses over `steps` steps of `rows`; `modal_rows`: the rows in terms of the modes.
     ///
-    /// Forces grow over `smooth` steps by binomial weights.
+    /// Forces grow over `growth_steps` steps by binomial weights.
     pub(crate) fn new(
         modes: &Ritz,
-        mut shares: Vec<f64>,
+        mut modal_rows: Vec<f64>,
         rows: &ResponseRows,
-        coefficients: &SchemeCoefficients,
-        [steps, smooth]: [usize; 2],
+        c: &SchemeCoefficients,
+        steps: usize,
+        growth_steps: usize,
     ) -> Self {
-        let [loads, forces, accelerations] = rows.counts;
-        let (count, c) = (modes.stiffness.len().max(1), coefficients);
-        let parts = modes.stiffness.iter().zip(&modes.damping);
-        let effective =
-            |(k, d): (&f64, &f64)| c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k;
-        let effective: Vec<f64> = parts.map(effective).collect();
-        let mut sizes = Vec::with_capacity(shares.len() / count);
-        for row in shares.chunks_exact_mut(count) {
+        let loads = rows.load_count;
+        let forces = rows.force_count;
+        let accelerations = rows.first_acceleration;
+        let count = modes.stiffness.len().max(1);
+        let mut effective = Vec::with_capacity(count);
+        for (k, d) in modes.stiffness.iter().zip(&modes.damping) {
+            effective.push(c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k);
+        }
+        let mut norms = Vec::with_capacity(modal_rows.len() / count);
+        for row in modal_rows.chunks_exact_mut(count) {
             let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
-            let size = if energy > 0.0 { energy.sqrt() } else { 1.0 };
-            for share in row {
-                *share /= size;
+            let norm = if energy > 0.0 { energy.sqrt() } else { 1.0 };
+            for value in row {
+                *value /= norm;
             }
-            sizes.push(size);
+            norms.push(norm);
         }
         let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
             .take_while(|s| *s <= steps)
             .collect();
-        let states = mode_states(modes, c, &effective, (&times, &binomial(smooth)));
-        let (mut values, mut read) = ([Vec::new(), Vec::new()], Vec::new());
+        let states = mode_states(modes, c, &effective, &times, &binomial(growth_steps));
+        let mut values = [Vec::new(), Vec::new()];
+        let mut read = Vec::new();
         let mut weighted = vec![0.0; forces * count];
         for states in states.chunks_exact(3 * count) {
             let mut responses = |forces: usize, kind: usize| {
                 let states = &states[kind * count..(kind + 1) * count];
                 let weighted = &mut weighted[..forces * count];
                 for (row, weighted) in
-                    shares.chunks_exact(count).zip(weighted.chunks_exact_mut(count))
+                    modal_rows.chunks_exact(count).zip(weighted.chunks_exact_mut(count))
                 {
                     let terms = row.iter().zip(states).zip(weighted);
                     terms.for_each(|((f, state), term)| *term = f * state);
                 }
-                row_products(weighted, &shares, count)
+                row_products(weighted, &modal_rows, count)
             };
-            let [u, v] = [0, 1].map(|kind| responses(forces, kind));
+            let displacements = responses(forces, 0);
+            let velocities = responses(forces, 1);
             if loads > 0 {
-                let (a, outputs) = (responses(loads, 2), sizes.len());
+                let by_kind = [&displacements, &velocities, &responses(loads, 2)];
                 for load in 0..loads {
-                    let of = |found: &[f64], row: usize| found[load * outputs + row] * sizes[row];
                     read.extend(rows.probes.iter().map(|probe| {
-                        let parts = probe.iter().zip([&u, &v, &a]);
-                        parts.filter_map(|(row, found)| Some(of(found, (*row)?))).sum::<f64>()
+                        let parts = probe.iter().zip(by_kind).filter_map(|(row, responses)| {
+                            row.map(|row| responses[load * norms.len() + row] * norms[row])
+                        });
+                        parts.sum::<f64>()
                     }));
                 }
             }
-            values[0].extend(u);
-            values[1].extend(v);
+            values[0].extend(displacements);
+            values[1].extend(velocities);
         }
-        Self { values, outputs: sizes.len(), accelerations, read, probes: rows.probes.len() }
+        Self { values, outputs: norms.len(), accelerations, read, probes: rows.probes.len() }
     }
 
     /// Largest displacement of each of these `outputs`, the smallest of all.
@@ -119,28 +130,31 @@ impl StepResponses {
     ///
     /// At least rounding.
     pub(crate) fn difference(&self, other: &Self, tolerance: f64) -> f64 {
-        let [u, v] = [0, 1].map(|kind| [&self.values[kind][..], &other.values[kind]]);
-        let (first, all) = (self.accelerations, self.outputs);
-        // The value of a probe has a unit of its own.
-        let rounding = ROUNDING / tolerance;
-        let floors = [u, v].map(|[own, _]| rounding * largest(own));
-        let looks = [
-            (u, all, 0..first, floors[0]),
-            (v, all, first..all, floors[1]),
-            ([&self.read, &other.read], self.probes, 0..self.probes, 0.0),
+        let [displacements, velocities] = &self.values;
+        let first_acceleration = self.accelerations;
+        let outputs = self.outputs;
+        let rounding = RESPONSE_ROUNDING / tolerance;
+        let displacement_floor = rounding * largest(displacements);
+        let velocity_floor = rounding * largest(velocities);
+        let comparisons = [
+            (displacements, &other.values[0], outputs, 0..first_acceleration, displacement_floor),
+            (velocities, &other.values[1], outputs, first_acceleration..outputs, velocity_floor),
+            // Probes have different units: no common floor.
+            (&self.read, &other.read, self.probes, 0..self.probes, 0.0),
         ];
-        let mut worst = ROUNDING;
-        for ([own, others], outputs, wanted, floor) in looks {
-            let mut sizes = vec![floor; wanted.len()];
-            let mut changes = vec![0.0_f64; wanted.len()];
-            let rows = own.chunks_exact(outputs.max(1)).zip(others.chunks_exact(outputs.max(1)));
-            for (own, others) in rows {
-                let pairs = own[wanted.clone()].iter().zip(&others[wanted.clone()]);
+        let mut worst = RESPONSE_ROUNDING;
+        for (values, others, outputs, compared, floor) in comparisons {
+            let mut sizes = vec![floor; compared.len()];
+            let mut changes = vec![0.0_f64; compared.len()];
+            let outputs = outputs.max(1);
+            for (row, other) in values.chunks_exact(outputs).zip(others.chunks_exact(outputs)) {
+                let pairs = row[compared.clone()].iter().zip(&other[compared.clone()]);
                 for ((a, b), (size, change)) in pairs.zip(sizes.iter_mut().zip(&mut changes)) {
                     *size = size.max(a.abs());
                     // `max` ignores NaN.
-                    let apart = (a - b).abs();
-                    *change = if apart.is_finite() { change.max(apart) } else { f64::INFINITY };
+                    let difference = (a - b).abs();
+                    *change =
+                        if difference.is_finite() { change.max(difference) } else { f64::INFINITY };
                 }
             }
             for (size, change) in sizes.into_iter().zip(changes) {
@@ -157,12 +171,14 @@ impl StepResponses {
 
 /// Weights of a force at each of `count` steps and the one before: k of `count`, over 2 to the power of `count`.
 fn binomial(count: usize) -> Vec<f64> {
-    let first = 0.5_f64.powi(i32::try_from(count).unwrap_or(i32::MAX));
-    let next = |(weight, k): &(f64, usize)| {
+    let mut weight = 0.5_f64.powi(i32::try_from(count).unwrap_or(i32::MAX));
+    let mut weights = vec![weight];
+    for k in 0..count {
         let ratio = (count - k) as f64 / (k + 1) as f64;
-        (*k < count).then_some((weight * ratio, k + 1))
-    };
-    std::iter::successors(Some((first, 0)), next).map(|(weight, _)| weight).collect()
+        weight *= ratio;
+        weights.push(weight);
+    }
+    weights
 }
 
 /// u, v and a of each mode under a unit force that grows by `weights`, at these steps: steps × 3 × modes.
@@ -170,7 +186,8 @@ fn mode_states(
     modes: &Ritz,
     coefficients: &SchemeCoefficients,
     effective: &[f64],
-    (times, weights): (&[usize], &[f64]),
+    times: &[usize],
+    weights: &[f64],
 ) -> Vec<f64> {
     let count = effective.len().max(1);
     let mut states = vec![0.0; times.len() * 3 * count];
@@ -179,7 +196,7 @@ fn mode_states(
         if *k == 0.0 {
             continue;
         }
-        let step = Step::new(coefficients, [effective[j], *d, *k]);
+        let step = Step::new(coefficients, effective[j], *d, *k);
         for (at, mut state) in step.states(times).enumerate() {
             let mut sums = [0.0; 3];
             for weight in weights {
@@ -202,13 +219,14 @@ struct Step([[f64; 4]; 3]);
 
 impl Step {
     /// Step of a mode with this effective stiffness, damping and stiffness.
-    fn new(c: &SchemeCoefficients, [effective, damping, stiffness]: [f64; 3]) -> Self {
-        let known =
+    fn new(c: &SchemeCoefficients, effective: f64, damping: f64, stiffness: f64) -> Self {
+        let predicted =
             |i: usize| c.acceleration[i] + damping * c.velocity[i] + stiffness * c.displacement[i];
-        let increment = [-stiffness, -known(1), -known(2), 1.0].map(|term| term / effective);
+        let increment =
+            [-stiffness, -predicted(1), -predicted(2), 1.0].map(|term| term / effective);
         let row = |[by_increment, v, a]: [f64; 3]| {
-            let own = [0.0, v, a, 0.0];
-            std::array::from_fn(|i| by_increment * increment[i] + own[i])
+            let direct = [0.0, v, a, 0.0];
+            std::array::from_fn(|i| by_increment * increment[i] + direct[i])
         };
         let mut displacement = increment;
         displacement[0] += 1.0;
@@ -221,10 +239,9 @@ impl Step {
 
     /// Two steps in one.
     fn twice(&self) -> Self {
-        let own = &self.0;
-        Self(own.map(|row| {
+        Self(self.0.map(|row| {
             std::array::from_fn(|i| {
-                let through: f64 = (0..3).map(|k| row[k] * own[k][i]).sum();
+                let through: f64 = (0..3).map(|k| row[k] * self.0[k][i]).sum();
                 through + if i == 3 { row[3] } else { 0.0 }
             })
         }))
@@ -233,21 +250,22 @@ impl Step {
     /// States from rest after the numbers of steps `times`, ascending; computed by powers of two of the step.
     fn states(self, times: &[usize]) -> impl Iterator<Item = [f64; 3]> {
         let mut powers = vec![self];
-        let (mut state, mut now) = ([0.0; 3], 0);
+        let mut state = [0.0; 3];
+        let mut now = 0;
         times.iter().map(move |time| {
-            let mut left = time - now;
+            let mut remaining = time - now;
             now = *time;
-            for at in 0.. {
-                if left == 0 {
+            for power in 0.. {
+                if remaining == 0 {
                     break;
                 }
-                if at == powers.len() {
-                    powers.push(powers[at - 1].twice());
+                if power == powers.len() {
+                    powers.push(powers[power - 1].twice());
                 }
-                if left % 2 == 1 {
-                    state = powers[at].apply(state);
+                if remaining % 2 == 1 {
+                    state = powers[power].apply(state);
                 }
-                left /= 2;
+                remaining /= 2;
             }
             state
         })
@@ -271,19 +289,22 @@ mod tests {
         for value in [f64::INFINITY, f64::NAN] {
             assert_eq!(of(value).difference(&of(value), 1e-6), f64::INFINITY);
         }
-        assert_eq!(of(1.0).difference(&of(1.0), 1e-6), ROUNDING);
+        assert_eq!(of(1.0).difference(&of(1.0), 1e-6), RESPONSE_ROUNDING);
         assert!((of(1.0).difference(&of(2.0), 1e-6) - 1.0).abs() < 1e-12);
     }
     /// REFERENCE: single steps.
     #[test]
     fn powers_of_a_step_are_many_steps() {
         let c = Newmark::new(0.6, 0.3025).unwrap().coefficients(0.01);
-        let [damping, stiffness] = [1.0, 4.0e3];
+        let damping = 1.0;
+        let stiffness = 4.0e3;
         let effective = c.acceleration[0] + c.velocity[0] * damping + c.displacement[0] * stiffness;
         let times = [1, 2, 3, 5, 8, 13, 100, 1000];
-        let mut found = Step::new(&c, [effective, damping, stiffness]).states(&times);
+        let mut found = Step::new(&c, effective, damping, stiffness).states(&times);
         let apply = SchemeCoefficients::apply;
-        let [mut u, mut v, mut a] = [0.0; 3];
+        let mut u = 0.0;
+        let mut v = 0.0;
+        let mut a = 0.0;
         for step in 1..=1000 {
             let known = apply(c.acceleration, 0.0, v, a)
                 + damping * apply(c.velocity, 0.0, v, a)
@@ -293,11 +314,12 @@ mod tests {
             a = apply(c.new_acceleration, increment, v, a);
             (u, v) = (u + increment, velocity);
             if times.contains(&step) {
-                for (kind, (own, other)) in
+                for (kind, (value, expected)) in
                     found.next().unwrap().into_iter().zip([u, v, a]).enumerate()
                 {
-                    let size = [1.0 / stiffness, 1.0 / stiffness.sqrt(), 1.0][kind];
-                    assert!((own - other).abs() < 1e-12 * size, "step {step}: {own} for {other}");
+                    let size = [1.0 / stiffness, 1.0 / f64::sqrt(stiffness), 1.0][kind];
+                    let difference = f64::abs(value - expected);
+                    assert!(difference < 1e-12 * size, "step {step}: {value} for {expected}");
                 }
             }
         }

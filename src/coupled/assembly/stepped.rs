@@ -20,16 +20,16 @@ use crate::linalg::{SparseFactor, SparseMatrix};
 use crate::structure::{Structure, Tangent};
 
 /// Default number of steps within which computing the modes must save time.
-const STEPS: usize = 4_000;
+const DEFAULT_EXPECTED_STEPS: usize = 4_000;
 
 /// Largest number of degrees of freedom of which all modes may replace Ritz modes that are not accurate.
-const SMALL: usize = 1_000;
+const MAX_FALLBACK_DOFS: usize = 1_000;
 /// The same with many forces, where a tolerance below some 1e-4 is often beyond the Ritz modes: their computation takes
 /// seven seconds.
-const SMALL_OF_MANY_FORCES: usize = 2_500;
+const MAX_FALLBACK_DOFS_OF_MANY_FORCES: usize = 2_500;
 
 /// Needs of [`Coordinates::Modes`].
-const NEEDED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
+const MODAL_COORDINATES_NEED: &str = "a linear structure with symmetric matrices, a positive definite mass and a \
                       damping that the modes decouple";
 
 /// Times in nanoseconds for the choice of coordinates, as measured by `benches/studies/benches/step.rs`.
@@ -37,11 +37,11 @@ mod cost {
     /// Per entry of a sparse factor or matrix, and use.
     pub(crate) const SPARSE_ENTRY: f64 = 1.0;
     /// Per mode and step, in addition to a degree of freedom.
-    pub(crate) const MODE: f64 = 4.0;
+    pub(crate) const MODE_AND_STEP: f64 = 4.0;
     /// Per mode, contact component and step, in addition to degrees of freedom.
     pub(crate) const MODE_AND_CONTACT: f64 = 0.15;
     /// Per squared and per cubed number of modes, for computing them.
-    pub(crate) const MODES: [f64; 2] = [60.0, 0.45];
+    pub(crate) const ALL_MODES: [f64; 2] = [60.0, 0.45];
 }
 
 /// Matrices, base and operators of a structure, in the stepping coordinates.
@@ -65,7 +65,7 @@ impl Stepped {
         let Parts { given, coefficients, .. } = parts;
         let structure = parts.structure.as_ref();
         let tangent = Tangent::at(structure, &at_rest.displacement)?.matrix;
-        let steps = if given.steps > 0 { given.steps } else { STEPS };
+        let steps = if given.steps > 0 { given.steps } else { DEFAULT_EXPECTED_STEPS };
         let physical = Model::new(assembled);
         let factored = || {
             let factor = Factor::of_dofs(&physical, coefficients, &tangent);
@@ -82,7 +82,10 @@ impl Stepped {
                 let Some(modes) = vibration_modes(assembled) else {
                     // A singular matrix is reported first.
                     factored()?;
-                    return Err(Error::Scene { quantity: "modal coordinates", needed: NEEDED });
+                    return Err(Error::Scene {
+                        quantity: "modal coordinates",
+                        needed: MODAL_COORDINATES_NEED,
+                    });
                 };
                 Chosen::Modes(modes)
             }
@@ -90,8 +93,11 @@ impl Stepped {
                 let (held, floating) = reduction.unwrap_or_default();
                 let responses = (held, floating, &factored as &Factored<'_>);
                 let reduction = Reduction::new(parts, assembled, responses, steps)?;
-                let max_dofs =
-                    if reduction.has_many_forces() { SMALL_OF_MANY_FORCES } else { SMALL };
+                let max_dofs = if reduction.has_many_forces() {
+                    MAX_FALLBACK_DOFS_OF_MANY_FORCES
+                } else {
+                    MAX_FALLBACK_DOFS
+                };
                 let modes = reduction.modes(tolerance);
                 Chosen::Modes(modes.or_else(|error| instead_of_few(assembled, max_dofs, error))?)
             }
@@ -133,21 +139,21 @@ fn cause(
     let Assembled { mass, damping, stiffness, .. } = assembled;
     let terms = [(1.0, &**stiffness), (1.0, tangent)];
     let sum = SparseMatrix::sum("stiffness matrix", assembled.dofs(), &terms).ok();
-    let found = sum.and_then(|sum| unresisted(structure, &sum, [damping, mass].map(|own| &**own)));
-    found.map_or(error, |cause| Error::Stability(Box::new(cause)))
+    let mechanism = sum.and_then(|sum| unresisted(structure, &sum, [&**damping, &**mass]));
+    mechanism.map_or(error, |cause| Error::Stability(Box::new(cause)))
 }
 
 /// The modes, if stepping in them takes less time, including their computation.
 ///
 /// `factor`: number of entries of the sparse factor.
 fn cheaper_modes(assembled: &Assembled, factor: usize, steps: usize) -> Option<ModalBasis> {
-    let (n, steps) = (assembled.dofs() as f64, steps as f64);
+    let n = assembled.dofs() as f64;
+    let steps = steps as f64;
     let contact = assembled.base.layout().len();
     let stored: usize = assembled.matrices().into_iter().map(SparseMatrix::stored).sum();
     let sparse = cost::SPARSE_ENTRY * (2 * factor + 2 * stored) as f64;
-    let modal = cost::MODE * n + cost::MODE_AND_CONTACT * n * contact as f64;
-    let [squared, cubed] = cost::MODES;
-    let once = squared * n.powi(2) + cubed * n.powi(3);
-    let saves_time = modal * steps + once < sparse * steps;
+    let modal = cost::MODE_AND_STEP * n + cost::MODE_AND_CONTACT * n * contact as f64;
+    let computation = cost::ALL_MODES[0] * n.powi(2) + cost::ALL_MODES[1] * n.powi(3);
+    let saves_time = modal * steps + computation < sparse * steps;
     if saves_time { vibration_modes(assembled) } else { None }
 }

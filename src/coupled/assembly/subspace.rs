@@ -20,17 +20,17 @@ use crate::linalg::{
 };
 use crate::structure::combination;
 
-/// Residual of the eigenproblem, and of damping that counts as diagonal, relative to its terms.
-pub(crate) const DECOUPLED: f64 = 1e-10;
+/// Largest residual of modes, and off-diagonal modal damping, relative to their terms.
+pub(crate) const MAX_MODE_COUPLING: f64 = 1e-10;
 /// Eigenvalues below this, relative to the largest, count as zero.
-const ZERO: f64 = 1e-13;
+const ZERO_EIGENVALUE_RATIO: f64 = 1e-13;
 /// Smallest eigenvalue above zero, relative to the largest: between the two limits it is uncertain.
-const LEAST: f64 = 1e-10;
+const MIN_NONZERO_EIGENVALUE_RATIO: f64 = 1e-10;
 /// Name of the coordinates in errors.
-pub(crate) const REDUCED: &str = "reduced coordinates";
+pub(crate) const REDUCED_COORDINATES_NAME: &str = "reduced coordinates";
 
-/// Smallest independent part of a translation.
-const INDEPENDENT: f64 = 1e-7;
+/// Smallest part of a translation that is independent of the others.
+const MIN_TRANSLATION_REMAINDER: f64 = 1e-7;
 
 /// V and the matrices in it.
 pub(crate) struct Subspace<'a> {
@@ -61,12 +61,13 @@ impl<'a> Subspace<'a> {
         translations: Vec<f64>,
         rounding: f64,
     ) -> Self {
-        let (matrices, rows) = ([damping, stiffness], OrthonormalRows::new(mass, rounding));
+        let matrices = [damping, stiffness];
+        let rows = OrthonormalRows::new(mass, rounding);
         let projected = [Vec::new(), Vec::new()];
         let undamped = damping.is_empty().then_some([0.0; 2]);
         let proportional = undamped.or_else(|| combination(damping, [stiffness, mass]));
         let mut space = Self { matrices, rows, projected, proportional, translations: usize::MAX };
-        space.extend(translations, INDEPENDENT);
+        space.extend(translations, MIN_TRANSLATION_REMAINDER);
         space.translations = space.count();
         space
     }
@@ -100,23 +101,24 @@ impl<'a> Subspace<'a> {
         self.momenta(first).iter().map(|momentum| coefficient * momentum).collect()
     }
 
-    /// Adds the directions of `block` with more than the fraction `least` outside the subspace.
-    pub(crate) fn extend(&mut self, block: Vec<f64>, least: f64) {
+    /// Adds the directions of `block` with more than `min_fraction` outside the subspace.
+    pub(crate) fn extend(&mut self, block: Vec<f64>, min_fraction: f64) {
         let before = self.count();
-        self.rows.extend(block, MinRemainder::Fraction(least));
+        self.rows.extend(block, MinRemainder::Fraction(min_fraction));
         self.project(before);
     }
 
-    /// Adds the directions of `block` with a length of more than `least` outside the subspace.
-    pub(crate) fn extend_by_length(&mut self, block: Vec<f64>, least: f64) {
+    /// Adds the directions of `block` that are longer than `min_length` outside the subspace.
+    pub(crate) fn extend_by_length(&mut self, block: Vec<f64>, min_length: f64) {
         let before = self.count();
-        self.rows.extend(block, MinRemainder::Length(least));
+        self.rows.extend(block, MinRemainder::Length(min_length));
         self.project(before);
     }
 
     /// Adds the rows and columns of the vectors from number `before` on to C and K.
     fn project(&mut self, before: usize) {
-        let (n, count) = (self.order(), self.count());
+        let n = self.order();
+        let count = self.count();
         for k in usize::from(self.proportional.is_some())..2 {
             let images = self.matrices[k].times(&self.rows.vectors()[before * n..]);
             let products = row_products(&images, self.rows.vectors(), n);
@@ -136,65 +138,78 @@ impl<'a> Subspace<'a> {
     /// The modes of the subspace with more directions, and all products with F, without the vectors.
     ///
     /// `block`: responses K_eff⁻¹ f to the inertia f of the vectors from number `first` on, with the scheme's factor;
-    /// directions shorter than `least` are left out. `products`: of the vectors with the `rows` of F.
+    /// directions shorter than `min_length` are left out. `products`: of the vectors with the `rows` of F.
     pub(crate) fn ritz_with(
         &self,
         (block, first): (&[f64], usize),
         c: &SchemeCoefficients,
         (products, rows): (&[f64], &[f64]),
-        least: f64,
+        min_length: f64,
     ) -> Result<(Ritz, Vec<f64>)> {
-        let (n, before) = (self.order(), self.count());
+        let n = self.order();
+        let before = self.count();
         let size = block.len() / n;
-        let shares = row_products(block, self.rows.momenta(), n);
+        // X M Vᵀ.
+        let overlaps = row_products(block, self.rows.momenta(), n);
         let inertia = symmetric_products(&self.rows.mass().times(block), block, n);
         // X M Xᵀ without the part inside V.
-        let inside = row_products(&shares, &shares, before);
-        let apart = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
-        let weights = independent_combinations(apart, size, least * least);
+        let inside = row_products(&overlaps, &overlaps, before);
+        let outside = inertia.iter().zip(&inside).map(|(whole, inside)| whole - inside).collect();
+        let weights = independent_combinations(outside, size, min_length * min_length);
         // V and D in terms of V and X.
         let all = before + size;
         let mut terms = vec![0.0; before * all];
         (0..before).for_each(|i| terms[i * (all + 1)] = 1.0);
         for row in weights.chunks_exact(size.max(1)) {
-            let mut own = [vec![0.0; before], row.to_vec()].concat();
-            add_combined_rows(row, &shares, before, -1.0, &mut own[..before]);
-            terms.extend(own);
+            let mut direction = [vec![0.0; before], row.to_vec()].concat();
+            add_combined_rows(row, &overlaps, before, -1.0, &mut direction[..before]);
+            terms.extend(direction);
         }
         let count = terms.len() / all;
         let projected = |k: usize, border: &[f64], fixed: usize| {
             let matrix = bordered(&self.projected[k], border, [all, fixed]);
             row_products(&row_products(&terms, &matrix, all), &terms, all)
         };
-        let multiplied = |k: usize| {
-            let images = self.matrices[k].times(block);
-            let [beside, own] = [self.rows.vectors(), block].map(|of| row_products(&images, of, n));
-            let rows = beside.chunks_exact(before).zip(own.chunks_exact(size.max(1)));
-            rows.flat_map(|(beside, own)| [beside, own].concat()).collect::<Vec<_>>()
-        };
-        let [damping, stiffness] = if let Some([beta, alpha]) = self.proportional {
+        let matrices = if let Some([beta, alpha]) = self.proportional {
             // K X by K_eff X = f: K_eff is a combination of M and K.
-            let [a, d, k] = [c.acceleration[0], c.velocity[0], c.displacement[0]];
-            let (inert, stiff) = (a + alpha * d, k + beta * d);
-            let bent = |(row, vector): (usize, usize)| {
-                let (force, inertia) = match vector.checked_sub(before) {
-                    None => {
-                        (f64::from(u8::from(vector == first + row)), shares[row * before + vector])
-                    }
-                    Some(own) => (shares[own * before + first + row], inertia[row * size + own]),
-                };
-                (a * force - inert * inertia) / stiff
-            };
-            let border: Vec<f64> = (0..size * all).map(|at| bent((at / all, at % all))).collect();
+            let inertia_factor = c.acceleration[0];
+            let mass_factor = inertia_factor + alpha * c.velocity[0];
+            let stiffness_factor = c.displacement[0] + beta * c.velocity[0];
+            let mut border = Vec::with_capacity(size * all);
+            for row in 0..size {
+                for vector in 0..all {
+                    let (force, inertia) = if vector < before {
+                        let is_loaded = vector == first + row;
+                        (f64::from(u8::from(is_loaded)), overlaps[row * before + vector])
+                    } else {
+                        let other = vector - before;
+                        (overlaps[other * before + first + row], inertia[row * size + other])
+                    };
+                    let product = inertia_factor * force - mass_factor * inertia;
+                    border.push(product / stiffness_factor);
+                }
+            }
             let stiffness = projected(1, &border, self.translations);
             [proportional_damping(&stiffness, count, [beta, alpha]), stiffness]
         } else {
-            [projected(0, &multiplied(0), 0), projected(1, &multiplied(1), self.translations)]
+            let damping = projected(0, &self.border(0, block), 0);
+            [damping, projected(1, &self.border(1, block), self.translations)]
         };
         let products = [products, &row_products(block, rows, n)].concat();
         let mut grown = vec![0.0; count * (rows.len() / n)];
         add_combined_rows(&transpose(&terms, all), &products, rows.len() / n, 1.0, &mut grown);
-        Ok((self.ritz_of(count, &[damping, stiffness])?, grown))
+        Ok((self.ritz_of(count, &matrices)?, grown))
+    }
+
+    /// Products X C [V; X]ᵀ (`k` = 0) or X K [V; X]ᵀ (1) of a block X.
+    fn border(&self, k: usize, block: &[f64]) -> Vec<f64> {
+        let images = self.matrices[k].times(block);
+        let with_vectors = row_products(&images, self.rows.vectors(), self.order());
+        let within_block = row_products(&images, block, self.order());
+        let size = block.len() / self.order();
+        let rows =
+            with_vectors.chunks_exact(self.count()).zip(within_block.chunks_exact(size.max(1)));
+        rows.flat_map(|(vectors, block)| [vectors, block].concat()).collect()
     }
 
     /// The modes of `count` vectors, of which the translations are the first, with these C and K.
@@ -203,36 +218,44 @@ impl<'a> Subspace<'a> {
         let free = count - fixed;
         let rows = (fixed..count).flat_map(|i| &stiffness[i * count + fixed..(i + 1) * count]);
         let rows: Vec<f64> = rows.copied().collect();
-        let failed = || {
+        let Some((mut values, free_modes)) = symmetric_modes(&rows, free) else {
             let needed = "it must be finite in the subspace";
-            Error::Scene { quantity: "stiffness matrix", needed }.within(REDUCED)
+            let error = Error::Scene { quantity: "stiffness matrix", needed };
+            return Err(error.within(REDUCED_COORDINATES_NAME));
         };
-        let (mut values, own) = symmetric_modes(&rows, free).ok_or_else(failed)?;
         let top = largest(&values);
-        values.iter_mut().filter(|value| value.abs() <= ZERO * top).for_each(|value| *value = 0.0);
+        values
+            .iter_mut()
+            .filter(|value| value.abs() <= ZERO_EIGENVALUE_RATIO * top)
+            .for_each(|value| *value = 0.0);
         let nonzero = values.iter().filter(|value| **value != 0.0);
-        let ratio = nonzero.fold(top, |least, value| value.abs().min(least)) / top;
-        if ratio < LEAST {
+        let ratio = nonzero.fold(top, |lowest, value| value.abs().min(lowest)) / top;
+        if ratio < MIN_NONZERO_EIGENVALUE_RATIO {
             let quantity = "lowest eigenvalue besides zero, relative to the highest,";
             let needed = "at least 1e-10, from which double precision tells it from zero";
-            return Err(Error::Input { quantity, value: ratio, needed }.within(REDUCED));
+            return Err(
+                Error::Input { quantity, value: ratio, needed }.within(REDUCED_COORDINATES_NAME)
+            );
         }
         let mut combinations = vec![0.0; count * count];
         (0..fixed).for_each(|i| combinations[i * (count + 1)] = 1.0);
-        for (i, row) in own.chunks_exact(free.max(1)).enumerate() {
+        for (i, row) in free_modes.chunks_exact(free.max(1)).enumerate() {
             combinations[(fixed + i) * count + fixed..(fixed + i + 1) * count].copy_from_slice(row);
         }
-        let [mut products, mut modal] = [(); 2].map(|()| vec![0.0; count * count]);
+        let mut products = vec![0.0; count * count];
+        let mut modal = vec![0.0; count * count];
         add_combined_rows(damping, &combinations, count, 1.0, &mut products);
         add_combined_rows(&combinations, &products, count, 1.0, &mut modal);
         let damping: Vec<f64> = (0..count).map(|j| modal[j * (count + 1)]).collect();
         (0..count).for_each(|j| modal[j * (count + 1)] = 0.0);
         let coupling = largest(&modal) / largest(&damping);
-        if coupling > DECOUPLED {
+        if coupling > MAX_MODE_COUPLING {
             let quantity =
                 "coupling of the modes by the damping, relative to its largest modal coefficient,";
             let needed = "rounding, as that of proportional damping is";
-            return Err(Error::Input { quantity, value: coupling, needed }.within(REDUCED));
+            return Err(
+                Error::Input { quantity, value: coupling, needed }.within(REDUCED_COORDINATES_NAME)
+            );
         }
         let mut stiffness = vec![0.0; fixed];
         stiffness.extend(values);
@@ -241,7 +264,7 @@ impl<'a> Subspace<'a> {
 
     /// Forces without their resultants on the vectors, and the momenta of the vectors.
     ///
-    /// If these are rigid motions, responses to the rest do not hide deformations behind them.
+    /// If the vectors are rigid motions, responses to the remaining forces are deformations alone.
     pub(crate) fn balanced(&self, mut forces: Vec<f64>) -> Vec<f64> {
         let resultants = row_products(self.rows.vectors(), &forces, self.order());
         add_combined_rows(&resultants, self.rows.momenta(), self.order(), -1.0, &mut forces);
@@ -255,11 +278,11 @@ impl<'a> Subspace<'a> {
     }
 
     /// F Φᵀ: the rows of F in terms of the modes, from the products of all vectors.
-    pub(crate) fn shares(modes: &Ritz, products: &[f64]) -> Vec<f64> {
+    pub(crate) fn modal_rows(modes: &Ritz, products: &[f64]) -> Vec<f64> {
         let count = modes.stiffness.len();
-        let mut shares = vec![0.0; products.len()];
-        add_combined_rows(products, &modes.combinations, count, 1.0, &mut shares);
-        shares
+        let mut modal_rows = vec![0.0; products.len()];
+        add_combined_rows(products, &modes.combinations, count, 1.0, &mut modal_rows);
+        modal_rows
     }
 
     /// The modes of all vectors, a row each.
@@ -272,10 +295,10 @@ impl<'a> Subspace<'a> {
     /// The modes in degrees of freedom; of the first vectors, if some were added later.
     pub(crate) fn basis(self, modes: &Ritz) -> ModalBasis {
         let count = modes.stiffness.len();
-        let mut own = self.rows.into_vectors();
-        own.truncate(count * self.matrices[0].order());
-        let mut vectors = vec![0.0; own.len()];
-        add_combined_rows(&own, &modes.combinations, count, 1.0, &mut vectors);
+        let mut basis = self.rows.into_vectors();
+        basis.truncate(count * self.matrices[0].order());
+        let mut vectors = vec![0.0; basis.len()];
+        add_combined_rows(&basis, &modes.combinations, count, 1.0, &mut vectors);
         ModalBasis::of(modes.stiffness.clone(), modes.damping.clone(), vectors)
     }
 }
@@ -299,7 +322,7 @@ fn bordered(matrix: &[f64], rows: &[f64], [count, fixed]: [usize; 2]) -> Vec<f64
 /// βK + αM of M-orthonormal vectors.
 fn proportional_damping(stiffness: &[f64], count: usize, [beta, alpha]: [f64; 2]) -> Vec<f64> {
     let mut damping: Vec<f64> = stiffness.iter().map(|k| beta * k).collect();
-    damping.iter_mut().step_by(count + 1).for_each(|own| *own += alpha);
+    damping.iter_mut().step_by(count + 1).for_each(|entry| *entry += alpha);
     damping
 }
 
@@ -312,7 +335,8 @@ mod tests {
     #[test]
     fn modes_with_more_directions_need_no_vectors() {
         let n = 40;
-        let [mut mass, mut stiffness] = [Triplets::new(n), Triplets::new(n)];
+        let mut mass = Triplets::new(n);
+        let mut stiffness = Triplets::new(n);
         for i in 0..n {
             mass.add(i, i, 1.0 + 0.1 * (i as f64).sin());
             if i > 0 {
@@ -321,8 +345,8 @@ mod tests {
                 mass.add(i - 1, i, 0.1);
             }
         }
-        let [mass, stiffness] =
-            [mass, stiffness].map(|own| SparseMatrix::new("test", &own).unwrap());
+        let mass = SparseMatrix::new("test", &mass).unwrap();
+        let stiffness = SparseMatrix::new("test", &stiffness).unwrap();
         let sum = |[m, k]: [f64; 2]| SparseMatrix::sum("test", n, &[(k, &stiffness), (m, &mass)]);
         let damping = sum([0.3, 0.02]).unwrap();
         let c = SchemeCoefficients {
@@ -352,11 +376,13 @@ mod tests {
             factor.solve_many(&mut block);
             let products = space.products(0, &rows);
             // Longer than one of the directions.
-            let least = 0.04;
-            let with = space.ritz_with((&block, first), &c, (&products, &rows), least).unwrap();
-            space.extend_by_length(block, least);
+            let min_length = 0.04;
+            let with =
+                space.ritz_with((&block, first), &c, (&products, &rows), min_length).unwrap();
+            space.extend_by_length(block, min_length);
             assert!((11..16).contains(&space.count()), "{}", space.count());
-            let (whole, products) = (space.ritz().unwrap(), space.products(0, &rows));
+            let whole = space.ritz().unwrap();
+            let products = space.products(0, &rows);
             let near = |a: &[f64], b: &[f64]| {
                 let size = 1e-10 * largest(b);
                 assert_eq!(a.len(), b.len());
@@ -365,7 +391,7 @@ mod tests {
             near(&with.0.stiffness, &whole.stiffness);
             near(&with.0.damping, &whole.damping);
             let squares = |modes: &Ritz, products: &[f64]| -> Vec<f64> {
-                Subspace::shares(modes, products).iter().map(|share| share * share).collect()
+                Subspace::modal_rows(modes, products).iter().map(|value| value * value).collect()
             };
             near(&squares(&with.0, &with.1), &squares(&whole, &products));
         }

@@ -11,9 +11,9 @@ use crate::geometry::{ContactElement, Patch};
 use crate::structure::BaseNode;
 
 /// Distance of a Gauss point from the middle of an interval, relative to its length: 1/(2√3).
-pub(crate) const GAUSS: f64 = 0.288_675_134_594_812_9;
+pub(crate) const GAUSS_POINT_OFFSET: f64 = 0.288_675_134_594_812_9;
 /// Area below which a triangle counts as degenerate, relative to the square of its longest side.
-const NO_AREA: f64 = 1e-12;
+const DEGENERATE_AREA_FRACTION: f64 = 1e-12;
 
 impl PlacedBase {
     /// The base of these faces: faces that touch form one mat, and each mat is a foundation.
@@ -25,46 +25,48 @@ impl PlacedBase {
         let mut foundations = Vec::with_capacity(mats.len());
         let mut first = 0;
         for mat in &mats {
-            let own = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let [rise, about_x, twist] = BaseNode::mean_rotations(&nodes[own.clone()]);
+            let range = first..first + mat.iter().map(Vec::len).sum::<usize>();
+            let [rise, about_x, twist] = BaseNode::mean_rotations(&nodes[range.clone()]);
             // By the right-hand rule a rise to the right is a negative rotation about y.
             let rotations = [-rise, about_x, twist];
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
-            first = own.end;
-            let corners = hull(nodes[own.clone()].iter());
-            let settlement = surface.settlement(&own);
+            first = range.end;
+            let corners = hull(nodes[range.clone()].iter());
+            let settlement = surface.settlement(&range);
             let elements = 0..0;
-            foundations.push(Outline { nodes: own, elements, settlement, rotations, corners });
+            foundations.push(Outline { nodes: range, elements, settlement, rotations, corners });
         }
         let mut weights = Vec::with_capacity(patch.len());
         // Elements at an oblique outline are smaller than the others.
         let widest = patch.iter().flat_map(ContactElement::sides).fold(0.0, f64::max);
         for e in 0..patch.len() {
-            let own = surface.mean_weights(e, patch, 0.5 * widest)?;
-            let mut owners = own.iter().filter_map(|(node, _)| {
+            let mean = surface.mean_weights(e, patch, 0.5 * widest)?;
+            let mut mats = mean.iter().filter_map(|(node, _)| {
                 foundations.iter().position(|mat| mat.nodes.contains(node))
             });
-            let owner = owners.next().unwrap_or(0);
-            let one = owners.all(|other| other == owner);
-            take(&mut foundations[owner].elements, e, one)?;
-            weights.push(own);
+            let mat = mats.next().unwrap_or(0);
+            let is_under_one_mat = mats.all(|other| other == mat);
+            add_element(&mut foundations[mat].elements, e, is_under_one_mat)?;
+            weights.push(mean);
         }
         check_covered(&foundations)?;
         let mut points = Vec::new();
-        for own in foundations.iter().filter(|own| !BaseNode::are_flat(&nodes[own.nodes.clone()])) {
-            points.extend(surface.points(own, patch));
+        for mat in &foundations {
+            if !BaseNode::are_flat(&nodes[mat.nodes.clone()]) {
+                points.extend(surface.points(mat, patch));
+            }
         }
         Ok(Self::from_weights(nodes, foundations, weights, patch, points))
     }
 }
 
-/// Adds an element to the elements of a mat; an error unless they are consecutive and `one` is true.
+/// Adds an element to the elements of a mat.
 ///
-/// `one`: whether no other mat stands on the element.
-fn take(elements: &mut Range<usize>, e: usize, one: bool) -> Result<()> {
+/// Returns an error unless these are consecutive, and no other mat stands on the element.
+fn add_element(elements: &mut Range<usize>, e: usize, is_under_one_mat: bool) -> Result<()> {
     let value = e as f64;
     let needed = "elements under one mat each";
-    require("number of a contact element under two mats", value, one, needed)?;
+    require("number of a contact element under two mats", value, is_under_one_mat, needed)?;
     if elements.start == elements.end {
         elements.start = e;
     } else if elements.end != e {
@@ -89,14 +91,15 @@ struct Faces<'a> {
 impl<'a> Faces<'a> {
     /// `faces`: number of corners of each face; `nodes`: the corners of all faces, one face after the other.
     fn new(nodes: &'a [BaseNode], faces: &[usize]) -> Result<Self> {
-        let (mut all, mut first) = (Self { nodes, pieces: Vec::new() }, 0);
+        let mut all = Self { nodes, pieces: Vec::new() };
+        let mut first = 0;
         for (number, &count) in faces.iter().enumerate() {
-            let own: Vec<usize> = (first..first + count).collect();
-            MatFace::new(number, &all.corners(&own))?;
+            let face: Vec<usize> = (first..first + count).collect();
+            MatFace::new(number, &all.corners(&face))?;
             if count <= 4 {
-                all.pieces.push(own);
+                all.pieces.push(face);
             } else {
-                let fan = own[1..].windows(2).map(|side| vec![own[0], side[0], side[1]]);
+                let fan = face[1..].windows(2).map(|side| vec![face[0], side[0], side[1]]);
                 let fan: Vec<_> = fan.filter(|triangle| all.has_area(triangle)).collect();
                 all.pieces.extend(fan);
             }
@@ -112,7 +115,7 @@ impl<'a> Faces<'a> {
     fn has_area(&self, triangle: &[usize]) -> bool {
         let corners = self.corners(triangle);
         let size = (0..3).map(|k| distance(corners[k], corners[(k + 1) % 3])).fold(0.0, f64::max);
-        side([corners[0], corners[1]], corners[2]).abs() > NO_AREA * size * size
+        side([corners[0], corners[1]], corners[2]).abs() > DEGENERATE_AREA_FRACTION * size * size
     }
 
     /// Mean displacement over the area of the mat with these nodes, downwards.
@@ -175,29 +178,23 @@ impl<'a> Faces<'a> {
             let corners = self.corners(piece);
             for shares in face_points(corners.len()) {
                 let place = [0, 1].map(|k| {
-                    corners
-                        .iter()
-                        .zip(&shares)
-                        .map(|(corner, share)| share * corner[k])
-                        .sum::<f64>()
+                    let terms =
+                        corners.iter().zip(&shares).map(|(corner, share)| share * corner[k]);
+                    terms.sum::<f64>()
                 });
-                let is_on = |e: &usize| {
-                    let (middle, sides) = (patch[*e].center(), patch[*e].sides());
-                    (0..2).all(|k| (place[k] - middle[k]).abs() <= 0.5 * sides[k])
-                };
-                if let Some(e) = mat.elements.clone().find(is_on) {
+                if let Some(e) = mat.elements.clone().find(|e| is_on(&patch[*e], place)) {
                     found[e - mat.elements.start]
                         .push(piece.iter().copied().zip(shares).collect::<Vec<_>>());
                 }
             }
         }
         let mut points = Vec::new();
-        for (e, mut own) in mat.elements.clone().zip(found) {
-            if own.len() < 4 {
-                own = gauss_points(e, patch).map(|point| self.shares(point).0).into();
+        for (e, mut weights) in mat.elements.clone().zip(found) {
+            if weights.len() < 4 {
+                weights = gauss_points(e, patch).map(|point| self.shares(point).0).into();
             }
-            let area = patch.areas()[e] / own.len() as f64;
-            points.extend(own.into_iter().map(|shares| BasePoint { element: e, area, shares }));
+            let area = patch.areas()[e] / weights.len() as f64;
+            points.extend(weights.into_iter().map(|shares| BasePoint { element: e, area, shares }));
         }
         points
     }
@@ -221,16 +218,16 @@ impl<'a> Faces<'a> {
 
 /// The faces of each mat, by their corners; faces that touch belong to one mat.
 fn mats(faces: &[Vec<BaseNode>]) -> Result<Vec<Vec<Vec<BaseNode>>>> {
-    let corners = |face: &Vec<BaseNode>| face.iter().map(BaseNode::place).collect();
-    let checked = faces.iter().map(corners).enumerate();
-    let checked: Result<Vec<_>> =
-        checked.map(|(number, corners): (_, Vec<Point>)| MatFace::new(number, &corners)).collect();
-    let checked = checked?;
+    let mut checked = Vec::with_capacity(faces.len());
+    for (number, face) in faces.iter().enumerate() {
+        let corners: Vec<Point> = face.iter().map(BaseNode::place).collect();
+        checked.push(MatFace::new(number, &corners)?);
+    }
     MatFace::check_overlap(&checked)?;
-    let owners = MatFace::mats(&checked);
-    let count = owners.iter().max().map_or(0, |last| last + 1);
+    let mat_numbers = MatFace::mats(&checked);
+    let count = mat_numbers.iter().max().map_or(0, |last| last + 1);
     let mut mats = vec![Vec::new(); count];
-    faces.iter().zip(owners).for_each(|(face, mat)| mats[mat].push(face.clone()));
+    faces.iter().zip(mat_numbers).for_each(|(face, mat)| mats[mat].push(face.clone()));
     Ok(mats)
 }
 
@@ -258,20 +255,31 @@ pub(crate) fn hull<'a>(nodes: impl Iterator<Item = &'a BaseNode>) -> Vec<Point> 
     hull
 }
 
+/// Whether a point lies on an element in plan.
+fn is_on(element: &ContactElement, point: Point) -> bool {
+    let middle = element.center();
+    let sides = element.sides();
+    (0..2).all(|k| (point[k] - middle[k]).abs() <= 0.5 * sides[k])
+}
+
 /// The 2 × 2 Gauss points of an element.
 fn gauss_points(element: usize, patch: &Patch) -> [Point; 4] {
-    let ([x, y, _], sides) = (patch[element].center(), patch[element].sides());
+    let center = patch[element].center();
+    let sides = patch[element].sides();
     let signs = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-    signs.map(|[right, away]| [x + GAUSS * right * sides[0], y + GAUSS * away * sides[1]])
+    signs.map(|signs| [0, 1].map(|k| center[k] + GAUSS_POINT_OFFSET * signs[k] * sides[k]))
 }
 
 /// Weights of the corners of a triangle or a quadrilateral in the displacements of its Gauss points.
 fn face_points(corners: usize) -> Vec<Vec<f64>> {
     if corners == 3 {
-        let share = |is_own: bool| if is_own { 2.0 / 3.0 } else { 1.0 / 6.0 };
-        return (0..3).map(|k| (0..3).map(|j| share(j == k)).collect()).collect();
+        let mut points = vec![vec![1.0 / 6.0; 3]; 3];
+        for (k, weights) in points.iter_mut().enumerate() {
+            weights[k] = 2.0 / 3.0;
+        }
+        return points;
     }
-    let ends = [0.5 - GAUSS, 0.5 + GAUSS];
+    let ends = [0.5 - GAUSS_POINT_OFFSET, 0.5 + GAUSS_POINT_OFFSET];
     ends.into_iter().flat_map(|s| ends.map(|t| bilinear([s, t]).to_vec())).collect()
 }
 
@@ -291,7 +299,8 @@ mod tests {
         let [left, right, front, back] = cell;
         let cell = ContactElement::in_plan([left, right], [front, back]);
         let patch = Patch::new(vec![cell]).unwrap();
-        let (nodes, mut sum) = (nodes(corners), 0.0);
+        let nodes = nodes(corners);
+        let mut sum = 0.0;
         let faces = Faces::new(&nodes, faces).unwrap();
         for (node, weight) in faces.mean_weights(0, &patch, 1.0).unwrap() {
             sum += weight * field(corners[node]);
@@ -329,7 +338,7 @@ mod tests {
         assert!((found - 3.0).abs() < 1e-14, "{found}");
         // Half in each: y x to the left, 4 y to the right.
         let found = mean(&corners, &[4, 3], [3.0, 5.0, 0.0, 1.0], product);
-        let gauss = 0.5 * (0.5 * (4.0 - 2.0 * GAUSS) + 0.5 * 4.0);
+        let gauss = 0.5 * (0.5 * (4.0 - 2.0 * GAUSS_POINT_OFFSET) + 0.5 * 4.0);
         assert!((found - gauss).abs() < 1e-14, "{found}");
     }
 }

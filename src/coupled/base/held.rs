@@ -10,18 +10,18 @@ use crate::bem::{DiagonalCompliance, Ground};
 use crate::coupled::base::{PlacedBase, dofs_of};
 use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
-use crate::linalg::dot;
+use crate::linalg::{dot, largest};
 use crate::structure::{
     BaseNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, mass_and_stiffness,
     stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
-const GROUND: f64 = 1e6;
+const HELD_GROUND_STIFFNESS_RATIO: f64 = 1e6;
 /// Stiffness that keeps the shape of a base, over the structure's largest stiffness.
-const SHAPE: f64 = 1e5;
+const SHAPE_STIFFNESS_RATIO: f64 = 1e5;
 /// Part of a node's displacement that counts as rounding.
-const ROUNDING: f64 = 1e-9;
+const RIGID_MOTION_TOLERANCE: f64 = 1e-9;
 
 /// The structure with a base that keeps its shape, and the ground that holds it.
 pub(crate) fn held(
@@ -43,10 +43,13 @@ pub(crate) fn held(
     // A massless structure: the reference is its stiffness.
     let is_usable = resistance > 0.0 && resistance.is_finite();
     let resistance = if is_usable { resistance } else { stiffest(&stiffness) };
-    let held = HeldGround { elements: elements.clone(), compliance: total / (GROUND * resistance) };
+    let held = HeldGround {
+        elements: elements.clone(),
+        compliance: total / (HELD_GROUND_STIFFNESS_RATIO * resistance),
+    };
     let mut shape = Triplets::new(n);
     for (nodes, _) in base.foundations() {
-        keep_shape(nodes, SHAPE * stiffest(&stiffness), &mut shape);
+        keep_shape(nodes, SHAPE_STIFFNESS_RATIO * stiffest(&stiffness), &mut shape);
     }
     let structure: Box<dyn Structure> = if shape.entries().is_empty() {
         structure
@@ -79,24 +82,24 @@ fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
         }
         values
     };
-    let carried: Vec<Vec<f64>> = rigid
-        .iter()
-        .map(|own| {
-            let mut sum = vec![0.0; dofs.len()];
-            for (row, factor) in own.iter().enumerate() {
-                sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
-            }
-            sum
-        })
-        .collect();
+    // Qᵀ N, a row for each rigid motion.
+    let mut rigid_rows: Vec<Vec<f64>> = Vec::with_capacity(rigid.len());
+    for motion in &rigid {
+        let mut sum = vec![0.0; dofs.len()];
+        for (row, factor) in motion.iter().enumerate() {
+            sum.iter_mut().zip(dense(row)).for_each(|(sum, x)| *sum += factor * x);
+        }
+        rigid_rows.push(sum);
+    }
     for row in 0..rows.len() {
         let mut values = dense(row);
-        let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        for (own, sum) in rigid.iter().zip(&carried) {
-            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= own[row] * sum);
+        let largest = largest(&values);
+        for (motion, sum) in rigid.iter().zip(&rigid_rows) {
+            values.iter_mut().zip(sum).for_each(|(x, sum)| *x -= motion[row] * sum);
         }
         let terms = dofs.iter().copied().zip(values);
-        let terms: Vec<_> = terms.filter(|(_, x)| x.abs() > ROUNDING * largest).collect();
+        let terms: Vec<_> =
+            terms.filter(|(_, x)| x.abs() > RIGID_MOTION_TOLERANCE * largest).collect();
         if !terms.is_empty() {
             matrix.add_outer(&terms, spring);
         }
@@ -105,9 +108,10 @@ fn keep_shape(nodes: &[BaseNode], spring: f64, matrix: &mut Triplets) {
 
 /// Columns of Q: components of each node along x, up, along y.
 fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
-    let mean =
-        |place: fn(&BaseNode) -> f64| nodes.iter().map(place).sum::<f64>() / nodes.len() as f64;
-    let [x, y, z] = [mean(|node| node.x), mean(|node| node.y), mean(|node| node.z)];
+    let count = nodes.len() as f64;
+    let x = nodes.iter().map(|node| node.x).sum::<f64>() / count;
+    let y = nodes.iter().map(|node| node.y).sum::<f64>() / count;
+    let z = nodes.iter().map(|node| node.z).sum::<f64>() / count;
     let motion = |of: &dyn Fn(&BaseNode) -> [f64; 3]| -> Vec<f64> {
         nodes.iter().flat_map(|node| of(node).into_iter().take(directions)).collect()
     };
@@ -122,18 +126,18 @@ fn rigid_motions(nodes: &[BaseNode], directions: usize) -> Vec<Vec<f64>> {
         motions.push(motion(&|node| [y - node.y, 0.0, node.x - x]));
     }
     let mut rigid: Vec<Vec<f64>> = Vec::new();
-    for mut own in motions {
-        let whole = dot(&own, &own).sqrt();
+    for mut motion in motions {
+        let initial_norm = dot(&motion, &motion).sqrt();
         for other in rigid.iter().chain(&rigid) {
-            let part = dot(other, &own);
-            own.iter_mut().zip(other).for_each(|(x, y)| *x -= part * y);
+            let component = dot(other, &motion);
+            motion.iter_mut().zip(other).for_each(|(x, y)| *x -= component * y);
         }
-        let rest = dot(&own, &own).sqrt();
-        if rest > ROUNDING * whole {
-            for x in &mut own {
-                *x /= rest;
+        let norm = dot(&motion, &motion).sqrt();
+        if norm > RIGID_MOTION_TOLERANCE * initial_norm {
+            for x in &mut motion {
+                *x /= norm;
             }
-            rigid.push(own);
+            rigid.push(motion);
         }
     }
     rigid

@@ -40,14 +40,14 @@ impl Influence {
                 continue;
             };
             let root = roots[dof];
-            if let Some((_, part)) = parts.iter_mut().find(|(own, _)| *own == root) {
+            if let Some((_, part)) = parts.iter_mut().find(|(other, _)| *other == root) {
                 part.elements.extend(elements);
                 continue;
             }
             let vectors = [0, 1, 2].map(|direction| {
                 let vector = translations.get(direction).into_iter().flatten().enumerate();
-                let own = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
-                own.map(|(i, r)| (i, *r)).collect()
+                let of_part = vector.filter(|&(i, r)| roots[i] == root && *r != 0.0);
+                of_part.map(|(i, r)| (i, *r)).collect()
             });
             parts.push((root, ConnectedPart { vectors, elements: elements.collect() }));
         }
@@ -136,17 +136,17 @@ impl ConnectedPart {
         let areas = base.areas();
         let area: f64 = self.elements.iter().map(|&e| areas[e]).sum();
         let start = base.motion_of(first, displacement);
-        let mut apart = [0.0; 3];
+        // Differences from the first element: equal displacements then have an exact mean.
+        let mut differences = [0.0; 3];
         for &e in &self.elements {
-            let own = base.motion_of(e, displacement);
-            apart
-                .iter_mut()
-                .enumerate()
-                .for_each(|(k, sum)| *sum += areas[e] * (own[k] - start[k]));
+            let motion = base.motion_of(e, displacement);
+            for (k, sum) in differences.iter_mut().enumerate() {
+                *sum += areas[e] * (motion[k] - start[k]);
+            }
         }
-        let mean =
-            |k: usize| if self.vectors[k].is_empty() { 0.0 } else { start[k] + apart[k] / area };
-        [0, 1, 2].map(mean)
+        [0, 1, 2].map(|k| {
+            if self.vectors[k].is_empty() { 0.0 } else { start[k] + differences[k] / area }
+        })
     }
 
     /// Subtracts a translation `[right, up, away]` from contact displacements.

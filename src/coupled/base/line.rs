@@ -1,6 +1,6 @@
 //! A base in the plane: lines of nodes, its mean displacement over a contact element, and its chord.
 
-use super::faces::GAUSS;
+use super::faces::GAUSS_POINT_OFFSET;
 use super::transformation::{Terms, Weights, accumulate};
 use super::{BasePoint, Outline, PlacedBase, check_covered, mean_settlement};
 use crate::bem::ContactElement;
@@ -9,7 +9,7 @@ use crate::geometry::Patch;
 use crate::structure::{BaseNode, check_line, from_the_left};
 
 /// Distance from an element's line and ends that counts as rounding, relative to its length.
-const ROUNDING: f64 = 1e-9;
+const ON_ELEMENT_TOLERANCE: f64 = 1e-9;
 
 impl PlacedBase {
     /// Averages the piecewise straight base over each element.
@@ -19,14 +19,15 @@ impl PlacedBase {
         let nodes = lines.concat();
         check_order(&nodes)?;
         let mut foundations: Vec<Outline> = Vec::with_capacity(lines.len());
-        let (mut first, mut element) = (0, 0);
+        let mut first = 0;
+        let mut element = 0;
         for line in lines {
             check_line(line)?;
             from_the_left(line[0].x, line[line.len() - 1].x)?;
-            let own = first..first + line.len();
+            let range = first..first + line.len();
             let floor = BaseNode::floor(line);
-            let last = own.end - 1;
-            let end = nodes.get(own.end).map_or(elements.len(), |next| {
+            let last = range.end - 1;
+            let end = nodes.get(range.end).map_or(elements.len(), |next| {
                 let middle = 0.5 * (nodes[last].x + next.x);
                 elements.partition_point(|element| element.center()[0] < middle)
             });
@@ -34,29 +35,30 @@ impl PlacedBase {
                 elements: element..end,
                 settlement: mean_settlement(floor),
                 rotations: vec![Weights::Sparse(chord_rotation(floor))],
-                nodes: own,
+                nodes: range,
                 corners: Vec::new(),
             });
-            (first, element) = (last + 1, end);
+            first = last + 1;
+            element = end;
         }
         check_covered(&foundations)?;
         let mut weights = Vec::with_capacity(elements.len());
         let mut points = Vec::new();
         for Outline { nodes: range, elements: under, .. } in &foundations {
-            let own = &nodes[range.clone()];
-            let numbered = |shares: Vec<(usize, f64)>| {
-                shares.into_iter().map(|(k, share)| (range.start + k, share)).collect::<Vec<_>>()
+            let line = &nodes[range.clone()];
+            let numbered = |weights: Vec<(usize, f64)>| {
+                weights.into_iter().map(|(k, weight)| (range.start + k, weight)).collect::<Vec<_>>()
             };
-            let is_flexible = !BaseNode::are_flat(own);
+            let is_flexible = !BaseNode::are_flat(line);
             for e in under.clone() {
-                let run = Run::new(own, &elements[e])?;
+                let run = Run::new(line, &elements[e])?;
                 weights.push(numbered(run.mean_weights()));
-                let points_of = is_flexible.then(|| run.gauss_points());
-                points.extend(points_of.into_iter().flatten().map(|(area, shares)| BasePoint {
-                    element: e,
-                    area,
-                    shares: numbered(shares),
-                }));
+                if !is_flexible {
+                    continue;
+                }
+                for (area, shares) in run.gauss_points() {
+                    points.push(BasePoint { element: e, area, shares: numbered(shares) });
+                }
             }
         }
         Ok(Self::from_weights(nodes, foundations, weights, elements, points))
@@ -73,7 +75,8 @@ fn check_order(nodes: &[BaseNode]) -> Result<()> {
 
 /// Rise of the last node over the first, per distance.
 fn chord_rotation(nodes: &[BaseNode]) -> Terms {
-    let (first, last) = (&nodes[0], &nodes[nodes.len() - 1]);
+    let first = &nodes[0];
+    let last = &nodes[nodes.len() - 1];
     let mut terms = Terms::new();
     accumulate(&mut terms, &last.vertical, 1.0 / (last.x - first.x));
     accumulate(&mut terms, &first.vertical, -1.0 / (last.x - first.x));
@@ -94,8 +97,8 @@ impl Run {
     /// Nodes on the line of an element; an error unless they reach from end to end.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         let place = |node: &BaseNode| element.components([node.x, node.y, node.z]);
-        let [depth, ..] = element.components(element.center());
-        let slack = ROUNDING * element.length();
+        let depth = element.components(element.center())[0];
+        let slack = ON_ELEMENT_TOLERANCE * element.length();
         let is_on = |node: &&BaseNode| (place(node)[0] - depth).abs() <= slack;
         let first = nodes.iter().position(|node| is_on(&node)).unwrap_or(nodes.len());
         let on = nodes[first..].iter().take_while(is_on);
@@ -140,8 +143,8 @@ impl Run {
         let length = self.ends[1] - self.ends[0];
         let weights = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
             let middle = (0.5 * (from + to) - x0) / (x1 - x0);
-            let share = (to - from) / length;
-            [(k, share * (1.0 - middle)), (k + 1, share * middle)]
+            let fraction = (to - from) / length;
+            [(k, fraction * (1.0 - middle)), (k + 1, fraction * middle)]
         });
         weights.collect()
     }
@@ -149,10 +152,10 @@ impl Run {
     /// Gauss points on each piece of the element: length (m) and node weights of each point.
     fn gauss_points(&self) -> Vec<(f64, Vec<(usize, f64)>)> {
         let points = self.pieces().flat_map(|(k, [x0, x1], [from, to])| {
-            [-GAUSS, GAUSS].map(|place| {
+            [-GAUSS_POINT_OFFSET, GAUSS_POINT_OFFSET].map(|place| {
                 let x = 0.5 * (from + to) + place * (to - from);
-                let share = (x - x0) / (x1 - x0);
-                (0.5 * (to - from), vec![(k, 1.0 - share), (k + 1, share)])
+                let weight = (x - x0) / (x1 - x0);
+                (0.5 * (to - from), vec![(k, 1.0 - weight), (k + 1, weight)])
             })
         });
         points.collect()

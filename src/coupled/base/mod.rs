@@ -19,7 +19,7 @@ use crate::linalg::dot;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
 
 /// Fraction of a foundation's length that may extend beyond the elements.
-const UNCOVERED: f64 = 0.1;
+const MAX_UNCOVERED_FRACTION: f64 = 0.1;
 
 /// B, from coordinates to element means of the base displacement, and BᵀA, from tractions to forces.
 ///
@@ -89,8 +89,8 @@ impl PlacedBase {
         let layout = elements.layout();
         let mut rows = vec![Terms::new(); layout.len()];
         for (e, weights) in weights.into_iter().enumerate() {
-            let own = components(&nodes, &weights, &elements[e]);
-            for (component, terms) in own.into_iter().enumerate() {
+            let means = components(&nodes, &weights, &elements[e]);
+            for (component, terms) in means.into_iter().enumerate() {
                 rows[layout.place(component, e)] = terms;
             }
         }
@@ -109,11 +109,11 @@ impl PlacedBase {
     pub(crate) fn deviations(&self) -> impl Iterator<Item = (&BasePoint, Vec<Terms>)> {
         let layout = self.layout();
         self.points.iter().map(move |point| {
-            let mut own = components(&self.nodes, &point.shares, &self.elements[point.element]);
-            for (component, terms) in own.iter_mut().enumerate() {
+            let mut rows = components(&self.nodes, &point.shares, &self.elements[point.element]);
+            for (component, terms) in rows.iter_mut().enumerate() {
                 accumulate(terms, &self.mean_row(layout.place(component, point.element)), -1.0);
             }
-            (point, own)
+            (point, rows)
         })
     }
 
@@ -143,23 +143,19 @@ impl PlacedBase {
 
     /// This base with other numbers of the degrees of freedom; not in stepping coordinates.
     pub(crate) fn renumbered(&self, number: impl Fn(usize) -> usize) -> Self {
-        let mut own = self.clone();
-        let footings = own.foundations.iter_mut();
-        let weights =
-            footings.flat_map(|own| own.rotations.iter_mut().chain([&mut own.settlement]));
-        let of_weights = weights.filter_map(|weights| match weights {
-            Weights::Sparse(terms) => Some(terms),
-            Weights::Dense(_) => None,
-        });
-        let of_rows = match &mut own.rows {
-            Rows::Sparse(rows) => &mut rows[..],
-            Rows::Dense(_) => &mut [],
-        };
-        for (dof, _) in of_weights.chain(of_rows).flatten() {
-            *dof = number(*dof);
+        let mut base = self.clone();
+        for footing in &mut base.foundations {
+            for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
+                if let Weights::Sparse(terms) = weights {
+                    terms.iter_mut().for_each(|(dof, _)| *dof = number(*dof));
+                }
+            }
         }
-        own.nodes.iter_mut().for_each(|node| node.map_rows(|row| row.map_dofs(&number)));
-        own
+        if let Rows::Sparse(rows) = &mut base.rows {
+            rows.iter_mut().flatten().for_each(|(dof, _)| *dof = number(*dof));
+        }
+        base.nodes.iter_mut().for_each(|node| node.map_rows(|row| row.map_dofs(&number)));
+        base
     }
 
     /// The degrees of freedom that move contact nodes, ascending.
@@ -169,8 +165,9 @@ impl PlacedBase {
 
     /// The contact nodes and the elements of each foundation.
     pub(crate) fn foundations(&self) -> impl Iterator<Item = (&[BaseNode], Range<usize>)> + '_ {
-        let nodes = |footing: &Outline| &self.nodes[footing.nodes.clone()];
-        self.foundations.iter().map(move |footing| (nodes(footing), footing.elements.clone()))
+        self.foundations
+            .iter()
+            .map(|footing| (&self.nodes[footing.nodes.clone()], footing.elements.clone()))
     }
 
     /// Corners of the convex outline of each foundation in plan, counter-clockwise; empty in the plane.
@@ -182,24 +179,24 @@ impl PlacedBase {
     ///
     /// Too far: more than their longest side there or a tenth of the foundation.
     pub(crate) fn uncovered(&self) -> Vec<(usize, Option<char>, f64)> {
-        let ground = &self.elements;
-        let reach = |nodes: &[BaseNode], own: Range<usize>, axis: usize| {
-            let ends = ground[own].iter().map(|own| own.ends()[axis]);
-            let sides = ends.clone().map(|[low, high]| high - low);
-            let longest = sides.fold(0.0, |longest: f64, side| side.max(longest));
-            let [first, last] = far_ends(ends);
-            let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
-            let least = longest.min(UNCOVERED * (right - left));
-            Some((first - left).max(right - last)).filter(|reach| *reach > least)
-        };
-        let name = |axis| axis_name(ground.is_plan(), axis);
-        let each = self.foundations().enumerate();
-        each.flat_map(|(k, (nodes, own))| {
-            let axes = ground.layout().axes();
-            let found = axes.map(move |axis| (axis, reach(nodes, own.clone(), axis)));
-            found.filter_map(move |(axis, reach)| Some((k, name(axis), reach?)))
-        })
-        .collect()
+        let mut uncovered = Vec::new();
+        for (foundation, (nodes, elements)) in self.foundations().enumerate() {
+            for axis in self.layout().axes() {
+                let ends =
+                    self.elements[elements.clone()].iter().map(|element| element.ends()[axis]);
+                let sides = ends.clone().map(|[low, high]| high - low);
+                let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
+                let [first, last] = far_ends(ends);
+                let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
+                let limit = longest_side.min(MAX_UNCOVERED_FRACTION * (right - left));
+                let reach = (first - left).max(right - last);
+                if reach > limit {
+                    let axis = axis_name(self.elements.is_plan(), axis);
+                    uncovered.push((foundation, axis, reach));
+                }
+            }
+        }
+        uncovered
     }
 
     /// The contact elements.
@@ -236,8 +233,9 @@ impl PlacedBase {
     pub(crate) fn motion_of(&self, e: usize, displacement: &[f64]) -> [f64; 3] {
         let layout = self.layout();
         let mut components = [0.0; 3];
-        let own = components.iter_mut().take(layout.components()).enumerate();
-        own.for_each(|(component, value)| *value = displacement[layout.place(component, e)]);
+        for (component, value) in components.iter_mut().take(layout.components()).enumerate() {
+            *value = displacement[layout.place(component, e)];
+        }
         let [right, away, up] = self.elements[e].vector(components);
         [right, up, away]
     }
@@ -252,14 +250,15 @@ impl PlacedBase {
         let area: f64 = areas.iter().sum();
         if self.elements.has_walls() {
             let mut mean = [0.0; 3];
-            for (e, own) in areas.iter().enumerate() {
-                let moved = mean.iter_mut().zip(self.motion_of(e, displacement));
-                moved.for_each(|(sum, moved)| *sum += own / area * moved);
+            for (e, element_area) in areas.iter().enumerate() {
+                for (sum, motion) in mean.iter_mut().zip(self.motion_of(e, displacement)) {
+                    *sum += element_area / area * motion;
+                }
             }
             return mean;
         }
-        let mean = |values: &[f64]| dot(values, areas) / area;
-        [mean(along), -mean(down), if across.is_empty() { 0.0 } else { mean(across) }]
+        let away = if across.is_empty() { 0.0 } else { dot(across, areas) / area };
+        [dot(along, areas) / area, -(dot(down, areas) / area), away]
     }
 
     /// f ← f + factor · BᵀA τ.
@@ -283,13 +282,13 @@ impl PlacedBase {
     ///
     /// N: displacements of the contact nodes. Components without terms are ignored.
     pub(crate) fn translation_error(&self, translations: &[Vec<f64>]) -> f64 {
-        let mut worst = 0.0_f64;
+        let mut max_error = 0.0_f64;
         for (direction, translation) in translations.iter().enumerate() {
             for (terms, needed) in self.node_components(direction) {
-                worst = worst.max((terms.value(translation) - needed).abs());
+                max_error = max_error.max((terms.value(translation) - needed).abs());
             }
         }
-        worst
+        max_error
     }
 
     /// Corrects `translation` so that the contact nodes move by exactly 1 m.
@@ -312,8 +311,8 @@ impl PlacedBase {
     /// Rows of the contact nodes, and their values under a translation of 1 m.
     fn node_components(&self, direction: usize) -> impl Iterator<Item = (&DofCombination, f64)> {
         let rows = self.nodes.iter().flat_map(|node| node.rows().into_iter().enumerate());
-        let moved = move |(k, row)| (row, if k == direction { 1.0 } else { 0.0 });
-        rows.map(moved).filter(|(row, _): &(&DofCombination, _)| !row.is_empty())
+        rows.filter(|(_, row)| !row.is_empty())
+            .map(move |(k, row)| (row, if k == direction { 1.0 } else { 0.0 }))
     }
 
     /// The contact nodes.
@@ -345,7 +344,8 @@ fn components(
     weights: &[(usize, f64)],
     element: &ContactElement,
 ) -> Vec<Terms> {
-    let component = |direction: &[f64; 3]| {
+    let mut components = Vec::new();
+    for direction in element.directions() {
         let mut component = Terms::new();
         for &(node, weight) in weights {
             let BaseNode { horizontal, across, vertical, .. } = &nodes[node];
@@ -354,15 +354,15 @@ fn components(
                 accumulate(&mut component, row, part * weight);
             }
         }
-        component
-    };
-    element.directions().iter().map(component).collect()
+        components.push(component);
+    }
+    components
 }
 
 /// Error for a foundation without elements.
 pub(crate) fn check_covered(foundations: &[Outline]) -> Result<()> {
     let quantity = "list of contact elements under a foundation";
-    foundations.iter().try_for_each(|own| at_least(quantity, own.elements.len(), 1))
+    foundations.iter().try_for_each(|footing| at_least(quantity, footing.elements.len(), 1))
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use crate::bem::plan::faces::side;
 
 /// Largest number of Newton steps to the coordinates of a point in a quadrilateral; final step, relative to its
 /// size.
-const ITERATIONS: usize = 50;
-const CONVERGED: f64 = 1e-14;
+const MAX_NEWTON_ITERATIONS: usize = 50;
+const NEWTON_STEP_TOLERANCE: f64 = 1e-14;
 pub(crate) type Point = [f64; 2];
 
 /// Weights of the corners in the displacement of a point.
@@ -39,9 +39,10 @@ pub(crate) fn shares(corners: &[Point], p: Point) -> Vec<f64> {
 }
 
 fn in_triangle([a, b, c]: [Point; 3], p: Point) -> [f64; 3] {
-    let all = side([a, b], c);
-    let [one, two] = [side([b, c], p) / all, side([c, a], p) / all];
-    [one, two, 1.0 - one - two]
+    let area = side([a, b], c);
+    let first = side([b, c], p) / area;
+    let second = side([c, a], p) / area;
+    [first, second, 1.0 - first - second]
 }
 
 /// Weights of the corners of a quadrilateral at coordinates s, t, which are from 0 to 1 within.
@@ -71,11 +72,13 @@ impl Quadrilateral {
 
     /// Coordinates of a point, by Newton's method from the middle.
     fn coordinates(&self, p: Point) -> Option<Point> {
-        let [mut s, mut t] = [0.5_f64; 2];
-        for _ in 0..ITERATIONS {
+        let mut s = 0.5_f64;
+        let mut t = 0.5_f64;
+        for _ in 0..MAX_NEWTON_ITERATIONS {
             let [ds, dt] = self.step([s, t], p)?;
-            (s, t) = (s + ds, t + dt);
-            if ds.abs().max(dt.abs()) <= CONVERGED * s.abs().max(t.abs()).max(1.0) {
+            s += ds;
+            t += dt;
+            if ds.abs().max(dt.abs()) <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0) {
                 return Some([s, t]);
             }
         }
@@ -95,21 +98,28 @@ impl Quadrilateral {
     fn coordinates_within(&self, p: Point) -> Option<Point> {
         let [b, c, d] = self.0;
         let twist = [0, 1].map(|k| c[k] - b[k] - d[k]);
-        let cross = |one: Point, other: Point| one[0] * other[1] - one[1] * other[0];
-        let (square, linear, rest) = (-cross(d, twist), cross(p, twist) - cross(d, b), cross(p, b));
-        let root = linear.mul_add(linear, -4.0 * square * rest).max(0.0).sqrt();
+        let square = -cross(d, twist);
+        let linear = cross(p, twist) - cross(d, b);
+        let constant = cross(p, b);
+        let root = linear.mul_add(linear, -4.0 * square * constant).max(0.0).sqrt();
         let sum = -0.5 * (linear + root.copysign(linear));
-        let places = [sum / square, rest / sum].into_iter().filter(|t| t.is_finite()).map(|t| {
-            let along = [0, 1].map(|k| b[k] + t * twist[k]);
-            let square = along[0] * along[0] + along[1] * along[1];
-            let s = ((p[0] - t * d[0]) * along[0] + (p[1] - t * d[1]) * along[1]) / square;
-            [s, t]
-        });
+        let places =
+            [sum / square, constant / sum].into_iter().filter(|t| t.is_finite()).map(|t| {
+                let along = [0, 1].map(|k| b[k] + t * twist[k]);
+                let square = along[0] * along[0] + along[1] * along[1];
+                let s = ((p[0] - t * d[0]) * along[0] + (p[1] - t * d[1]) * along[1]) / square;
+                [s, t]
+            });
         let beyond =
             |[s, t]: &Point| [s, t].into_iter().map(|x| (x - 0.5).abs()).fold(0.0, f64::max);
         let place = places.min_by(|one, other| beyond(one).total_cmp(&beyond(other)))?;
         place.iter().all(|x| x.is_finite()).then(|| place.map(|x| x.clamp(0.0, 1.0)))
     }
+}
+
+/// Cross product of two vectors in a plane.
+fn cross(one: Point, other: Point) -> f64 {
+    one[0] * other[1] - one[1] * other[0]
 }
 
 /// Slopes of [`bilinear`] along s and along t.
@@ -128,22 +138,28 @@ pub(crate) fn outside(corners: &[Point], p: Point) -> f64 {
 
 /// The point of a convex polygon nearest to `p`.
 fn nearest_within(corners: &[Point], p: Point) -> Point {
-    let edges = || (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
-    let areas = || edges().map(|edge| side(edge, p));
-    if areas().all(|area| area >= 0.0) || areas().all(|area| area <= 0.0) {
+    let edges = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
+    let mut areas = edges.clone().map(|edge| side(edge, p));
+    if areas.clone().all(|area| area >= 0.0) || areas.all(|area| area <= 0.0) {
         return p;
     }
-    let from = |[a, b]: [Point; 2]| {
-        let along = [b[0] - a[0], b[1] - a[1]];
-        let square = along[0] * along[0] + along[1] * along[1];
-        let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
-        let share = share.clamp(0.0, 1.0);
-        [a[0] + share * along[0], a[1] + share * along[1]]
-    };
-    let nearer = |one: Point, other: Point| {
-        if distance(p, other) < distance(p, one) { other } else { one }
-    };
-    edges().map(from).fold([f64::INFINITY; 2], nearer)
+    let mut nearest = [f64::INFINITY; 2];
+    for edge in edges {
+        let point = nearest_on_edge(edge, p);
+        if distance(p, point) < distance(p, nearest) {
+            nearest = point;
+        }
+    }
+    nearest
+}
+
+/// The point of an edge nearest to `p`.
+fn nearest_on_edge([a, b]: [Point; 2], p: Point) -> Point {
+    let along = [b[0] - a[0], b[1] - a[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    let fraction = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
+    let fraction = fraction.clamp(0.0, 1.0);
+    [a[0] + fraction * along[0], a[1] + fraction * along[1]]
 }
 
 #[cfg(test)]
@@ -159,7 +175,8 @@ mod tests {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
             (state >> 11) as f64 / (1_u64 << 53) as f64
         };
-        let (mut tried, mut without) = (0, 0);
+        let mut tried = 0;
+        let mut without = 0;
         while tried < 2000 {
             let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
             let corners = corners.map(|[x, y]| [x + random() - 0.5, y + random() - 0.5]);

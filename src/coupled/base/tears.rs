@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::structure::{Base, BaseNode, DofCombination};
 
 /// Difference of displacements that counts as rounding, relative to their largest weight.
-const ROUNDING: f64 = 1e-6;
+const TEAR_ROUNDING: f64 = 1e-6;
 
 /// Points where faces of a base meet and move apart: their number, and the first one; `None` without any.
 ///
@@ -57,14 +57,16 @@ pub(crate) fn tears(base: &Base) -> Result<Option<(usize, Point)>> {
 /// Shells of different thickness have undersides at different heights, which move along the ground by different amounts
 /// where the shells turn. They rise together.
 fn differ(node: &BaseNode, mean: &[(&BaseNode, f64)]) -> bool {
-    let largest = |row: &DofCombination| {
-        row.iter().fold(0.0_f64, |largest, (_, weight)| largest.max(weight.abs()))
-    };
-    let mut rest = node.vertical.clone();
-    let mut scale = largest(&rest);
+    let mut difference = node.vertical.clone();
+    let mut scale = max_weight(&difference);
     for (other, weight) in mean {
-        rest -= *weight * other.vertical.clone();
-        scale = scale.max(largest(&other.vertical));
+        difference -= *weight * other.vertical.clone();
+        scale = scale.max(max_weight(&other.vertical));
     }
-    largest(&rest) > ROUNDING * scale
+    max_weight(&difference) > TEAR_ROUNDING * scale
+}
+
+/// Largest magnitude of a weight.
+fn max_weight(row: &DofCombination) -> f64 {
+    row.iter().fold(0.0_f64, |largest, (_, weight)| largest.max(weight.abs()))
 }

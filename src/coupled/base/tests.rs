@@ -65,21 +65,23 @@ fn walls_move_along_their_own_directions() {
     let mut means = [0.0; 10];
     base.means(&[0.3, 0.2, 0.1], &mut means);
     for (e, ends) in outline.windows(2).enumerate() {
-        let [x, z] = [0, 1].map(|k| 0.5 * (ends[0][k] + ends[1][k]));
-        let [right, up] = [0.3 - 0.1 * z, 0.2 + 0.1 * x];
-        let wanted = match e {
+        let x = 0.5 * (ends[0][0] + ends[1][0]);
+        let z = 0.5 * (ends[0][1] + ends[1][1]);
+        let right = 0.3 - 0.1 * z;
+        let up = 0.2 + 0.1 * x;
+        let expected = match e {
             0 | 1 => [-right, -up],
             4 => [right, up],
             _ => [-up, right],
         };
-        for (component, wanted) in wanted.into_iter().enumerate() {
-            assert!((means[5 * component + e] - wanted).abs() < 1e-15, "{e} {means:?}");
+        for (component, expected) in expected.into_iter().enumerate() {
+            assert!((means[5 * component + e] - expected).abs() < 1e-15, "{e} {means:?}");
         }
     }
     // Forces: pressures p on the walls push to the left and to the right, on the base up.
     let mut force = [0.0; 3];
     base.add_forces(1.0, &[1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0], &mut force);
-    assert!(force.iter().all(|own| own.abs() < 1e-14), "{force:?}");
+    assert!(force.iter().all(|component| component.abs() < 1e-14), "{force:?}");
     base.add_forces(1.0, &[0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0], &mut force);
     assert!((force[1] + 4.0).abs() < 1e-14 && force[0].abs() < 1e-14, "{force:?}");
 }

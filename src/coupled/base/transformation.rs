@@ -54,7 +54,7 @@ impl Transformation {
     /// Adds forces on the degrees of freedom to `force`.
     pub(crate) fn add_forces(&self, on_dofs: &[f64], force: &mut [f64]) {
         match self {
-            Self::Identity => force.iter_mut().zip(on_dofs).for_each(|(f, own)| *f += own),
+            Self::Identity => force.iter_mut().zip(on_dofs).for_each(|(f, added)| *f += added),
             Self::Modes(modes) => modes.project(on_dofs, force),
         }
     }
@@ -148,7 +148,7 @@ impl Rows {
         x: &[f64],
         force: &mut [f64],
     ) {
-        const BLOCK: usize = 64;
+        const ROW_BLOCK_SIZE: usize = 64;
         match self {
             Self::Sparse(rows) => {
                 for (i, (row, x)) in rows.iter().zip(x).enumerate() {
@@ -159,11 +159,11 @@ impl Rows {
                 }
             }
             Self::Dense(rows) => {
-                let mut scaled = [0.0; BLOCK];
-                let rows = rows.chunks(BLOCK * force.len());
-                for (block, (rows, x)) in rows.zip(x.chunks(BLOCK)).enumerate() {
+                let mut scaled = [0.0; ROW_BLOCK_SIZE];
+                let rows = rows.chunks(ROW_BLOCK_SIZE * force.len());
+                for (block, (rows, x)) in rows.zip(x.chunks(ROW_BLOCK_SIZE)).enumerate() {
                     for (k, (scaled, x)) in scaled.iter_mut().zip(x).enumerate() {
-                        *scaled = scale(block * BLOCK + k) * x;
+                        *scaled = scale(block * ROW_BLOCK_SIZE + k) * x;
                     }
                     transposed_multiply_add(rows, factor, &scaled[..x.len()], force);
                 }
@@ -224,8 +224,9 @@ impl ModalBasis {
 
     /// Φᵀ M u: the coordinates of u, since Φᵀ M Φ = 1.
     pub(crate) fn coordinates(&self, dofs: &[f64], mass: &SparseMatrix) -> Vec<f64> {
-        let (mut momentum, mut modal) = (vec![0.0; dofs.len()], vec![0.0; self.count()]);
+        let mut momentum = vec![0.0; dofs.len()];
         mass.multiply_add(1.0, dofs, &mut momentum);
+        let mut modal = vec![0.0; self.count()];
         self.project(&momentum, &mut modal);
         modal
     }
@@ -236,13 +237,15 @@ impl ModalBasis {
         vector: &[(usize, f64)],
         mass: &SparseMatrix,
     ) -> Vec<(usize, f64)> {
-        let shares = self.coordinates(&spread(vector, mass.order()), mass);
-        let noise = 1e-12 * largest(&shares);
-        let rigid = shares.into_iter().zip(&self.stiffness).enumerate();
+        let coordinates = self.coordinates(&spread(vector, mass.order()), mass);
+        let noise = 1e-12 * largest(&coordinates);
+        let mut rigid = Vec::new();
+        for (j, (q, stiffness)) in coordinates.into_iter().zip(&self.stiffness).enumerate() {
+            if *stiffness == 0.0 && q.abs() > noise {
+                rigid.push((j, q));
+            }
+        }
         rigid
-            .filter(|(_, (q, k))| **k == 0.0 && q.abs() > noise)
-            .map(|(j, (q, _))| (j, q))
-            .collect()
     }
 
     /// Φ q.

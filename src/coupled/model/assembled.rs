@@ -25,9 +25,9 @@ use crate::structure::{
 };
 
 /// Number of passes that refine the influence vectors.
-const REFINEMENTS: usize = 3;
+const INFLUENCE_REFINEMENT_COUNT: usize = 3;
 /// Longest time (s) in which springs under the base move its inertia; it excludes stiffnesses that are rounding.
-const SWAY: f64 = 0.1;
+const MAX_SWAY_TIME: f64 = 0.1;
 
 /// Matrices, base and influence vectors of a structure in its own degrees of freedom.
 pub(crate) struct Assembled {
@@ -52,7 +52,8 @@ impl Assembled {
     /// that cannot be factored.
     pub(crate) fn new(structure: &dyn Structure, elements: &Patch) -> Result<(Self, SparseFactor)> {
         let base = PlacedBase::of(structure, elements)?;
-        let (dofs, linear) = (structure.dofs(), structure.nonlinear().is_none());
+        let dofs = structure.dofs();
+        let linear = structure.nonlinear().is_none();
         at_least("list of degrees of freedom", dofs, 1)?;
         let mut triplets = Triplets::new(dofs);
         let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
@@ -63,43 +64,45 @@ impl Assembled {
         let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
         drop(triplets);
         let tangent = Tangent::at(structure, &vec![0.0; dofs])?;
-        let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
-        let sum = || SparseMatrix::sum("stiffness matrix", dofs, &terms);
-        let at_rest = if linear { None } else { Some(sum()?) };
+        let mut at_rest = None;
+        if !linear {
+            let terms = [(1.0, &stiffness), (1.0, &tangent.matrix)];
+            at_rest = Some(SparseMatrix::sum("stiffness matrix", dofs, &terms)?);
+        }
         // Masses and dampings may couple far fewer degrees of freedom: the stiffness chooses the order.
         let elimination = Elimination::of(at_rest.as_ref().unwrap_or(&stiffness));
         let is_massive = check_mass(&mass, &elimination)?;
         if !structure.has_active_stiffness() {
             check_stiffness(&stiffness, &mass)?;
         }
-        let influence = Arc::default();
-        let [mass, damping, stiffness] = [mass, damping, stiffness].map(Arc::new);
-        let own = Self {
+        let mut assembled = Self {
             linear,
             is_massive,
-            mass,
-            damping,
-            stiffness,
+            mass: Arc::new(mass),
+            damping: Arc::new(damping),
+            stiffness: Arc::new(stiffness),
             at_rest,
             base,
-            influence,
+            influence: Arc::default(),
             elimination,
         };
-        check_attached(structure, own.stiffness_at_rest(), &own.mass, &own.base.dofs())?;
+        let stiffness = assembled.stiffness_at_rest();
+        check_attached(structure, stiffness, &assembled.mass, &assembled.base.dofs())?;
         // Rounding decides how a mechanism fails, but it never fails by its sign.
-        let (influence, held) = own.find_influence().map_err(|error| match error {
-            Error::Indefinite { .. } => own.buckling(structure).unwrap_or(error),
-            _ => own.at_rest(structure).behind(error),
+        let (influence, held) = assembled.find_influence().map_err(|error| match error {
+            Error::Indefinite { .. } => assembled.buckling(structure).unwrap_or(error),
+            _ => assembled.at_rest(structure).behind(error),
         })?;
-        Ok((Self { influence: Arc::new(influence), ..own }, held))
+        assembled.influence = Arc::new(influence);
+        Ok((assembled, held))
     }
 
     /// Error with the load factor at which the structure buckles with its base held; `None` if it does not.
     fn buckling(&self, structure: &dyn Structure) -> Option<Error> {
-        let stands = |stiffness: &SparseMatrix| {
+        let loaded = LoadedStiffness::new(structure, &self.stiffness)?;
+        let factor = loaded.factor(1.0, |stiffness| {
             check_signs(&self.base, [&self.mass, &self.damping, stiffness]).is_ok()
-        };
-        let factor = LoadedStiffness::new(structure, &self.stiffness)?.factor(1.0, stands)?;
+        })?;
         Some(StructureError::Buckling { factor }.into())
     }
 
@@ -117,8 +120,8 @@ impl Assembled {
         structure: &dyn Structure,
         floating: Option<&SparseMatrix>,
     ) -> Result<()> {
-        let is_proportional =
-            floating.is_some_and(|own| combination(&self.damping, [own, &self.mass]).is_some());
+        let is_proportional = floating
+            .is_some_and(|matrix| combination(&self.damping, [matrix, &self.mass]).is_some());
         if structure.has_active_damping() || is_proportional {
             return Ok(());
         }
@@ -127,11 +130,17 @@ impl Assembled {
 
     /// The same structure on other elements.
     pub(crate) fn on(&self, base: PlacedBase) -> Self {
-        let [mass, damping, stiffness] = self.shared();
-        let (at_rest, influence) = (self.at_rest.clone(), Arc::clone(&self.influence));
-        let (linear, is_massive, elimination) =
-            (self.linear, self.is_massive, self.elimination.clone());
-        Self { linear, is_massive, mass, damping, stiffness, at_rest, base, influence, elimination }
+        Self {
+            linear: self.linear,
+            is_massive: self.is_massive,
+            mass: Arc::clone(&self.mass),
+            damping: Arc::clone(&self.damping),
+            stiffness: Arc::clone(&self.stiffness),
+            at_rest: self.at_rest.clone(),
+            base,
+            influence: Arc::clone(&self.influence),
+            elimination: self.elimination.clone(),
+        }
     }
 
     /// The same structure with another stiffness beside its nonlinear force.
@@ -214,7 +223,8 @@ impl Assembled {
 
     /// Stiffness of the springs at the contact nodes that hold the base.
     pub(super) fn spring(&self) -> f64 {
-        stiffest(self.stiffness_at_rest()).max(self.base_inertia() / (SWAY * SWAY))
+        stiffest(self.stiffness_at_rest())
+            .max(self.base_inertia() / (MAX_SWAY_TIME * MAX_SWAY_TIME))
     }
 
     /// The influence vectors, and the factored stiffness with its base held.
@@ -223,32 +233,33 @@ impl Assembled {
     /// (K + γ NᵀN) r = γ Nᵀ 1 for every γ, whatever the degrees of freedom mean. Displacements are stepped relative
     /// to rigid translations, so R must be exact at the base: N R is 1 or 0 to rounding, and then so is B R.
     fn find_influence(&self) -> Result<(Influence, SparseFactor)> {
-        let (stiffness, n) = (self.stiffness_at_rest(), self.dofs());
+        let stiffness = self.stiffness_at_rest();
+        let n = self.dofs();
         let stiffest = stiffest(stiffness);
         let spring = self.spring();
         let held = HeldBase::new(self.base.nodes(), stiffness, spring);
         let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
         let is_condensed =
             self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
-        let ending = || self.elimination.ending_with(&self.base.dofs());
-        let ending = if is_condensed { ending() } else { None };
+        let ending =
+            if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = ending.as_ref().unwrap_or(&self.elimination);
         let factor = SparseFactor::of(HeldBase::NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
         let pulls = held.pulls().concat();
-        let mut found = vec![0.0; pulls.len()];
-        for _ in 0..=REFINEMENTS {
-            let mut rest = matrix.times(&found);
-            rest.iter_mut().zip(&pulls).for_each(|(rest, pull)| *rest = pull - *rest);
-            factor.solve_many(&mut rest);
-            found.iter_mut().zip(&rest).for_each(|(r, d)| *r += d);
+        let mut solution = vec![0.0; pulls.len()];
+        for _ in 0..=INFLUENCE_REFINEMENT_COUNT {
+            let mut residual = matrix.times(&solution);
+            residual.iter_mut().zip(&pulls).for_each(|(r, pull)| *r = pull - *r);
+            factor.solve_many(&mut residual);
+            solution.iter_mut().zip(&residual).for_each(|(r, d)| *r += d);
         }
-        if found.iter().any(|r| !r.is_finite()) {
+        if solution.iter().any(|r| !r.is_finite()) {
             return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
         }
-        let mut translations: Vec<_> = found.chunks_exact(n).map(<[f64]>::to_vec).collect();
+        let mut translations: Vec<_> = solution.chunks_exact(n).map(<[f64]>::to_vec).collect();
         let firmer = spring / stiffest;
         supports::check(stiffness, &self.mass, firmer, &self.base, &mut translations)?;
         let mut parts = Partition::new(n);

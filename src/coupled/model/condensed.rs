@@ -44,7 +44,9 @@ impl Condensed {
         let dofs = whole.base.dofs();
         let Some(mut stiffness) = held.condensed(&dofs) else { return Ok(None) };
         let Ok(loads) = loads() else { return Ok(None) };
-        let (order, n, spring) = (dofs.len(), whole.dofs(), whole.spring());
+        let order = dofs.len();
+        let n = whole.dofs();
+        let spring = whole.spring();
         let mut solved = loads.concat();
         held.solve_many(&mut solved);
         let mut responses = solved.chunks_exact(n);
@@ -60,9 +62,9 @@ impl Condensed {
         let base = renumbered(&dofs, &whole.base);
         let mut mass = Triplets::new(order);
         let up = whole.influence.of(UP, n);
-        let share = whole.mass.form(&up, &up) / base.nodes().len() as f64;
+        let nodal_mass = whole.mass.form(&up, &up) / base.nodes().len() as f64;
         for row in base.nodes().iter().flat_map(BaseNode::rows) {
-            mass.add_outer(row, share);
+            mass.add_outer(row, nodal_mass);
             for (i, j) in row.iter().flat_map(|i| row.iter().map(move |j| (i, j))) {
                 stiffness[i.0 * order + j.0] -= spring * i.1 * j.1;
             }
@@ -102,10 +104,10 @@ impl Condensed {
         self.dofs.iter().zip(on_base).for_each(|(dof, u)| displacement[*dof] = *u);
         // The springs have no force: the second pass removes rounding.
         for _ in 0..2 {
-            let mut rest = force.to_vec();
-            whole.stiffness.multiply_add(-1.0, &displacement, &mut rest);
-            self.held.solve_many(&mut rest);
-            displacement.iter_mut().zip(&rest).for_each(|(u, d)| *u += d);
+            let mut correction = force.to_vec();
+            whole.stiffness.multiply_add(-1.0, &displacement, &mut correction);
+            self.held.solve_many(&mut correction);
+            displacement.iter_mut().zip(&correction).for_each(|(u, d)| *u += d);
         }
         displacement
     }

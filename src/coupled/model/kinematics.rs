@@ -27,8 +27,13 @@ impl Translation {
         let increment: [f64; 3] = std::array::from_fn(|k| displacement[k] - self.displacement[k]);
         let stepped = |coefficients| -> [f64; 3] {
             std::array::from_fn(|k| {
-                let (v, a) = (self.new_velocity[k], self.new_acceleration[k]);
-                SchemeCoefficients::apply(coefficients, increment[k], v, a)
+                let velocity = self.new_velocity[k];
+                SchemeCoefficients::apply(
+                    coefficients,
+                    increment[k],
+                    velocity,
+                    self.new_acceleration[k],
+                )
             })
         };
         Self {
@@ -68,11 +73,10 @@ pub(crate) enum DofResponse {
 impl Kinematics {
     /// Motion at rest.
     pub(crate) fn new(model: &Model) -> Self {
-        let zero = || vec![0.0; model.coordinates];
         Self {
-            displacement: zero(),
-            velocity: zero(),
-            acceleration: zero(),
+            displacement: vec![0.0; model.coordinates],
+            velocity: vec![0.0; model.coordinates],
+            acceleration: vec![0.0; model.coordinates],
             translations: vec![Translation::default(); model.influence.parts().len()],
             influence: model.influence.clone(),
             transformation: model.transformation.clone(),
@@ -107,7 +111,7 @@ impl Kinematics {
     }
 }
 
-const ALL: [(DofResponse, &str); 4] = [
+const RESPONSE_QUANTITIES: [(DofResponse, &str); 4] = [
     (DofResponse::Displacement, "displacement"),
     (DofResponse::Velocity, "velocity"),
     (DofResponse::Acceleration, "acceleration"),
@@ -116,14 +120,14 @@ const ALL: [(DofResponse, &str); 4] = [
 
 impl PartialEq for Kinematics {
     fn eq(&self, other: &Self) -> bool {
-        ALL.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
+        RESPONSE_QUANTITIES.into_iter().all(|(which, _)| self.dofs(which) == other.dofs(which))
     }
 }
 
 impl std::fmt::Debug for Kinematics {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut shown = f.debug_struct("Kinematics");
-        for (which, name) in ALL {
+        for (which, name) in RESPONSE_QUANTITIES {
             shown.field(name, &self.dofs(which));
         }
         shown.finish()

@@ -129,14 +129,15 @@ impl Load {
         for pair in times.windows(2) {
             positive("time between two values of a load", pair[1] - pair[0])?;
         }
-        let (times, forces) = (times.to_vec(), forces.to_vec());
+        let times = times.to_vec();
+        let forces = forces.to_vec();
         Ok(Self::new(row, move |time| {
             let next = times.partition_point(|t| *t <= time);
             match (next.checked_sub(1), times.get(next)) {
                 (Some(k), Some(end)) => {
-                    let share = (time - times[k]) / (end - times[k]);
+                    let fraction = (time - times[k]) / (end - times[k]);
                     // Not by the difference, which may overflow.
-                    (1.0 - share) * forces[k] + share * forces[next]
+                    (1.0 - fraction) * forces[k] + fraction * forces[next]
                 }
                 (Some(k), None) if time <= times[k] => forces[k],
                 _ => 0.0,
@@ -165,7 +166,8 @@ impl Load {
     /// `index`: the load's number.
     pub(crate) fn check(&self, index: usize, dofs: usize) -> Result<()> {
         self.row.check("degree of freedom of a load", dofs)?;
-        let (quantity, value) = ("external load at t = 0", self.value(0.0));
+        let quantity = "external load at t = 0";
+        let value = self.value(0.0);
         if value.is_finite() { Ok(()) } else { Err(Error::NotFinite { quantity, index, value }) }
     }
 }
@@ -182,7 +184,7 @@ pub(crate) struct SteppedLoad {
     row: Weights,
     /// Force in the static state.
     at_start: f64,
-    /// Force that replaces the load's own.
+    /// Force that replaces the value of the load's function.
     set: Option<f64>,
 }
 
@@ -193,7 +195,7 @@ impl SteppedLoad {
         Self { load, row, at_start, set: None }
     }
 
-    /// Sets the force from now on; `None` returns to the load's own.
+    /// Sets the force from now on; `None` returns to the load's function.
     pub(crate) fn set(&mut self, value: Option<f64>) {
         self.set = value;
     }
@@ -208,7 +210,7 @@ impl SteppedLoad {
         self.load.row.iter().map(|&(i, weight)| mixing_weight(i) * weight).sum()
     }
 
-    /// Value of the load's own function at `time`.
+    /// Value of the load's function at `time`.
     pub(crate) fn own_value(&self, time: f64) -> f64 {
         self.load.value(time)
     }

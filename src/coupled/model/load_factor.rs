@@ -5,7 +5,7 @@ use crate::linalg::SparseMatrix;
 use crate::structure::{Structure, Triplets};
 
 /// Relative accuracy of a load factor.
-const ACCURACY: f64 = 1e-6;
+const LOAD_FACTOR_ACCURACY: f64 = 1e-6;
 
 /// A stiffness and the part of it that comes from the forces at rest.
 pub(crate) struct LoadedStiffness<'a> {
@@ -37,8 +37,9 @@ impl<'a> LoadedStiffness<'a> {
         if !stands_at(0.0) || stands_at(limit) {
             return None;
         }
-        let (mut low, mut high) = (0.0, limit);
-        while high - low > ACCURACY * high && high > f64::MIN_POSITIVE {
+        let mut low = 0.0;
+        let mut high = limit;
+        while high - low > LOAD_FACTOR_ACCURACY * high && high > f64::MIN_POSITIVE {
             let middle = 0.5 * (low + high);
             if stands_at(middle) {
                 low = middle;

@@ -6,21 +6,21 @@ use crate::linalg::{SparseFactor, SparseMatrix, largest, weighted_dot};
 use crate::structure::{HeldBase, Structure, Triplets, unknown_numbers};
 
 /// Mass that keeps mechanisms regular, relative to a mass as large as the stiffness.
-const REGULAR: f64 = 1e-12;
+const REGULARISING_MASS_RATIO: f64 = 1e-12;
 /// Work of a mechanism on the stiffness, relative to the work of its largest entries.
-const FREE: f64 = 1e-12;
+const FREE_WORK_RATIO: f64 = 1e-12;
 /// Relative work of a mechanism if no factorization has failed.
 ///
 /// Elements added up leave 3e-17; a column of a thousand beams one above the other has 1e-12.
-const SURELY_FREE: f64 = f64::EPSILON;
+const CERTAINLY_FREE_WORK_RATIO: f64 = f64::EPSILON;
 /// Relative work of the softest displacement above which there is no mechanism.
-const FIRM: f64 = 1e-6;
+const FIRM_WORK_RATIO: f64 = 1e-6;
 /// Fraction of the largest displacement above which a degree of freedom takes part in a mechanism.
-const TAKES_PART: f64 = 0.1;
+const MECHANISM_PART_FRACTION: f64 = 0.1;
 /// Largest number of independent mechanisms that are reported.
-const MOST_MOTIONS: usize = 32;
+const MAX_REPORTED_MOTIONS: usize = 32;
 /// Number of inverse iterations for each.
-const ITERATIONS: usize = 3;
+const INVERSE_ITERATION_COUNT: usize = 3;
 
 /// Stiffness (including the tangent of the nonlinear force at rest), mass and base of a structure.
 #[derive(Clone, Copy)]
@@ -38,15 +38,16 @@ impl AtRest<'_> {
     pub(crate) fn check(&self, held: &mut SparseFactor) -> Result<()> {
         let regular = Regular::held(self).1;
         let softest = regular.softest(held, &[]);
-        if softest.is_some_and(|motion| regular.share_of_work(&motion) > FIRM) {
+        if softest.is_some_and(|motion| regular.relative_work(&motion) > FIRM_WORK_RATIO) {
             return Ok(());
         }
-        self.motion(SURELY_FREE).map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
+        self.motion(CERTAINLY_FREE_WORK_RATIO)
+            .map_or(Ok(()), |cause| Err(Error::Stability(Box::new(cause))))
     }
 
     /// The mechanism that causes a failure; `None` if there is none.
     pub(crate) fn mechanism(&self) -> Option<StabilityError> {
-        self.motion(FREE)
+        self.motion(FREE_WORK_RATIO)
     }
 
     /// Cause of `error`, for a structure without equilibrium or factors.
@@ -71,13 +72,13 @@ pub(crate) fn unresisted(
     stiffness: &SparseMatrix,
     others: [&SparseMatrix; 2],
 ) -> Option<StabilityError> {
-    let scaled = |matrix: &SparseMatrix| {
+    let terms = [stiffness, others[0], others[1]].map(|matrix| {
         let largest = largest(&matrix.diagonal());
-        if largest > 0.0 { largest.recip() } else { 0.0 }
-    };
-    let terms = [stiffness, others[0], others[1]].map(|matrix| (scaled(matrix), matrix));
+        let factor = if largest > 0.0 { largest.recip() } else { 0.0 };
+        (factor, matrix)
+    });
     let sum = SparseMatrix::weighted_sum(stiffness.order(), &terms);
-    let dofs = Regular::new(sum, 1.0, &[]).free_dofs(FREE)?;
+    let dofs = Regular::new(sum, 1.0, &[]).free_dofs(FREE_WORK_RATIO)?;
     let place = place(structure, &dofs);
     Some(StabilityError::Mechanism { dofs, place, massless: true })
 }
@@ -125,16 +126,17 @@ impl Regular {
         let mut is_absent = vec![true; diagonal.len()];
         for &(row, column, value) in matrix.entries() {
             if value != 0.0 {
-                (is_absent[row], is_absent[column]) = (false, false);
+                is_absent[row] = false;
+                is_absent[column] = false;
             }
         }
         let added: Vec<f64> = diagonal
             .into_iter()
             .enumerate()
-            .map(|(i, own)| match mass.get(i) {
-                Some(mass) if *mass > 0.0 => REGULAR * spring * mass / heaviest,
-                _ if own > 0.0 => REGULAR * own,
-                _ if is_absent[i] => REGULAR * spring,
+            .map(|(i, entry)| match mass.get(i) {
+                Some(mass) if *mass > 0.0 => REGULARISING_MASS_RATIO * spring * mass / heaviest,
+                _ if entry > 0.0 => REGULARISING_MASS_RATIO * entry,
+                _ if is_absent[i] => REGULARISING_MASS_RATIO * spring,
                 _ => 0.0,
             })
             .collect();
@@ -154,19 +156,21 @@ impl Regular {
     /// All such displacements together: by the length of their rows in a basis that the regular part makes
     /// orthonormal, so that neither the choice of the basis nor the numbering of degrees of freedom matters.
     fn free_dofs(&self, free: f64) -> Option<Vec<usize>> {
-        let (n, mut factor) = (self.added.len(), self.factor()?);
+        let n = self.added.len();
+        let mut factor = self.factor()?;
         let mut basis: Vec<Vec<f64>> = Vec::new();
-        while basis.len() < MOST_MOTIONS.min(n) {
+        while basis.len() < MAX_REPORTED_MOTIONS.min(n) {
             match self.softest(&mut factor, &basis) {
-                Some(motion) if self.share_of_work(&motion) <= free => basis.push(motion),
+                Some(motion) if self.relative_work(&motion) <= free => basis.push(motion),
                 _ => break,
             }
         }
-        let part = |i: usize| basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
-        let moves = |i: usize| if self.added[i] > 0.0 { part(i) } else { 0.0 };
-        let parts: Vec<f64> = (0..n).map(moves).collect();
-        let most = largest(&parts);
-        (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > TAKES_PART * most).collect())
+        let mut parts = vec![0.0; n];
+        for (i, part) in parts.iter_mut().enumerate().filter(|(i, _)| self.added[*i] > 0.0) {
+            *part = basis.iter().map(|motion| motion[i] * motion[i]).sum::<f64>().sqrt();
+        }
+        let limit = MECHANISM_PART_FRACTION * largest(&parts);
+        (!basis.is_empty()).then(|| (0..n).filter(|&i| parts[i] > limit).collect())
     }
 
     /// The softest displacement independent of `basis`, by a factored stiffness.
@@ -174,13 +178,13 @@ impl Regular {
         // Inverse iteration from a vector of mixed signs and sizes.
         let mut motion: Vec<f64> =
             (0..self.added.len()).map(|i| (1.0 + i as f64).sin() + 0.5).collect();
-        for _ in 0..ITERATIONS {
+        for _ in 0..INVERSE_ITERATION_COUNT {
             let mut force: Vec<f64> = motion.iter().zip(&self.added).map(|(u, r)| u * r).collect();
             factor.solve(&mut force);
             motion = force;
-            for known in basis.iter().chain(basis) {
-                let share = weighted_dot(&self.added, known, &motion);
-                motion.iter_mut().zip(known).for_each(|(u, known)| *u -= share * known);
+            for direction in basis.iter().chain(basis) {
+                let component = weighted_dot(&self.added, direction, &motion);
+                motion.iter_mut().zip(direction).for_each(|(u, unit)| *u -= component * unit);
             }
             // First divided by the largest entry, since squares may overflow.
             let size = largest(&motion);
@@ -197,14 +201,14 @@ impl Regular {
     /// Work of a displacement on the matrix, relative to the work of its largest entries.
     ///
     /// Degrees of freedom without entries count with a spring: beside such a displacement all others are rounding.
-    fn share_of_work(&self, motion: &[f64]) -> f64 {
-        let mut around: f64 = self.absent.iter().map(|&i| self.spring * motion[i].powi(2)).sum();
+    fn relative_work(&self, motion: &[f64]) -> f64 {
+        let mut scale: f64 = self.absent.iter().map(|&i| self.spring * motion[i].powi(2)).sum();
         let mut work = 0.0_f64;
         for &(row, column, value) in self.matrix.entries() {
             let product = motion[row] * value * motion[column];
             work += product;
-            around += product.abs();
+            scale += product.abs();
         }
-        if around > 0.0 { work.abs() / around } else { 0.0 }
+        if scale > 0.0 { work.abs() / scale } else { 0.0 }
     }
 }

@@ -11,7 +11,7 @@ pub(crate) mod signs;
 pub(crate) mod supports;
 
 use crate::coupled::base::influence::Influence;
-use crate::coupled::base::transformation::{ModalBasis, Terms, Transformation};
+use crate::coupled::base::transformation::{ModalBasis, Transformation};
 use crate::coupled::model::assembled::Assembled;
 use crate::error::Result;
 use crate::linalg::matrix::{Diagonals, Matrix};
@@ -57,8 +57,8 @@ impl Model {
 
     /// This structure in modal coordinates.
     pub(crate) fn in_modes(self, assembled: &Assembled, modes: ModalBasis) -> Self {
-        let convert = |vector: &Terms| modes.translation(vector, &assembled.mass);
-        let influence = Arc::new(assembled.influence.converted(convert));
+        let influence =
+            assembled.influence.converted(|vector| modes.translation(vector, &assembled.mass));
         let count = modes.count();
         let damping = if modes.coupled_damping.is_empty() {
             Matrix::Diagonal(modes.damping.clone())
@@ -72,7 +72,7 @@ impl Model {
             damped: !damping.is_empty(),
             damping,
             stiffness: Matrix::Diagonal(modes.stiffness.clone()),
-            influence,
+            influence: Arc::new(influence),
             transformation: Transformation::Modes(Arc::new(modes)),
             elimination: Elimination::default(),
             ..self

@@ -9,7 +9,6 @@ use crate::coupled::scheme::SchemeCoefficients;
 use crate::error::{Error, Result};
 use crate::geometry::check_count;
 use crate::linalg::CompressedMatrix;
-use crate::linalg::matrix::Matrix;
 use crate::linalg::{SparseFactor, SparseMatrix, sparse_condition, transposed_multiply_add};
 
 /// The effective stiffness K_eff, factored, and the Delassus operator.
@@ -30,7 +29,7 @@ pub(crate) enum Factor {
     Diagonal(Vec<f64>),
 }
 
-pub(crate) const NAME: &str = "effective stiffness matrix";
+pub(crate) const EFFECTIVE_STIFFNESS_NAME: &str = "effective stiffness matrix";
 
 impl Operators {
     /// Condenses the factored K_eff with this tangent.
@@ -43,10 +42,10 @@ impl Operators {
         factor: Factor,
         tangent: SparseMatrix,
     ) -> Result<Self> {
-        let solve = |rhs: &mut [f64]| factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, base, soil, model.coordinates)?;
-        let means = |u: &[f64], out: &mut [f64]| base.means(u, out);
-        let delassus = delassus.with_parts(soil, &columns, means);
+        let (columns, delassus) =
+            condense(|rhs| factor.solve_many(rhs), base, soil, model.coordinates)?;
+        let delassus =
+            delassus.with_parts(soil, &columns, |u: &[f64], out: &mut [f64]| base.means(u, out));
         Ok(Self { tangent, factor, columns, delassus })
     }
 
@@ -90,12 +89,16 @@ fn effective_stiffness(
     c: &SchemeCoefficients,
     tangent: &SparseMatrix,
 ) -> Result<SparseMatrix> {
-    let [mass, damping, stiffness] =
-        [&model.mass, &model.damping, &model.stiffness].map(Matrix::as_sparse);
-    let k = c.displacement[0];
-    let terms =
-        [(c.acceleration[0], &*mass), (c.velocity[0], &*damping), (k, &*stiffness), (k, tangent)];
-    SparseMatrix::sum(NAME, model.coordinates, &terms)
+    let mass = model.mass.as_sparse();
+    let damping = model.damping.as_sparse();
+    let stiffness = model.stiffness.as_sparse();
+    let terms = [
+        (c.acceleration[0], &*mass),
+        (c.velocity[0], &*damping),
+        (c.displacement[0], &*stiffness),
+        (c.displacement[0], tangent),
+    ];
+    SparseMatrix::sum(EFFECTIVE_STIFFNESS_NAME, model.coordinates, &terms)
 }
 
 impl Factor {
@@ -106,7 +109,7 @@ impl Factor {
         tangent: &SparseMatrix,
     ) -> Result<Box<SparseFactor>> {
         let matrix = effective_stiffness(model, coefficients, tangent)?;
-        SparseFactor::of(NAME, &matrix, &model.elimination).map(Box::new)
+        SparseFactor::of(EFFECTIVE_STIFFNESS_NAME, &matrix, &model.elimination).map(Box::new)
     }
 
     /// Inverts K_eff of modes, or factors it if the damping couples them.
@@ -122,7 +125,7 @@ impl Factor {
         if inverse.iter().all(|x| x.is_finite()) {
             return Ok(Self::Diagonal(inverse));
         }
-        Err(Error::Singular { matrix: NAME, order: model.coordinates })
+        Err(Error::Singular { matrix: EFFECTIVE_STIFFNESS_NAME, order: model.coordinates })
     }
 
     /// Solves for many right-hand sides, one after the other, and overwrites them.

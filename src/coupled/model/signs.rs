@@ -8,9 +8,9 @@ use crate::structure::{HeldBase, Triplets, stiffest};
 /// Stiffness of springs that hold the base and of constraints, relative to the largest stiffness.
 ///
 /// So large that base and constraints do not move.
-pub(crate) const FIRMLY: f64 = 1e6;
+pub(crate) const FIRM_SPRING_FACTOR: f64 = 1e6;
 /// Remainder of a zero after assembly and factors, relative to the diagonal and to the largest stiffness.
-const ROUNDING: f64 = 1e-12;
+const SIGN_ROUNDING_TOLERANCE: f64 = 1e-12;
 
 /// Error for a symmetric K that is not positive semi-definite with the base held.
 pub(crate) fn check_signs(
@@ -18,13 +18,18 @@ pub(crate) fn check_signs(
     [mass, damping, stiffness]: [&SparseMatrix; 3],
 ) -> Result<()> {
     let tie = stiffest(stiffness);
-    let held = HeldBase::new(base.nodes(), stiffness, FIRMLY * tie);
+    let held = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * tie);
     let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
-    if matrix.asymmetry() > ROUNDING {
+    if matrix.asymmetry() > SIGN_ROUNDING_TOLERANCE {
         return Ok(());
     }
     let constrained = constrain(&matrix, &multipliers(&matrix, [mass, damping]), held.spring)?;
-    match indefinite_row(&constrained, ROUNDING, ROUNDING * tie, &Elimination::default()) {
+    match indefinite_row(
+        &constrained,
+        SIGN_ROUNDING_TOLERANCE,
+        SIGN_ROUNDING_TOLERANCE * tie,
+        &Elimination::default(),
+    ) {
         Some(row) => {
             let diagonal = stiffness.diagonal()[row];
             Err(Error::Indefinite { matrix: HeldBase::NAME, row, diagonal })
@@ -51,7 +56,8 @@ fn multipliers(stiffness: &SparseMatrix, others: [&SparseMatrix; 2]) -> Vec<bool
     let mut multipliers: Vec<bool> = stiffness.diagonal().iter().map(|k| *k == 0.0).collect();
     for (row, column, value) in others.into_iter().flat_map(SparseMatrix::entries) {
         if value != 0.0 {
-            (multipliers[row], multipliers[column]) = (false, false);
+            multipliers[row] = false;
+            multipliers[column] = false;
         }
     }
     multipliers

@@ -33,30 +33,30 @@ use crate::linalg::{SparseMatrix, largest};
 use crate::structure::{Structure, Tangent, UNNOTICED};
 
 /// Largest lag that is accepted, far above rounding; also the largest accepted error of contact nodes' weights.
-const LAG: f64 = 1e-6;
+const MAX_CONTACT_NODE_LAG: f64 = 1e-6;
 /// Largest ignored work r·K r, relative to the largest stiffness.
-const FORCE: f64 = 3e-10;
+const MAX_IGNORED_REACTION: f64 = 3e-10;
 /// Largest force of a row of K s, relative to |K| |s|.
-const ROW: f64 = 3e-10;
+const ROW_FORCE_TOLERANCE: f64 = 3e-10;
 /// Largest force of a row of K s relative to the diagonal, for rows in which all entries are rounding.
-const DIAGONAL: f64 = 1e-13;
+const DIAGONAL_FORCE_TOLERANCE: f64 = 1e-13;
 /// Work r·K r that counts as rounding, relative to |r|·|K| |r|; elements added up leave 3e-17.
-const WORK: f64 = 1e-15;
+const WORK_ROUNDING: f64 = 1e-15;
 /// Largest |r − s| that counts as no bending.
-const BENT: f64 = 1e-9;
+const BENDING_TOLERANCE: f64 = 1e-9;
 /// Largest |r − s| at which r is replaced by s.
-const WHOLE: f64 = 0.25;
+const MAX_ROUNDING_DISTANCE: f64 = 0.25;
 
 /// Rounding of a nonlinear force at the static state, relative to ε, the largest stiffness and the displacement.
-const ROUNDED: f64 = 16.0;
+const NONLINEAR_ROUNDING_FACTOR: f64 = 16.0;
 
 /// Largest error of a contact node's displacement under a rigid translation of 1 m.
-const EXACT: f64 = 1e-14;
+const TRANSLATION_ERROR_TOLERANCE: f64 = 1e-14;
 /// Translations (m) that no nonlinear force may resist.
-const TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
+const TRIAL_TRANSLATIONS: [f64; 6] = [1e-3, -1e-3, 1.0, -1.0, 1e3, -1e3];
 
 /// Names of the translations.
-const DIRECTIONS: [&str; 3] = ["to the right", "upwards", "along y"];
+const TRANSLATION_NAMES: [&str; 3] = ["to the right", "upwards", "along y"];
 
 /// Error unless a structure translates freely; rounds its translations to whole numbers.
 ///
@@ -71,7 +71,7 @@ pub(crate) fn check(
     translations: &mut [Vec<f64>],
 ) -> Result<()> {
     let lag = base.translation_error(translations);
-    for (translation, direction) in translations.iter_mut().zip(DIRECTIONS) {
+    for (translation, direction) in translations.iter_mut().zip(TRANSLATION_NAMES) {
         let resistance = Resistance::new(stiffness, translation);
         let square = stiffness.form(translation, translation).abs();
         let is_noticed = square > UNNOTICED * mass.form(translation, translation);
@@ -79,19 +79,28 @@ pub(crate) fn check(
             let Resistance { force, dof, ratio, .. } = resistance;
             return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
-        if resistance.is_free || !is_noticed && resistance.bent <= LAG {
+        if resistance.is_free || !is_noticed && resistance.bent <= MAX_CONTACT_NODE_LAG {
             for r in translation.iter_mut() {
                 *r = r.round();
             }
         }
     }
-    require_part("structure", lag <= LAG, "its contact nodes must be able to translate together")?;
+    require_part(
+        "structure",
+        lag <= MAX_CONTACT_NODE_LAG,
+        "its contact nodes must be able to translate together",
+    )?;
     for (direction, translation) in translations.iter_mut().enumerate() {
         base.translate_nodes(direction, translation);
     }
     let error = base.translation_error(translations);
     let needed = "1e-14 or less: contact nodes must be able to translate together";
-    require("error of the base under a rigid translation of 1 m", error, error <= EXACT, needed)?;
+    require(
+        "error of the base under a rigid translation of 1 m",
+        error,
+        error <= TRANSLATION_ERROR_TOLERANCE,
+        needed,
+    )?;
     Ok(())
 }
 
@@ -99,7 +108,7 @@ pub(crate) fn check(
 pub(crate) fn check_parts(influence: &Influence, base: &PlacedBase, dofs: usize) -> Result<()> {
     let mut means = vec![0.0; base.layout().len()];
     // A mean is a sum over the nodes above an element, and each may be rounded.
-    let exact = 10.0 * EXACT + base.nodes().len() as f64 * f64::EPSILON;
+    let exact = 10.0 * TRANSLATION_ERROR_TOLERANCE + base.nodes().len() as f64 * f64::EPSILON;
     for part in influence.parts() {
         for (direction, vector) in part.vectors.iter().enumerate() {
             base.means(&spread(vector, dofs), &mut means);
@@ -130,24 +139,26 @@ pub(crate) fn joined_by_force(
 ) -> Result<Vec<bool>> {
     let parts = influence.parts();
     let mut joined = vec![false; parts.len()];
-    let Some(own) = structure.nonlinear() else { return Ok(joined) };
+    let Some(nonlinear) = structure.nonlinear() else { return Ok(joined) };
     let n = displacement.len();
     let tangent = Tangent::at(structure, displacement)?;
     let stiffest = largest(&tangent.matrix.diagonal()).max(largest(&stiffness.diagonal()));
     let deformed = largest(displacement);
     let resistance = |translation: &[f64]| -> Result<Option<(f64, usize, f64)>> {
-        let [_, around] = products(&tangent.matrix, translation);
+        let [_, magnitudes] = products(&tangent.matrix, translation);
         let mut force = vec![0.0; n];
-        for distance in TRANSLATIONS {
+        for distance in TRIAL_TRANSLATIONS {
             let pairs = displacement.iter().zip(translation);
             let moved: Vec<f64> = pairs.map(|(u, r)| u + distance * r).collect();
             force.fill(0.0);
-            own.force(&moved, &mut force)?;
+            nonlinear.force(&moved, &mut force)?;
             for (dof, (force, before)) in force.iter().zip(static_force).enumerate() {
                 let force = force - before;
-                let scale = distance.abs() * around[dof] + before.abs();
-                let rounding = f64::EPSILON * stiffest * (distance.abs() + ROUNDED * deformed);
-                if force.is_nan() || force.abs() > ROW * scale + rounding {
+                let scale = distance.abs() * magnitudes[dof] + before.abs();
+                let rounding = f64::EPSILON
+                    * stiffest
+                    * (distance.abs() + NONLINEAR_ROUNDING_FACTOR * deformed);
+                if force.is_nan() || force.abs() > ROW_FORCE_TOLERANCE * scale + rounding {
                     let ratio = if scale > 0.0 { force.abs() / scale } else { f64::INFINITY };
                     return Ok(Some((force, dof, ratio)));
                 }
@@ -155,7 +166,7 @@ pub(crate) fn joined_by_force(
         }
         Ok(None)
     };
-    for (translation, direction) in influence.of_all(n).iter().zip(DIRECTIONS) {
+    for (translation, direction) in influence.of_all(n).iter().zip(TRANSLATION_NAMES) {
         if let Some((force, dof, ratio)) = resistance(translation)? {
             return Err(StructureError::Restrained { direction, force, dof, ratio }.into());
         }
@@ -188,22 +199,23 @@ struct Resistance {
 impl Resistance {
     fn new(stiffness: &SparseMatrix, translation: &[f64]) -> Self {
         let whole: Vec<f64> = translation.iter().map(|r| r.round()).collect();
-        let apart: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
-        let bent = largest(&apart);
+        let differences: Vec<f64> = translation.iter().zip(&whole).map(|(r, s)| r - s).collect();
+        let bent = largest(&differences);
         let [force, around] = products(stiffness, translation);
         let work: f64 = translation.iter().zip(&force).map(|(r, f)| r * f).sum();
         let scale: f64 = translation.iter().zip(&around).map(|(r, f)| (r * f).abs()).sum();
-        let is_whole = bent <= WHOLE;
+        let is_whole = bent <= MAX_ROUNDING_DISTANCE;
         let [force, around] = if is_whole { products(stiffness, &whole) } else { [force, around] };
         let diagonal = stiffness.diagonal();
-        let over = |scale: f64| if scale > 0.0 { work.abs() / scale } else { 0.0 };
-        let is_free = (0..translation.len())
-            .all(|i| force[i].abs() <= ROW * around[i] + DIAGONAL * diagonal[i].abs());
-        let ratio = |i: usize| if around[i] > 0.0 { force[i].abs() / around[i] } else { 0.0 };
+        let is_free = (0..translation.len()).all(|i| {
+            force[i].abs()
+                <= ROW_FORCE_TOLERANCE * around[i] + DIAGONAL_FORCE_TOLERANCE * diagonal[i].abs()
+        });
+        let ratio = |i: usize| ratio_or_zero(force[i].abs(), around[i]);
         let dof = (0..translation.len()).fold(0, |a, b| if ratio(b) > ratio(a) { b } else { a });
         Self {
-            work: over(scale),
-            reaction: over(stiffest(stiffness, &diagonal)),
+            work: ratio_or_zero(work.abs(), scale),
+            reaction: ratio_or_zero(work.abs(), stiffest(stiffness, &diagonal)),
             bent,
             is_free: is_whole && is_free,
             force: force.get(dof).copied().unwrap_or(0.0),
@@ -216,9 +228,16 @@ impl Resistance {
     ///
     /// The contact nodes stay behind by `lag` when pulled by springs `firmer` times as stiff as the largest stiffness.
     fn holds(&self, lag: f64, firmer: f64) -> bool {
-        let is_rounding = self.reaction <= FORCE || firmer * self.bent <= BENT || self.is_free;
-        self.work > WORK && (firmer * lag > LAG || !is_rounding)
+        let is_rounding = self.reaction <= MAX_IGNORED_REACTION
+            || firmer * self.bent <= BENDING_TOLERANCE
+            || self.is_free;
+        self.work > WORK_ROUNDING && (firmer * lag > MAX_CONTACT_NODE_LAG || !is_rounding)
     }
+}
+
+/// A value over its scale; zero without a scale.
+fn ratio_or_zero(value: f64, scale: f64) -> f64 {
+    if scale > 0.0 { value / scale } else { 0.0 }
 }
 
 /// Largest stiffness between two degrees of freedom; a support adds nothing to it.
@@ -226,13 +245,14 @@ impl Resistance {
 /// Without such entries, the largest stiffness on the diagonal.
 fn stiffest(stiffness: &SparseMatrix, diagonal: &[f64]) -> f64 {
     let between = stiffness.entries().filter(|(row, column, _)| row != column);
-    let most = between.fold(0.0_f64, |most, entry| most.max(entry.2.abs()));
-    if most > 0.0 { most } else { largest(diagonal) }
+    let stiffest = between.fold(0.0_f64, |largest, entry| largest.max(entry.2.abs()));
+    if stiffest > 0.0 { stiffest } else { largest(diagonal) }
 }
 
 /// The products A x and |A| |x|.
 fn products(matrix: &SparseMatrix, x: &[f64]) -> [Vec<f64>; 2] {
-    let [mut sums, mut sizes] = [vec![0.0; x.len()], vec![0.0; x.len()]];
+    let mut sums = vec![0.0; x.len()];
+    let mut sizes = vec![0.0; x.len()];
     for (row, column, value) in matrix.entries() {
         let term = value * x[column];
         sums[row] += term;

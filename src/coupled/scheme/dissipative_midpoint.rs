@@ -77,11 +77,14 @@ impl TimeScheme for DissipativeMidpoint {
         }
         let beta = 0.25 * (self.gamma + 0.5).powi(2);
         let (new_acceleration, new_velocity) = end_of_step(self.gamma, beta, time_step);
-        let [du, v, a] = new_velocity;
         SchemeCoefficients {
             displacement: [0.5, 0.0, 0.0],
             velocity: [1.0 / time_step, 0.0, 0.0],
-            acceleration: [du / time_step, (v - 1.0) / time_step, a / time_step],
+            acceleration: [
+                new_velocity[0] / time_step,
+                (new_velocity[1] - 1.0) / time_step,
+                new_velocity[2] / time_step,
+            ],
             new_velocity,
             new_acceleration,
             load_fraction: 0.5,

@@ -44,17 +44,21 @@ impl HhtAlpha {
 
 impl TimeScheme for HhtAlpha {
     fn coefficients(&self, time_step: f64) -> SchemeCoefficients {
-        let share = 1.0 + self.alpha;
-        let (gamma, beta) = (0.5 - self.alpha, 0.25 * (1.0 - self.alpha).powi(2));
+        let new_fraction = 1.0 + self.alpha;
+        let gamma = 0.5 - self.alpha;
+        let beta = 0.25 * (1.0 - self.alpha).powi(2);
         let (acceleration, velocity) = end_of_step(gamma, beta, time_step);
-        let [dv, v, a] = velocity;
         SchemeCoefficients {
-            displacement: [share, 0.0, 0.0],
-            velocity: [share * dv, share * v - self.alpha, share * a],
+            displacement: [new_fraction, 0.0, 0.0],
+            velocity: [
+                new_fraction * velocity[0],
+                new_fraction * velocity[1] - self.alpha,
+                new_fraction * velocity[2],
+            ],
             acceleration,
             new_velocity: velocity,
             new_acceleration: acceleration,
-            load_fraction: share,
+            load_fraction: new_fraction,
         }
     }
 }

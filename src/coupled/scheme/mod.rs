@@ -126,16 +126,17 @@ impl SchemeCoefficients {
     ///
     /// It does if Δu = Δt (v₀+v₁)/2, a* = (v₁−v₀)/Δt and u* = u₀ + Δu/2.
     pub(crate) fn conserves_energy(&self, time_step: f64) -> bool {
-        let (h, new) = (time_step, self.new_velocity);
+        let h = time_step;
+        let new = self.new_velocity;
         let same = |a: f64, b: f64, scale: f64| (a - b).abs() <= 1e-12 * scale;
         let inertia = [new[0] / h, (new[1] - 1.0) / h, new[2] / h];
         let mean = [0.5 * h * new[0], 0.5 * h * (new[1] + 1.0), 0.5 * h * new[2]];
         let units = [1.0, h, h * h];
         (0..3).all(|k| {
-            let (one, half) = if k == 0 { (1.0, 0.5) } else { (0.0, 0.0) };
+            let increment_part = if k == 0 { 1.0 } else { 0.0 };
             same(self.acceleration[k], inertia[k], units[k] / (h * h))
-                && same(mean[k], one, units[k])
-                && same(self.displacement[k], half, units[k])
+                && same(mean[k], increment_part, units[k])
+                && same(self.displacement[k], 0.5 * increment_part, units[k])
         })
     }
 
@@ -173,7 +174,9 @@ mod tests {
         let omega = 3.0_f64;
         let time_step = std::f64::consts::TAU / omega / steps as f64;
         let c = scheme.coefficients(time_step);
-        let (mut u, mut v, mut a) = (1.0, 0.0, -omega * omega);
+        let mut u = 1.0_f64;
+        let mut v = 0.0;
+        let mut a = -omega * omega;
         for _ in 0..steps {
             let stiffness = c.acceleration[0] + omega * omega * c.displacement[0];
             let known = SchemeCoefficients::apply(c.acceleration, 0.0, v, a)

@@ -10,7 +10,7 @@
 
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load_factor::LoadedStiffness;
-use crate::coupled::model::signs::{FIRMLY, with_constraints};
+use crate::coupled::model::signs::{FIRM_SPRING_FACTOR, with_constraints};
 use crate::coupled::statics::static_state::StaticState;
 use crate::coupled::statics::strength::compliance_at_rest;
 use crate::error::{Error, Result, StabilityError};
@@ -20,8 +20,8 @@ use crate::linalg::{
 };
 use crate::structure::{Structure, Tangent, stiffest};
 
-const NAME: &str = "stiffness matrix on the ground";
-const COMPLIANCE: &str = "static compliance of the ground";
+const GROUNDED_STIFFNESS_NAME: &str = "stiffness matrix on the ground";
+const GROUND_COMPLIANCE_NAME: &str = "static compliance of the ground";
 /// Common settlement or translation under a force, relative to the largest that the compliance may give.
 const DATUM_SHIFT: f64 = 10.0;
 
@@ -50,8 +50,7 @@ pub(crate) fn has_p_delta(structure: &dyn Structure) -> bool {
 /// Error for a structure with P–Δ whose static state is an unstable equilibrium.
 ///
 /// Elements that are closed at rest are bonded to the ground. The load factor is the one with all elements bonded, if it is
-/// below 1. `condensed`: the structure on the degrees of freedom of its
-/// base, if it is known. It needs a much smaller factor.
+/// below 1. `condensed`: the structure condensed on its base, if it was, whose matrix is much cheaper to factor.
 pub(crate) fn check(
     grounded: Grounded<'_>,
     condensed: Option<&Assembled>,
@@ -67,16 +66,15 @@ pub(crate) fn check(
     };
     let is_closed = |element: usize| at_rest.modes[element].is_closed();
     let on_base = condensed.unwrap_or(assembled);
-    let small = Grounded { assembled: on_base, ..grounded };
-    let stands = |grounded: Grounded<'_>, stiffness: &SparseMatrix| {
-        GroundStiffness::new(grounded, is_closed).is_none_or(|ground| ground.holds(stiffness))
-    };
-    if stands(small, on_base.stiffness_at_rest()) {
+    let ground_of_base =
+        GroundStiffness::new(Grounded { assembled: on_base, ..grounded }, is_closed);
+    if ground_of_base.is_none_or(|ground| ground.holds(on_base.stiffness_at_rest())) {
         return Ok(());
     }
     let Some(ground) = GroundStiffness::new(grounded, is_closed) else { return Ok(()) };
     // Without a factor between 0 and 1 the cause is not P–Δ, such as a mechanism, which has its own error.
-    let factor_on = |ground: &GroundStiffness<'_>| loaded.factor(1.0, |own| ground.holds(own));
+    let factor_on =
+        |ground: &GroundStiffness<'_>| loaded.factor(1.0, |stiffness| ground.holds(stiffness));
     let bonded = GroundStiffness::new(grounded, |_| true);
     let factor = bonded.as_ref().and_then(factor_on).or_else(|| factor_on(&ground));
     let Some(factor) = factor else { return Ok(()) };
@@ -96,7 +94,7 @@ fn stands_with_tangent(
     Tangent::at(structure, &at_rest.displacement)
         .and_then(|tangent| {
             let terms = [(1.0, &*assembled.stiffness), (1.0, &tangent.matrix)];
-            SparseMatrix::sum(NAME, assembled.dofs(), &terms)
+            SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, assembled.dofs(), &terms)
         })
         .is_ok_and(|stiffness| ground.holds(&stiffness))
 }
@@ -119,7 +117,8 @@ impl<'a> GroundStiffness<'a> {
     /// Stiffness of the ground under the closed elements; `None` unless its compliance is positive definite.
     fn new(grounded: Grounded<'a>, is_closed: impl Fn(usize) -> bool) -> Option<Self> {
         let assembled = grounded.assembled;
-        let (base, layout) = (&assembled.base, assembled.base.layout());
+        let base = &assembled.base;
+        let layout = base.layout();
         let places: Vec<usize> =
             (0..layout.len()).filter(|place| is_closed(layout.origin(*place)[1])).collect();
         let factor = factored_compliance(grounded, &places)?;
@@ -127,10 +126,10 @@ impl<'a> GroundStiffness<'a> {
         // Rows of Bᵀ.
         let size = places.len();
         let mut columns = vec![0.0; dofs.len() * size];
-        for (at, place) in places.iter().enumerate() {
+        for (column, place) in places.iter().enumerate() {
             for &(dof, weight) in &base.mean_row(*place) {
                 let row = dofs.binary_search(&dof).ok()?;
-                columns[row * size + at] += weight;
+                columns[row * size + column] += weight;
             }
         }
         let mut forces = columns.clone();
@@ -143,7 +142,7 @@ impl<'a> GroundStiffness<'a> {
                 matrix.add(*row, *column, mean);
             }
         }
-        let matrix = SparseMatrix::new(NAME, &matrix).ok()?;
+        let matrix = SparseMatrix::new(GROUNDED_STIFFNESS_NAME, &matrix).ok()?;
         Some(Self { assembled, matrix })
     }
 
@@ -151,10 +150,10 @@ impl<'a> GroundStiffness<'a> {
     fn holds(&self, stiffness: &SparseMatrix) -> bool {
         let terms = [(1.0, stiffness), (1.0, &self.matrix)];
         let matrices = self.assembled.matrices();
-        let penalty = FIRMLY * stiffest(stiffness);
-        SparseMatrix::sum(NAME, stiffness.order(), &terms)
+        let penalty = FIRM_SPRING_FACTOR * stiffest(stiffness);
+        SparseMatrix::sum(GROUNDED_STIFFNESS_NAME, stiffness.order(), &terms)
             .and_then(|sum| with_constraints(sum, matrices, penalty))
-            .and_then(|sum| SparseFactor::positive_definite(NAME, &sum))
+            .and_then(|sum| SparseFactor::positive_definite(GROUNDED_STIFFNESS_NAME, &sum))
             .is_ok()
     }
 }
@@ -166,17 +165,20 @@ impl<'a> GroundStiffness<'a> {
 /// where the compliance is not positive definite without.
 fn factored_compliance(grounded: Grounded<'_>, places: &[usize]) -> Option<SparseFactor> {
     let Grounded { assembled, soil, laws, .. } = grounded;
-    let (base, layout) = (&assembled.base, assembled.base.layout());
-    let entry = |i: usize, j: usize| match soil.as_diagonal() {
-        Some(diagonal) => diagonal[i],
-        None => soil[i * layout.len() + j],
+    let base = &assembled.base;
+    let layout = base.layout();
+    let by_force = |i: usize, j: usize| {
+        let entry = match soil.as_diagonal() {
+            Some(diagonal) => diagonal[i],
+            None => soil[i * layout.len() + j],
+        };
+        entry / base.area(j)
     };
-    let by_force = |i: usize, j: usize| entry(i, j) / base.area(j);
     let mut compliance = Triplets::new(places.len());
     for (row, &i) in places.iter().enumerate() {
         let [component, element] = layout.origin(i);
-        let of_law = compliance_at_rest(law_of(laws, element))[component.min(1)];
-        compliance.add(row, row, of_law / base.area(i));
+        let law_compliance = compliance_at_rest(law_of(laws, element))[component.min(1)];
+        compliance.add(row, row, law_compliance / base.area(i));
         // All columns, or the one of a diagonal.
         let columns = if soil.as_diagonal().is_some() { row..row + 1 } else { 0..places.len() };
         for column in columns {
@@ -187,22 +189,25 @@ fn factored_compliance(grounded: Grounded<'_>, places: &[usize]) -> Option<Spars
             }
         }
     }
-    let factored = |compliance: &Triplets| {
-        let matrix = SparseMatrix::new(COMPLIANCE, compliance).ok()?;
-        SparseFactor::positive_definite(COMPLIANCE, &matrix).ok()
-    };
-    factored(&compliance).or_else(|| {
-        let entries = compliance.entries().iter();
-        let largest_entry = entries.fold(0.0, |most: f64, (_, _, value)| value.abs().max(most));
-        let mut means = vec![0.0; layout.len()];
-        for translation in assembled.influence.of_all(assembled.dofs()) {
-            base.means(&translation, &mut means);
-            let moved: Vec<f64> = places.iter().map(|place| means[*place]).collect();
-            if largest(&moved) > 0.0 {
-                let row: Vec<(usize, f64)> = moved.into_iter().enumerate().collect();
-                compliance.add_outer(&row, DATUM_SHIFT * largest_entry);
-            }
+    if let Some(factor) = positive_definite(&compliance) {
+        return Some(factor);
+    }
+    let entries = compliance.entries().iter();
+    let max_entry = entries.fold(0.0, |max: f64, (_, _, value)| value.abs().max(max));
+    let mut means = vec![0.0; layout.len()];
+    for translation in assembled.influence.of_all(assembled.dofs()) {
+        base.means(&translation, &mut means);
+        let displacement: Vec<f64> = places.iter().map(|place| means[*place]).collect();
+        if largest(&displacement) > 0.0 {
+            let row: Vec<(usize, f64)> = displacement.into_iter().enumerate().collect();
+            compliance.add_outer(&row, DATUM_SHIFT * max_entry);
         }
-        factored(&compliance)
-    })
+    }
+    positive_definite(&compliance)
+}
+
+/// Factors of a compliance; `None` unless it is positive definite.
+fn positive_definite(compliance: &Triplets) -> Option<SparseFactor> {
+    let matrix = SparseMatrix::new(GROUND_COMPLIANCE_NAME, compliance).ok()?;
+    SparseFactor::positive_definite(GROUND_COMPLIANCE_NAME, &matrix).ok()
 }

@@ -12,9 +12,9 @@ use crate::coupled::model::operators::condense;
 use crate::error::{Error, Result};
 use crate::linalg::{CompressedMatrix, SparseFactor, SparseMatrix, sparse_condition};
 
-pub(super) const NAME: &str = "static stiffness matrix";
+pub(super) const STATIC_STIFFNESS_NAME: &str = "static stiffness matrix";
 /// Initial stiffness of the fictitious springs, as a fraction of the foundation's.
-pub(super) const PROXIMAL_SHARE: f64 = 1e-4;
+pub(super) const PROXIMAL_SPRING_FRACTION: f64 = 1e-4;
 
 /// Factored K + D + εM.
 pub(crate) struct Floating {
@@ -36,8 +36,8 @@ impl Floating {
     pub(crate) fn new(assembled: &Assembled, tangent: &SparseMatrix, springs: f64) -> Result<Self> {
         let Assembled { stiffness, mass, .. } = assembled;
         let terms = [(1.0, &**stiffness), (1.0, tangent), (springs, mass)];
-        let matrix = SparseMatrix::sum(NAME, assembled.dofs(), &terms)?;
-        let factor = SparseFactor::of(NAME, &matrix, &assembled.elimination)?;
+        let matrix = SparseMatrix::sum(STATIC_STIFFNESS_NAME, assembled.dofs(), &terms)?;
+        let factor = SparseFactor::of(STATIC_STIFFNESS_NAME, &matrix, &assembled.elimination)?;
         Ok(Self { springs, matrix: matrix.into(), factor })
     }
 
@@ -67,8 +67,9 @@ impl Compliance {
         base: &PlacedBase,
         soil: &CompressedMatrix,
     ) -> Result<Self> {
-        let solve = |rhs: &mut [f64]| floating.factor.solve_many(rhs);
-        let (columns, delassus) = condense(solve, base, soil, floating.matrix.order())?;
+        let order = floating.matrix.order();
+        let (columns, delassus) =
+            condense(|rhs| floating.factor.solve_many(rhs), base, soil, order)?;
         Ok(Self { floating, columns, delassus })
     }
 }
@@ -76,11 +77,11 @@ impl Compliance {
 /// Initial stiffness of the fictitious springs per mass, ε.
 pub(crate) fn springs(assembled: &Assembled, soil: &CompressedMatrix) -> Result<f64> {
     let foundation = vertical_stiffness(soil, &assembled.base);
-    let stiffness = PROXIMAL_SHARE * foundation / total_mass(assembled);
+    let stiffness = PROXIMAL_SPRING_FRACTION * foundation / total_mass(assembled);
     if stiffness.is_finite() {
         return Ok(stiffness);
     }
-    Err(Error::Singular { matrix: NAME, order: assembled.dofs() })
+    Err(Error::Singular { matrix: STATIC_STIFFNESS_NAME, order: assembled.dofs() })
 }
 
 /// Mass that moves in a vertical translation.
@@ -91,13 +92,16 @@ fn total_mass(assembled: &Assembled) -> f64 {
 
 /// Vertical force per settlement of the soil under a uniform pressure.
 fn vertical_stiffness(soil: &CompressedMatrix, base: &PlacedBase) -> f64 {
-    let (areas, size) = (base.areas(), base.layout().len());
-    let (count, area) = (areas.len(), areas.iter().sum::<f64>());
-    let settled: f64 = match soil.as_diagonal() {
-        Some(diagonal) => areas.iter().zip(diagonal).map(|(area, own)| area * own).sum(),
+    let areas = base.areas();
+    let size = base.layout().len();
+    let count = areas.len();
+    let area = areas.iter().sum::<f64>();
+    // Integral of the settlement under a unit pressure.
+    let settled_volume: f64 = match soil.as_diagonal() {
+        Some(diagonal) => areas.iter().zip(diagonal).map(|(area, entry)| area * entry).sum(),
         None => {
             (0..count).map(|p| areas[p] * (0..count).map(|q| soil[p * size + q]).sum::<f64>()).sum()
         }
     };
-    area * area / settled
+    area * area / settled_volume
 }

@@ -5,7 +5,9 @@ use std::rc::Rc;
 
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::model::assembled::Assembled;
-use crate::coupled::statics::compliance::{Compliance, Floating, NAME, PROXIMAL_SHARE, springs};
+use crate::coupled::statics::compliance::{
+    Compliance, Floating, PROXIMAL_SPRING_FRACTION, STATIC_STIFFNESS_NAME, springs,
+};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
@@ -13,36 +15,36 @@ use crate::linalg::{CompressedMatrix, SparseMatrix, dot, largest, transposed_mul
 use crate::structure::{Structure, Tangent, nonlinear_state};
 
 /// Largest unbalanced force of an equilibrium, relative to the load.
-const EQUILIBRIUM: f64 = 1e-7;
+const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
 /// Condition beyond which rounding of K u exceeds that force (`tests/coupled/conditioning.rs`).
-const STIFFEST_CONDITION: f64 = 1e10;
+const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 /// Largest number of proximal iterations.
-const ITERATIONS: usize = 500;
+const MAX_PROXIMAL_ITERATIONS: usize = 500;
 /// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding
 /// lets a very stiff structure converge no further.
-const LATE: usize = 100;
+const LATE_ITERATION_COUNT: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
 /// Largest unbalanced force of a steady drift, relative to the load.
-const DRIFT: f64 = 1e-8;
+const STEADY_DRIFT_TOLERANCE: f64 = 1e-8;
 /// Softest springs, as a fraction of their initial stiffness.
-const SOFTEST: f64 = 1e-9;
+const MIN_SPRING_FRACTION: f64 = 1e-9;
 /// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
-/// than [`ROUNDING`] of the load: a structure far softer than the ground deforms only slowly against springs that
+/// than [`SPRING_FORCE_ROUNDING`] of the load: a structure far softer than the ground deforms only slowly against springs that
 /// are stiffer than itself.
-const SLOW: f64 = 0.2;
+const SLOW_DECREASE_RATIO: f64 = 0.2;
 /// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
-const STIFFENED: f64 = 1e4;
+const MAX_STIFFENING_FACTOR: f64 = 1e4;
 /// Force of the springs, relative to the load, below which rounding may stop its decrease.
-const ROUNDING: f64 = 1e-6;
+const SPRING_FORCE_ROUNDING: f64 = 1e-6;
 /// Iterations after which only a slow decrease that the condition explains counts as rounding. Even a force below
-/// [`ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
-const LONG: usize = 20;
+/// [`SPRING_FORCE_ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
+const ROUNDING_CHECK_ITERATION: usize = 20;
 /// Iterations on springs that must stay stiff (P–Δ) from one extrapolation to the next.
 const EXTRAPOLATION_INTERVAL: usize = 20;
 /// Smallest ratio of two successive steps from which they are extrapolated; with a smaller one they converge soon.
-const SLOWEST_RATIO: f64 = 0.5;
+const MIN_EXTRAPOLATED_RATIO: f64 = 0.5;
 /// Smallest squared cosine between two successive steps that are extrapolated.
-const COLLINEAR: f64 = 0.9999;
+const COLLINEARITY_THRESHOLD: f64 = 0.9999;
 
 /// A structure on a soil at rest.
 pub(crate) struct Standing<'a> {
@@ -73,63 +75,68 @@ impl Standing<'_> {
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
         let Self { assembled, structure, shared, .. } = *self;
-        let (base, mut springs) = (&assembled.base, self.springs()?);
-        let stiffest = springs.stiffness;
-        let is_first = |own: &Compliance| assembled.linear && own.floating.springs == stiffest;
+        let base = &assembled.base;
+        let mut springs = self.springs()?;
+        let initial_stiffness = springs.stiffness;
         let mut solver = ContactSolver::new(base.layout());
         let mut search = ModeSearch::new(base.layout(), base.areas(), false, ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
-        let (mut tangent, mut compliance) = (Tangent::new(assembled.dofs()), None::<Compliance>);
-        let (mut change, mut iterations) = (f64::INFINITY, 0);
+        let mut tangent = Tangent::new(assembled.dofs());
+        let mut compliance = None::<Compliance>;
+        let mut change = f64::INFINITY;
+        let mut iterations = 0;
         let mut last_step = Vec::new();
-        while iterations < ITERATIONS {
+        while iterations < MAX_PROXIMAL_ITERATIONS {
             iterations += 1;
             tangent.refill(structure, &state.displacement)?;
             let current = match compliance.take() {
                 Some(current) if assembled.linear => current,
                 _ => {
                     solver.invalidate();
-                    self.held(&mut springs, &tangent.matrix, STIFFENED * stiffest)?
+                    let max_stiffness = MAX_STIFFENING_FACTOR * initial_stiffness;
+                    self.stiffened(&mut springs, &tangent.matrix, max_stiffness)?
                 }
             };
             let current = compliance.insert(current);
-            let found =
+            let next =
                 self.next(current, &mut search, &mut solver, (laws, start), load, &mut state)?;
-            let Some(displacement) = found else { break };
-            let pull = springs.force(assembled, &displacement, &state.displacement);
-            let previous = std::mem::replace(&mut change, measure.norm(&pull));
+            let Some(displacement) = next else { break };
+            let spring_force = springs.force(assembled, &displacement, &state.displacement);
+            let previous = std::mem::replace(&mut change, measure.norm(&spring_force));
             let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
             state.traction.copy_from_slice(&solver.traction);
-            if has_converged([previous, change], iterations, current) {
-                // Springs without force are no equilibrium yet if K u is only rounding.
-                let rest = imbalance(assembled, load, &state.traction);
-                if rest <= EQUILIBRIUM {
+            if has_converged(previous, change, iterations, current) {
+                // The springs may have no force without an equilibrium, if K u is only rounding.
+                let residual = imbalance(assembled, load, &state.traction);
+                if residual <= FORCE_BALANCE_TOLERANCE {
                     state.stand_in = solver.stand_in.or(state.stand_in);
-                    shared.replace(compliance.filter(is_first));
+                    shared.replace(compliance.filter(|compliance| {
+                        assembled.linear && compliance.floating.springs == initial_stiffness
+                    }));
                     state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));
                 }
-                change = rest;
+                change = residual;
                 break;
             }
             if !change.is_finite() {
                 break;
             }
             let rounding = rounding(iterations, current);
-            if change > rounding.max(SLOW * previous) && springs.soften() {
+            if change > rounding.max(SLOW_DECREASE_RATIO * previous) && springs.soften() {
                 compliance = None;
                 solver.invalidate();
             } else if springs.stay_stiff() && iterations.is_multiple_of(EXTRAPOLATION_INTERVAL) {
-                // Close to buckling one shape converges slowly.
+                // Close to buckling, one shape converges slowly.
                 let factor = extrapolation(&assembled.mass, &last_step, &step);
                 state.displacement.iter_mut().zip(&step).for_each(|(u, d)| *u += factor * d);
             }
             last_step = step;
         }
         // With the initial springs: softened springs leave a matrix of rounding, which has no condition.
-        let first = Floating::new(assembled, &tangent.matrix, stiffest);
-        let condition = first.map_or(1.0, |first| first.condition());
+        let initial = Floating::new(assembled, &tangent.matrix, initial_stiffness);
+        let condition = initial.map_or(1.0, |floating| floating.condition());
         Err(failure(condition, iterations, change))
     }
 
@@ -148,9 +155,7 @@ impl Standing<'_> {
         let mut displacement = self.without_traction(current, load, state)?;
         let mut free_jump = vec![0.0; solver.traction.len()];
         self.assembled.base.means(&displacement, &mut free_jump);
-        for jump in &mut free_jump {
-            *jump = -*jump;
-        }
+        free_jump.iter_mut().for_each(|jump| *jump = -*jump);
         free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
         let input = ContactInput {
             delassus: &current.delassus,
@@ -174,7 +179,7 @@ impl Standing<'_> {
     /// Displacements of the next iterate before its tractions act.
     ///
     /// (K + D + εM) (u₁ − u₀) = load − K u₀ − f(u₀) − BᵀAτ₁. With the springs alone the structure would settle by
-    /// 1/`PROXIMAL_SHARE` settlements. The columns that subtract the response to τ₁ therefore add the response to τ₀,
+    /// 1/`PROXIMAL_SPRING_FRACTION` settlements. The columns that subtract the response to τ₁ therefore add the response to τ₀,
     /// and the system is solved only for the unbalanced force.
     fn without_traction(
         &self,
@@ -193,44 +198,54 @@ impl Standing<'_> {
 
     /// The springs of the shared compliance, or the initial ones.
     fn springs(&self) -> Result<Springs> {
-        let known = self.shared.borrow().as_ref().map(|own| own.floating.springs);
-        let known = known.filter(|_| self.assembled.linear);
-        let stiffness = known.map_or_else(|| springs(self.assembled, self.soil), Ok)?;
-        Ok(Springs { stiffness, softest: SOFTEST * stiffness })
+        let stiffness = match &*self.shared.borrow() {
+            Some(compliance) if self.assembled.linear => compliance.floating.springs,
+            _ => springs(self.assembled, self.soil)?,
+        };
+        Ok(Springs { stiffness, softest: MIN_SPRING_FRACTION * stiffness })
     }
 
-    /// Compliance with springs stiff enough, `most` at most, to hold a structure that leans without the ground.
+    /// Compliance with springs stiff enough to hold a structure that leans without the ground.
     ///
     /// Each iteration then finds the smallest energy. With softer springs it may find a structure on the verge of a
-    /// fall, on a corner. If stiffer springs do not help (Lagrange multipliers), or rounding is the cause, they stay
-    /// unchanged.
-    fn held(&self, springs: &mut Springs, tangent: &SparseMatrix, most: f64) -> Result<Compliance> {
-        let Self { assembled, soil, shared, .. } = *self;
-        let is_shared = |own: &mut Compliance| own.floating.springs == springs.stiffness;
-        if assembled.linear
-            && let Some(shared) = shared.borrow_mut().take_if(is_shared)
+    /// fall, on a corner. If springs of up to `max_stiffness` do not help (Lagrange multipliers), or rounding is the
+    /// cause, they stay unchanged.
+    fn stiffened(
+        &self,
+        springs: &mut Springs,
+        tangent: &SparseMatrix,
+        max_stiffness: f64,
+    ) -> Result<Compliance> {
+        let mut shared = self.shared.borrow_mut();
+        if self.assembled.linear
+            && let Some(compliance) =
+                shared.take_if(|shared| shared.floating.springs == springs.stiffness)
         {
-            return Ok(shared);
+            return Ok(compliance);
         }
-        let with = |stiffness| -> Result<Compliance> {
-            let floating = Rc::new(Floating::new(assembled, tangent, stiffness)?);
-            Compliance::new(floating, &assembled.base, soil)
-        };
-        let found = with(springs.stiffness)?;
-        let is_definite = |found: &Compliance| found.floating.factor.is_positive_definite();
-        if is_definite(&found) || found.floating.condition() > STIFFEST_CONDITION {
-            return Ok(found);
+        drop(shared);
+        let initial = self.compliance(tangent, springs.stiffness)?;
+        if initial.floating.factor.is_positive_definite()
+            || initial.floating.condition() > MAX_ACCEPTED_CONDITION
+        {
+            return Ok(initial);
         }
-        let mut stiffer = 10.0 * springs.stiffness;
-        while stiffer <= most {
-            let next = with(stiffer)?;
-            if is_definite(&next) {
-                *springs = Springs { stiffness: stiffer, softest: stiffer };
-                return Ok(next);
+        let mut stiffness = 10.0 * springs.stiffness;
+        while stiffness <= max_stiffness {
+            let stiffer = self.compliance(tangent, stiffness)?;
+            if stiffer.floating.factor.is_positive_definite() {
+                *springs = Springs { stiffness, softest: stiffness };
+                return Ok(stiffer);
             }
-            stiffer *= 10.0;
+            stiffness *= 10.0;
         }
-        Ok(found)
+        Ok(initial)
+    }
+
+    /// Compliance with springs of this stiffness per mass.
+    fn compliance(&self, tangent: &SparseMatrix, stiffness: f64) -> Result<Compliance> {
+        let floating = Rc::new(Floating::new(self.assembled, tangent, stiffness)?);
+        Compliance::new(floating, &self.assembled.base, self.soil)
     }
 }
 
@@ -258,11 +273,11 @@ impl Springs {
 
     /// Softens the springs tenfold; `false` if they are as soft as allowed.
     fn soften(&mut self) -> bool {
-        let softens = self.stiffness > self.softest;
-        if softens {
+        let can_soften = self.stiffness > self.softest;
+        if can_soften {
             self.stiffness *= 0.1;
         }
-        softens
+        can_soften
     }
 }
 
@@ -278,61 +293,64 @@ fn extrapolation(mass: &SparseMatrix, before: &[f64], last: &[f64]) -> f64 {
     if before.len() != last.len() {
         return 0.0;
     }
-    let squares = [mass.form(before, before), mass.form(last, last)];
+    let square_before = mass.form(before, before);
+    let square_last = mass.form(last, last);
     let product = mass.form(before, last);
-    let ratio = product / squares[0];
-    let is_series = product > 0.0 && product * product > COLLINEAR * squares[0] * squares[1];
-    let is_slow = ratio > SLOWEST_RATIO && ratio < 1.0 - f64::EPSILON.sqrt();
+    let ratio = product / square_before;
+    let is_collinear = product * product > COLLINEARITY_THRESHOLD * square_before * square_last;
+    let is_series = product > 0.0 && is_collinear;
+    let is_slow = ratio > MIN_EXTRAPOLATED_RATIO && ratio < 1.0 - f64::EPSILON.sqrt();
     if is_series && is_slow { ratio / (1.0 - ratio) } else { 0.0 }
 }
 
-/// Whether the last two forces of the springs, relative to the load, show convergence.
-fn has_converged([previous, change]: [f64; 2], iterations: usize, current: &Compliance) -> bool {
+/// Whether the last two forces of the springs show convergence.
+fn has_converged(previous: f64, change: f64, iterations: usize, current: &Compliance) -> bool {
     // The force of the springs has the accuracy of the solution.
-    let stalled = change <= 1e-10 && change >= 0.5 * previous;
+    let has_stalled = change <= 1e-10 && change >= 0.5 * previous;
     // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same amount under
     // the rounding of the sums of K, a fraction that grows with its size.
-    let drifts = change <= DRIFT && (change - previous).abs() <= 1e-3 * change;
-    let late = || {
-        iterations > LATE
-            && change <= LATE_CHANGE
-            && change <= current.floating.condition() * f64::EPSILON
-    };
-    change <= 1e-13 || stalled || drifts || late()
+    let drifts = change <= STEADY_DRIFT_TOLERANCE && (change - previous).abs() <= 1e-3 * change;
+    if change <= 1e-13 || has_stalled || drifts {
+        return true;
+    }
+    iterations > LATE_ITERATION_COUNT
+        && change <= LATE_CHANGE
+        && change <= current.floating.condition() * f64::EPSILON
 }
 
 /// Force of the springs, relative to the load, that counts as rounding after so many iterations.
 fn rounding(iterations: usize, current: &Compliance) -> f64 {
     match iterations {
-        0..LONG => ROUNDING,
-        _ => ROUNDING.min(current.floating.condition() * f64::EPSILON),
+        0..ROUNDING_CHECK_ITERATION => SPRING_FORCE_ROUNDING,
+        _ => SPRING_FORCE_ROUNDING.min(current.floating.condition() * f64::EPSILON),
     }
 }
 
 /// Error for a search that did not converge.
 fn failure(condition: f64, iterations: usize, change: f64) -> Error {
-    if condition <= STIFFEST_CONDITION {
+    if condition <= MAX_ACCEPTED_CONDITION {
         return Error::Preload { iterations, residual: change };
     }
     Error::IllConditioned {
-        matrix: NAME,
+        matrix: STATIC_STIFFNESS_NAME,
         condition,
-        limit: STIFFEST_CONDITION,
+        limit: MAX_ACCEPTED_CONDITION,
         quantity: "stiffness of the structure over that of the ground",
-        ratio: PROXIMAL_SHARE * condition,
+        ratio: PROXIMAL_SPRING_FRACTION * condition,
     }
 }
 
 /// Relative force imbalance: K resists no translation, so tractions alone must carry the resultants of the load.
 fn imbalance(assembled: &Assembled, load: &[f64], traction: &[f64]) -> f64 {
-    let mut rest = load.to_vec();
-    assembled.base.add_forces(-1.0, traction, &mut rest);
-    let [mut worst, mut scale] = [0.0_f64; 2];
+    let mut residual = load.to_vec();
+    assembled.base.add_forces(-1.0, traction, &mut residual);
+    let mut max_resultant = 0.0_f64;
+    let mut scale = 0.0_f64;
     for vector in &assembled.influence.of_all(load.len()) {
-        worst = worst.max(dot(vector, &rest).abs());
+        max_resultant = max_resultant.max(dot(vector, &residual).abs());
         scale = scale.max(vector.iter().zip(load).map(|(r, f)| (r * f).abs()).sum());
     }
-    worst / scale.max(f64::MIN_POSITIVE)
+    max_resultant / scale.max(f64::MIN_POSITIVE)
 }
 
 /// load − K u − f(u) − BᵀAτ.
@@ -342,12 +360,12 @@ fn out_of_balance(
     load: &[f64],
     state: &StaticState,
 ) -> Result<Vec<f64>> {
-    let mut rest = load.to_vec();
-    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut rest);
-    assembled.base.add_forces(-1.0, &state.traction, &mut rest);
-    let (force, _) = nonlinear_state(structure, &state.displacement)?;
-    rest.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
-    Ok(rest)
+    let mut residual = load.to_vec();
+    assembled.stiffness.multiply_add(-1.0, &state.displacement, &mut residual);
+    assembled.base.add_forces(-1.0, &state.traction, &mut residual);
+    let force = nonlinear_state(structure, &state.displacement)?.0;
+    residual.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
+    Ok(residual)
 }
 
 /// Size of a force relative to the load: each component over the square root of its mass, so that forces and
@@ -363,9 +381,8 @@ impl Measure {
         for weight in &mut weights {
             *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
         }
-        let largest_of =
-            |w: &[f64]| w.iter().zip(load).fold(0.0_f64, |m, (w, f)| m.max(w * f.abs()));
-        let scale = largest_of(&weights);
+        let weighted = weights.iter().zip(load).map(|(w, f)| w * f.abs());
+        let scale = weighted.fold(0.0_f64, f64::max);
         if scale > 0.0 && scale.is_finite() {
             return Self { weights, scale };
         }

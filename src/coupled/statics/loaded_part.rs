@@ -9,8 +9,8 @@ use crate::coupled::statics::strength::Strength;
 use crate::error::StabilityError;
 use crate::geometry::{ContactLayout, Edge, axis_name, middle, span};
 
-/// Shares of the normal force, and of its moments, that count as rounding.
-const ROUNDING: f64 = 1e-9;
+/// Fraction of the normal force, and of its moments, that counts as rounding.
+const RESULTANT_ROUNDING: f64 = 1e-9;
 
 /// A connected part of the structure, with the resultants of its load.
 pub(super) struct LoadedPart {
@@ -36,7 +36,8 @@ impl LoadedPart {
     /// Way in which the base fails under the load; `None` if it bears the load.
     pub(super) fn failure(&self) -> Option<StabilityError> {
         if self.normal <= 0.0 {
-            let (ends, across) = self.ends();
+            let ends = self.ends();
+            let across = self.ends_across();
             let lifted = StabilityError::Uplift { ends, across, upward: -self.normal };
             return self.opens().then(|| self.once_parted(lifted));
         }
@@ -58,12 +59,10 @@ impl LoadedPart {
             return None;
         }
         // By the right-hand rule about y, a moment that lifts the right side is negative.
-        let [about_y, about_x, _] = self.moments;
-        let moment = [-self.layout.turn() * about_y, about_x][axis];
-        let (ends, across) = self.ends();
+        let moment = [-self.layout.turn() * self.moments[0], self.moments[1]][axis];
         Some(self.once_parted(StabilityError::Overturning {
-            ends,
-            across,
+            ends: self.ends(),
+            across: self.ends_across(),
             axis: axis_name(self.layout.is_plan(), axis),
             moment,
             normal: self.normal,
@@ -74,41 +73,47 @@ impl LoadedPart {
 
     /// The resultant passes beyond the middles of the elements, where pressures act.
     fn bears_beyond(&self) -> Option<StabilityError> {
-        let (middles, eccentricities) = (self.middles(), self.eccentricities());
-        let beyond = |axis: usize| {
-            let resultant = middles[axis] + eccentricities[axis];
+        for axis in self.layout.axes() {
+            let resultant = self.middles()[axis] + self.eccentricities()[axis];
             let reach = span(self.elements.iter().map(|(center, _)| center[axis]));
-            let slack = ROUNDING * self.half_width(axis);
-            let is_beyond = resultant < reach[0] - slack || resultant > reach[1] + slack;
-            is_beyond.then_some((axis, resultant, reach))
-        };
-        let (axis, resultant, reach) = self.layout.axes().find_map(beyond)?;
-        let axis = axis_name(self.layout.is_plan(), axis);
-        let (elements, (ends, across)) = (self.elements.len(), self.ends());
-        let error = StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
-        self.opens().then(|| self.once_parted(error))
+            let slack = RESULTANT_ROUNDING * self.half_width(axis);
+            if resultant < reach[0] - slack || resultant > reach[1] + slack {
+                let axis = axis_name(self.layout.is_plan(), axis);
+                let elements = self.elements.len();
+                let ends = self.ends();
+                let across = self.ends_across();
+                let error =
+                    StabilityError::Beyond { ends, across, axis, elements, resultant, reach };
+                return self.opens().then(|| self.once_parted(error));
+            }
+        }
+        None
     }
 
     /// The horizontal force is larger than friction.
     fn slides(&self) -> Option<StabilityError> {
-        let (horizontal, normal) = (self.horizontal, self.normal);
+        let horizontal = self.horizontal;
+        let normal = self.normal;
         let resistance = self.friction() * normal;
         let ratio = horizontal.abs() / resistance;
-        let (ends, across) = self.ends();
+        let ends = self.ends();
+        let across = self.ends_across();
         let error = StabilityError::Sliding { ends, across, horizontal, normal, resistance, ratio };
-        let is_beyond = horizontal.abs() > self.friction().max(ROUNDING) * normal;
+        let is_beyond = horizontal.abs() > self.friction().max(RESULTANT_ROUNDING) * normal;
         is_beyond.then(|| self.once_sheared(error))
     }
 
     /// In plan: the torque is larger than the torque of friction.
     fn twists(&self) -> Option<StabilityError> {
-        let (ends, Some(across)) = self.ends() else { return None };
-        let (normal, [_, _, torque]) = (self.normal, self.moments);
-        let spread = self.pressure * area_moment(&self.elements, self.middles());
-        let resistance = self.friction() * spread;
+        let across = self.ends_across()?;
+        let ends = self.ends();
+        let normal = self.normal;
+        let torque = self.moments[2];
+        let pressure_moment = self.pressure * area_moment(&self.elements, self.middles());
+        let resistance = self.friction() * pressure_moment;
         let ratio = torque.abs() / resistance;
         let error = StabilityError::Twisting { ends, across, torque, normal, resistance, ratio };
-        let is_beyond = torque.abs() > self.friction().max(ROUNDING) * spread;
+        let is_beyond = torque.abs() > self.friction().max(RESULTANT_ROUNDING) * pressure_moment;
         is_beyond.then(|| self.once_sheared(error))
     }
 
@@ -116,21 +121,34 @@ impl LoadedPart {
     fn is_pressed_in(&self) -> Option<StabilityError> {
         // The area that the eccentricities leave (Meyerhof 1963).
         let area = self.elements.iter().map(|(_, area)| area).sum::<f64>();
-        let left = self.layout.axes().map(|axis| 1.0 - self.eccentricity_ratio(axis));
-        let width = area * left.product::<f64>();
-        let pressures = self.strengths.iter().map(|own| own.bearing_pressure);
-        let areas = self.elements.iter().map(|(_, area)| *area);
+        let effective_ratios = self.layout.axes().map(|axis| 1.0 - self.eccentricity_ratio(axis));
+        let width = area * effective_ratios.product::<f64>();
         let normal = self.normal;
-        let [capacity, ratio] = bearing(pressures.zip(areas), normal, width);
-        let (ends, across) = self.ends();
+        let capacity = self.bearing_capacity(width);
+        let ratio = normal / capacity;
+        let ends = self.ends();
+        let across = self.ends_across();
         let failure =
             StabilityError::BearingFailure { ends, across, normal, width, capacity, ratio };
         (ratio > 1.0).then_some(failure)
     }
 
+    /// Capacity of the bearing pressures on all elements, N.
+    ///
+    /// At most the largest pressure on `width`, the area centred under the resultant.
+    fn bearing_capacity(&self, width: f64) -> f64 {
+        let mut total = 0.0;
+        let mut max_pressure = 0.0_f64;
+        for (strength, (_, area)) in self.strengths.iter().zip(&self.elements) {
+            total += strength.bearing_pressure * area;
+            max_pressure = max_pressure.max(strength.bearing_pressure);
+        }
+        (max_pressure * width).min(total)
+    }
+
     /// A failure by separation: bonds that pull must have broken before.
     fn once_parted(&self, failure: StabilityError) -> StabilityError {
-        let pulls = self.strengths.iter().any(|own| own.pulls);
+        let pulls = self.strengths.iter().any(|strength| strength.pulls);
         if pulls { after_bond(failure) } else { failure }
     }
 
@@ -140,22 +158,26 @@ impl LoadedPart {
     }
 
     fn opens(&self) -> bool {
-        self.strengths.iter().any(|own| own.opens)
+        self.strengths.iter().any(|strength| strength.opens)
     }
 
     fn coheres(&self) -> bool {
-        self.strengths.iter().any(|own| own.coheres)
+        self.strengths.iter().any(|strength| strength.coheres)
     }
 
     /// Largest friction coefficient.
     fn friction(&self) -> f64 {
-        self.strengths.iter().map(|own| own.friction).fold(0.0, f64::max)
+        self.strengths.iter().map(|strength| strength.friction).fold(0.0, f64::max)
     }
 
-    /// Ends of the base along x, and in plan along y.
-    fn ends(&self) -> ([f64; 2], Option<[f64; 2]>) {
-        let [ends, across] = self.bounds;
-        (ends, self.layout.is_plan().then_some(across))
+    /// Ends of the base along x, m.
+    fn ends(&self) -> [f64; 2] {
+        self.bounds[0]
+    }
+
+    /// Ends of the base along y, m; `None` in the plane.
+    fn ends_across(&self) -> Option<[f64; 2]> {
+        self.layout.is_plan().then_some(self.bounds[1])
     }
 
     fn middles(&self) -> [f64; 2] {
@@ -163,8 +185,8 @@ impl LoadedPart {
     }
 
     fn half_width(&self, axis: usize) -> f64 {
-        let [least, most] = self.bounds[axis];
-        0.5 * (most - least)
+        let [start, end] = self.bounds[axis];
+        0.5 * (end - start)
     }
 
     /// e along both axes, m.
@@ -187,19 +209,9 @@ fn after_bond(then: StabilityError) -> StabilityError {
 ///
 /// `elements`: centre and area of each.
 fn area_moment(elements: &[([f64; 3], f64)], middle: [f64; 2]) -> f64 {
-    let arm = |[x, y, _]: [f64; 3]| (x - middle[0]).hypot(y - middle[1]);
-    elements.iter().map(|(center, area)| arm(*center) * area).sum()
-}
-
-/// Capacity of bearing pressures on elements of these lengths or areas, and the normal force over it.
-///
-/// At most the largest pressure on `width`, the width centred under the resultant.
-fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) -> [f64; 2] {
-    let (all, largest) = elements.fold((0.0, 0.0_f64), |(all, largest), (pressure, length)| {
-        (all + pressure * length, largest.max(pressure))
-    });
-    let capacity = (largest * width).min(all);
-    [capacity, normal / capacity]
+    let moments =
+        elements.iter().map(|([x, y, _], area)| (x - middle[0]).hypot(y - middle[1]) * area);
+    moments.sum()
 }
 
 /// Largest ratio of a resultant's distance to an edge's distance, from `middle`, and the axis that this edge faces
@@ -207,9 +219,9 @@ fn bearing(elements: impl Iterator<Item = (f64, f64)>, normal: f64, width: f64) 
 ///
 /// `distance`: of the resultant from the middle.
 fn nearest_edge(edges: &[Edge], middle: [f64; 2], distance: [f64; 2]) -> (f64, usize) {
-    let parts = edges.iter().map(|edge| {
+    let ratios = edges.iter().map(|edge| {
         let faces_y = edge.normal[1].abs() > edge.normal[0].abs();
         (edge.outward(distance) / edge.reach(middle), usize::from(faces_y))
     });
-    parts.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
+    ratios.max_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or((0.0, 0))
 }

@@ -7,7 +7,7 @@
 
 use crate::coupled::base::faces::hull;
 use crate::coupled::model::mechanism::{Regular, unresisted};
-use crate::coupled::model::signs::FIRMLY;
+use crate::coupled::model::signs::FIRM_SPRING_FACTOR;
 use crate::coupled::statics::buckling::{Grounded, load_factor};
 use crate::coupled::statics::equilibrium::Standing;
 use crate::coupled::statics::loaded_part::LoadedPart;
@@ -33,10 +33,13 @@ pub(crate) fn cause(
     let at_rest = assembled.at_rest(structure);
     let is_singular = matches!(error, Singular { .. });
     let others = [&*assembled.damping, &assembled.mass];
-    let massless = || unresisted(structure, at_rest.stiffness, others);
     at_rest
         .mechanism()
-        .or_else(|| if is_singular { massless() } else { None })
+        .or_else(
+            || {
+                if is_singular { unresisted(structure, at_rest.stiffness, others) } else { None }
+            },
+        )
         .or_else(|| load_factor(grounded).map(|factor| StabilityError::Buckling { factor }))
         .or_else(|| resultants(stage, laws, load))
         .map_or(error, |cause| Error::Stability(Box::new(cause)))
@@ -48,9 +51,10 @@ fn resultants(
     laws: &[Box<dyn InterfaceLaw>],
     load: &[f64],
 ) -> Option<StabilityError> {
-    let (assembled, base) = (stage.assembled, &stage.assembled.base);
-    // Firmly: on springs of its own stiffness a structure with P–Δ rotates further than the springs are displaced.
-    let (held, regular) = Regular::held_by(&assembled.at_rest(stage.structure), FIRMLY);
+    let assembled = stage.assembled;
+    let base = &assembled.base;
+    // On springs as stiff as itself, a structure with P–Δ rotates further than the springs are displaced.
+    let (held, regular) = Regular::held_by(&assembled.at_rest(stage.structure), FIRM_SPRING_FACTOR);
     let mut factor = regular.factor()?;
     assembled.influence.parts().iter().find_map(|part| {
         let [along, upward, away] = part.resultants(load);
@@ -58,22 +62,24 @@ fn resultants(
         let bounds = [0, 1].map(|axis| span(nodes.iter().map(|node| node.place()[axis])));
         let mut moments = [0.0; 3];
         let turns = held.turns(nodes.iter().copied(), bounds.map(middle));
-        moments.iter_mut().zip(turns).for_each(|(own, turn)| *own = work(&mut factor, turn, load));
+        for (moment, turn) in moments.iter_mut().zip(turns) {
+            *moment = work(&mut factor, turn, load);
+        }
         let elements: Vec<_> = part.elements().iter().map(|&e| (e, base.areas()[e])).collect();
-        let (layout, normal) = (base.layout(), -upward);
+        let layout = base.layout();
+        let normal = -upward;
         let pressure = normal / elements.iter().map(|(_, area)| area).sum::<f64>();
         let form = LawForm::of(layout);
-        let strength = |&(e, _): &(usize, f64)| {
-            let law = law_of(laws, e);
-            Strength::at_pressure(law, pressure, form, stage.frictionless)
-        };
+        let strengths = elements.iter().map(|&(e, _)| {
+            Strength::at_pressure(law_of(laws, e), pressure, form, stage.frictionless)
+        });
         // In the plane a base has two ends.
         let outline = if layout.axes().len() > 1 { hull(nodes.iter().copied()) } else { vec![] };
         let part = LoadedPart {
             layout,
             edges: Edge::of_base(&outline, bounds[0]),
             bounds,
-            strengths: elements.iter().map(strength).collect(),
+            strengths: strengths.collect(),
             elements: elements
                 .iter()
                 .map(|&(e, area)| (base.elements()[e].center(), area))

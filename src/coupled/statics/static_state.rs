@@ -14,7 +14,7 @@ pub(crate) struct StaticState {
     pub(crate) gap: Vec<f64>,
     pub(crate) displacement: Vec<f64>,
     pub(crate) modes: Vec<Mode>,
-    /// The structure's own load at t = 0.
+    /// Load that the structure brings at t = 0.
     pub(crate) load: Vec<f64>,
     /// State variables of each element's law where it acted; empty where the law starts anew.
     pub(crate) state_variables: Vec<Vec<f64>>,
@@ -47,13 +47,13 @@ impl StaticState {
     pub(crate) fn modes_with(&self, laws: &[Box<dyn InterfaceLaw>]) -> Vec<Mode> {
         let form = LawForm::of(self.layout);
         let modes = self.modes.iter().enumerate().map(|(e, mode)| {
-            let known = law_of(laws, e).modes();
-            if known.contains(mode) && !mode.is_closed() {
+            let modes = law_of(laws, e).modes();
+            if modes.contains(mode) && !mode.is_closed() {
                 return *mode;
             }
             match form {
-                LawForm::Modes => known[0],
-                LawForm::Limits => known[0].in_any_direction(),
+                LawForm::Modes => modes[0],
+                LawForm::Limits => modes[0].in_any_direction(),
             }
         });
         modes.collect()
@@ -68,19 +68,22 @@ impl StaticState {
     ) -> Result<()> {
         let form = LawForm::of(self.layout);
         for (e, gap) in self.gap.iter_mut().enumerate() {
-            let (law, start, mode, pressure) =
-                (law_of(laws, e), start.element(e), self.modes[e], self.traction[e]);
-            let pinned = match form {
+            let law = law_of(laws, e);
+            let start = start.element(e);
+            let mode = self.modes[e];
+            let pressure = self.traction[e];
+            let prescribed = match form {
                 LawForm::Modes => {
-                    law.conditions(mode, &start).iter().find_map(|own| own.gap_at(pressure))
+                    let conditions = law.conditions(mode, &start);
+                    conditions.iter().find_map(|condition| condition.gap_at(pressure))
                 }
                 LawForm::Limits if mode.is_closed() && !mode.is_yield() => {
-                    let [compliance, _] = law.compliance(Mode::Stick, &start);
+                    let compliance = law.compliance(Mode::Stick, &start)[0];
                     Some(law.limits(&start)?.gap_offset - compliance * pressure)
                 }
                 LawForm::Limits => None,
             };
-            *gap = pinned.unwrap_or(states[e].gap);
+            *gap = prescribed.unwrap_or(states[e].gap);
         }
         Ok(())
     }

@@ -5,11 +5,11 @@ use crate::interface::{
 };
 
 /// Traction that counts as zero, relative to the pressure.
-const LITTLE: f64 = 1e-6;
+const ZERO_TRACTION_FRACTION: f64 = 1e-6;
 /// Ratio of shear traction to pressure that counts as infinite.
-const MOST: f64 = 1e6;
+const INFINITE_FRICTION_RATIO: f64 = 1e6;
 /// Pressure at which cohesion is negligible, Pa.
-const PRESSURE: f64 = 1e9;
+const NEGLIGIBLE_COHESION_PRESSURE: f64 = 1e9;
 
 /// Strength of a law on an element that has not moved so far.
 pub(crate) struct Strength {
@@ -44,11 +44,11 @@ impl Strength {
     }
 
     fn by_modes(law: &dyn InterfaceLaw, pressure: f64) -> Self {
-        let little = LITTLE * pressure.abs().max(1.0);
+        let traction = ZERO_TRACTION_FRACTION * pressure.abs().max(1.0);
         Self {
             opens: law.modes().contains(&Mode::Open),
-            pulls: sticks_at(law, ContactState { pressure: -little, ..ContactState::default() }),
-            coheres: sticks_at(law, ContactState { shear: little, ..ContactState::default() }),
+            pulls: sticks_at(law, ContactState { pressure: -traction, ..ContactState::default() }),
+            coheres: sticks_at(law, ContactState { shear: traction, ..ContactState::default() }),
             friction: friction(law, pressure),
             bearing_pressure: bearing_pressure(law),
         }
@@ -57,15 +57,16 @@ impl Strength {
     fn by_limits(law: &dyn InterfaceLaw, pressure: f64, frictionless: bool) -> Self {
         let limits = limits_at_rest(law, pressure.max(0.0));
         let limits = if frictionless { limits.frictionless() } else { limits };
-        let known = law.friction_coefficient().filter(|_| !frictionless);
-        let attracted = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
-        let borne = limits.shear_strength + attracted * limits.attraction;
-        let ratio = limits.friction + borne / pressure.max(f64::MIN_POSITIVE);
+        let friction_coefficient = law.friction_coefficient().filter(|_| !frictionless);
+        let attraction_friction = if limits.attraction > 0.0 { limits.friction } else { 0.0 };
+        let cohesion = limits.shear_strength + attraction_friction * limits.attraction;
+        let ratio = limits.friction + cohesion / pressure.max(f64::MIN_POSITIVE);
+        let friction = friction_coefficient.unwrap_or(ratio);
         Self {
             opens: !limits.bonded,
             pulls: !limits.bonded && limits.tension > 0.0,
-            coheres: !limits.bonded && borne > 0.0,
-            friction: if limits.bonded { f64::INFINITY } else { known.unwrap_or(ratio) },
+            coheres: !limits.bonded && cohesion > 0.0,
+            friction: if limits.bonded { f64::INFINITY } else { friction },
             bearing_pressure: limits.pressure_cap,
         }
     }
@@ -76,9 +77,9 @@ impl Strength {
 /// As the law states it; else by its limits, or by the tractions at which the element slides.
 pub(crate) fn friction_at_rest(law: &dyn InterfaceLaw, form: LawForm) -> f64 {
     match form {
-        LawForm::Modes => friction(law, PRESSURE),
+        LawForm::Modes => friction(law, NEGLIGIBLE_COHESION_PRESSURE),
         LawForm::Limits => law.friction_coefficient().unwrap_or_else(|| {
-            let limits = limits_at_rest(law, PRESSURE);
+            let limits = limits_at_rest(law, NEGLIGIBLE_COHESION_PRESSURE);
             if limits.bonded { 0.0 } else { limits.friction }
         }),
     }
@@ -101,8 +102,9 @@ pub(crate) fn compliance_at_rest(law: &dyn InterfaceLaw) -> [f64; 2] {
     compliance.map(|value| if value.is_finite() { value.max(0.0) } else { 0.0 })
 }
 
-/// Limits of a law on an element that has not moved so far; the default ones if the law has none, which was reported
-/// before.
+/// Limits of a law on an element that has not moved so far.
+///
+/// Default limits for a law without any, which the build has reported before.
 fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
     let pressed = ContactState { pressure, ..ContactState::default() };
     let start = PreviousContact::new(pressed, Mode::Stick, 1.0);
@@ -114,22 +116,23 @@ fn limits_at_rest(law: &dyn InterfaceLaw, pressure: f64) -> Limits {
 ///
 /// Infinite if it does not slide.
 fn friction(law: &dyn InterfaceLaw, pressure: f64) -> f64 {
-    if let Some(known) = law.friction_coefficient() {
-        return known;
+    if let Some(coefficient) = law.friction_coefficient() {
+        return coefficient;
     }
-    let holds = |ratio: f64| {
+    let sticks = |ratio: f64| {
         sticks_at(
             law,
             ContactState { pressure, shear: ratio * pressure, ..ContactState::default() },
         )
     };
-    if law.modes().len() == 1 || holds(MOST) {
+    if law.modes().len() == 1 || sticks(INFINITE_FRICTION_RATIO) {
         return f64::INFINITY;
     }
-    let (mut low, mut high) = (0.0, MOST);
+    let mut low = 0.0;
+    let mut high = INFINITE_FRICTION_RATIO;
     for _ in 0..100 {
         let middle = 0.5 * (low + high);
-        if holds(middle) { low = middle } else { high = middle }
+        if sticks(middle) { low = middle } else { high = middle }
     }
     high
 }
