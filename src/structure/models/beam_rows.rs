@@ -155,7 +155,7 @@ fn end_force_row(
     let to_node = frame.offsets[end].map(|offset| -offset);
     let mut row = vec![0.0; order];
     for (k, direction) in directions.iter().enumerate() {
-        let motions = if moment { ROTATIONS } else { TRANSLATIONS };
+        let motions = if moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
         // The rotation of the plane is about z.
         let direction =
             if *direction == Direction::Rotation { Direction::RotationZ } else { *direction };
@@ -170,6 +170,6 @@ fn end_force_row(
     row
 }
 
-const TRANSLATIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
-const ROTATIONS: [Direction; 3] =
+const TRANSLATION_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+const ROTATION_DIRECTIONS: [Direction; 3] =
     [Direction::RotationX, Direction::RotationY, Direction::RotationZ];
