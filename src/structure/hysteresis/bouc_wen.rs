@@ -100,21 +100,28 @@ impl BoucWen {
         Ok(law.into())
     }
 
-    /// z at a deformation, dz/d(d/d_y) there, and the energy dissipated on the path to it.
-    ///
-    /// Energy in units of (1 − α) F_y d_y.
-    fn follow(&self, deformation: f64) -> (f64, f64, f64) {
+    /// The straight path to a deformation.
+    fn follow(&self, deformation: f64) -> Path {
         let change = deformation - self.deformation;
         let side = if change == 0.0 { -self.z.signum() } else { change.signum() };
         let way = change.abs() * self.stiffness / self.yield_force;
-        let (y, dissipated) = self.curve.advance(side * self.z, way);
-        (side * y, self.curve.slope(y), dissipated)
+        let (y, lost) = self.curve.advance(side * self.z, way);
+        Path { z: side * y, slope: self.curve.slope(y), lost }
     }
+}
+
+/// End of a straight path.
+struct Path {
+    z: f64,
+    /// dz/d(d/d_y).
+    slope: f64,
+    /// Energy dissipated on the path, in units of (1 − α) F_y d_y.
+    lost: f64,
 }
 
 impl Hysteresis for BoucWen {
     fn response(&self, deformation: f64) -> SpringResponse {
-        let (z, slope, _) = self.follow(deformation);
+        let Path { z, slope, .. } = self.follow(deformation);
         let k = self.stiffness;
         let hysteretic = 1.0 - self.hardening;
         SpringResponse {
@@ -124,7 +131,7 @@ impl Hysteresis for BoucWen {
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        let (z, _, lost) = self.follow(deformation);
+        let Path { z, lost, .. } = self.follow(deformation);
         let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
         let elastic = self.hardening * self.stiffness * deformation * deformation;
         InternalEnergy {
@@ -135,7 +142,7 @@ impl Hysteresis for BoucWen {
 
     fn commit(&mut self, deformation: f64) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.z = self.follow(deformation).0;
+        self.z = self.follow(deformation).z;
         self.deformation = deformation;
     }
 

@@ -38,7 +38,7 @@ impl CoupledBoucWen {
     }
 
     /// The straight path to a deformation.
-    fn follow(&self, deformation: [f64; 2]) -> Path {
+    fn follow(&self, deformation: [f64; 2]) -> PlanePath {
         let x = deformation[0] - self.deformation[0];
         let y = deformation[1] - self.deformation[1];
         let length = x.hypot(y);
@@ -56,7 +56,7 @@ impl CoupledBoucWen {
             self.z[0] * along[0] + self.z[1] * along[1],
             self.z[1] * along[0] - self.z[0] * along[1],
         ];
-        Path { along, glide: Glide::along(self.unloading, start, way) }
+        PlanePath { along, glide: Glide::along(self.unloading, start, way) }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
@@ -117,12 +117,12 @@ fn squared_length([x, y]: [f64; 2]) -> f64 {
 }
 
 /// A straight path in the direction `along`.
-struct Path {
+struct PlanePath {
     along: [f64; 2],
     glide: Glide,
 }
 
-impl Path {
+impl PlanePath {
     /// Vector of components along and across the path, in the axes of the spring.
     fn turned(&self, [along, across]: [f64; 2]) -> [f64; 2] {
         let direction = self.along;
@@ -135,7 +135,8 @@ impl Path {
 
     /// ∂z/∂(d/d_y).
     fn slope(&self) -> [[f64; 2]; 2] {
-        let [x, y] = self.along;
+        let x = self.along[0];
+        let y = self.along[1];
         let longer = self.turned(self.glide.longer);
         let turned = self.turned(self.glide.turned);
         [0, 1].map(|i| [longer[i] * x - turned[i] * y, longer[i] * y + turned[i] * x])

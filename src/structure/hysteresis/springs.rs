@@ -79,9 +79,9 @@ impl Springs {
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
         let mut rest = values;
         for spring in &mut self.0 {
-            let (variables, remaining) = rest.split_at(spring.save().len().min(rest.len()));
-            spring.restore(variables)?;
-            rest = remaining;
+            let count = spring.save().len().min(rest.len());
+            spring.restore(&rest[..count])?;
+            rest = &rest[count..];
         }
         Ok(())
     }

@@ -111,10 +111,9 @@ impl StoreyBuilding {
         for storey in storeys {
             positive("height of a storey", storey.height)?;
             positive("mass of a floor", storey.mass)?;
-            let [about_x, about_y, about_z] = storey.inertia;
-            not_negative("moment of inertia of a floor about x", about_x)?;
-            not_negative("moment of inertia of a floor about y", about_y)?;
-            positive("moment of inertia of a floor about the vertical", about_z)?;
+            not_negative("moment of inertia of a floor about x", storey.inertia[0])?;
+            not_negative("moment of inertia of a floor about y", storey.inertia[1])?;
+            positive("moment of inertia of a floor about the vertical", storey.inertia[2])?;
             for k in 0..3 {
                 positive("stiffness of a storey", storey.stiffness[k])?;
                 not_negative("damping of a storey", storey.damping[k])?;
