@@ -199,7 +199,7 @@ impl BaseNode {
         [self.x - first.x, second]
     }
 
-    /// Whether the node's displacements are the weighted sum of those of three corners, up to rounding.
+    /// Whether the weighted sum of three corners' displacements gives the node's, up to rounding.
     fn is_interpolated(&self, corners: [&Self; 3], weights: [f64; 3]) -> bool {
         self.rows().into_iter().enumerate().all(|(k, row)| {
             let mut residual = row.clone();
