@@ -17,8 +17,7 @@ impl DofCombination {
     /// [`Error::Scene`](crate::Error::Scene) in plan, where a row does not distinguish x from y: subtract a
     /// displacement of [`DofCombination::of_base`] there.
     pub fn relative_to_base(&self, structure: &dyn Structure) -> Result<Self> {
-        let [translation, _, _] = in_the_plane(structure, 0.0)?;
-        Ok(self.clone() - translation)
+        Ok(self.clone() - horizontal_in_the_plane(structure, 0.0)?)
     }
 
     /// Deformation of the structure at a point `height` (m) above the base, to the right.
@@ -48,8 +47,7 @@ impl DofCombination {
     /// [`Error::Input`](crate::Error::Input) for a height that is not finite or contact nodes at one place,
     /// [`Error::Scene`](crate::Error::Scene) in plan, as for [`DofCombination::relative_to_base`].
     pub fn total_drift(&self, structure: &dyn Structure, height: f64) -> Result<Self> {
-        let [carried, _, _] = in_the_plane(structure, height)?;
-        Ok(self.clone() - carried)
+        Ok(self.clone() - horizontal_in_the_plane(structure, height)?)
     }
 
     /// Displacements of a point of the rigid base: along x, along y, up.
@@ -100,15 +98,16 @@ impl DofCombination {
     }
 }
 
-/// Displacements of a point `height` above the middle of a rigid base in the plane.
-fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombination; 3]> {
+/// Displacement to the right of a point `height` above the middle of a rigid base in the plane.
+fn horizontal_in_the_plane(structure: &dyn Structure, height: f64) -> Result<DofCombination> {
     let needed = "in plan a row does not tell x from y: subtract a displacement of `DofCombination::of_base`";
     require_part(
         "displacement relative to the base",
         matches!(structure.base(), Base::Lines(_)),
         needed,
     )?;
-    DofCombination::of_base(structure, [0.0, 0.0, height])
+    let [horizontal, ..] = DofCombination::of_base(structure, [0.0, 0.0, height])?;
+    Ok(horizontal)
 }
 
 /// Displacement of the base's middle to the right, rotation of its chord, and displacement of the middle
@@ -118,7 +117,8 @@ fn in_the_plane(structure: &dyn Structure, height: f64) -> Result<[DofCombinatio
 fn base_motion(nodes: &[BaseNode]) -> Result<[DofCombination; 3]> {
     at_least("contact nodes", nodes.len(), 2)?;
     let nodes = BaseNode::floor(nodes);
-    let (left, right) = (&nodes[0], &nodes[nodes.len() - 1]);
+    let left = &nodes[0];
+    let right = &nodes[nodes.len() - 1];
     let per_width = 1.0 / positive("width of the base", right.x - left.x)?;
     let translation = 0.5 * left.horizontal.clone() + 0.5 * right.horizontal.clone();
     let rotation = per_width * (right.vertical.clone() - left.vertical.clone());

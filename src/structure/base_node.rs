@@ -5,7 +5,7 @@ use crate::error::{Result, at_least, finite, in_bounds, require};
 use crate::geometry::{COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, span};
 
 /// Relative difference of displacements, of heights, and of a distance from a line, that counts as rounding.
-const FLAT: f64 = 1e-9;
+const FLATNESS_TOLERANCE: f64 = 1e-9;
 
 /// A point of a structure's base, and its motion by the degrees of freedom.
 ///
@@ -34,17 +34,15 @@ pub struct BaseNode {
 impl BaseNode {
     /// A node in the plane with a horizontal and a vertical degree of freedom of its own.
     pub fn free(x: f64, horizontal: usize, vertical: usize) -> Self {
-        let (horizontal, vertical) = (horizontal.into(), vertical.into());
-        Self { x, horizontal, vertical, ..Self::default() }
+        Self { x, horizontal: horizontal.into(), vertical: vertical.into(), ..Self::default() }
     }
 
     /// A point of a rigid flat base in the plane.
     ///
     /// `dofs`: `[horizontal, vertical, rotation]` at `center`.
     pub fn rigid(x: f64, center: f64, dofs: [usize; 3]) -> Self {
-        let [horizontal, vertical, rotation] = dofs;
-        let vertical = [(vertical, 1.0), (rotation, x - center)].into();
-        Self { x, horizontal: horizontal.into(), vertical, ..Self::default() }
+        let vertical = [(dofs[1], 1.0), (dofs[2], x - center)].into();
+        Self { x, horizontal: dofs[0].into(), vertical, ..Self::default() }
     }
 
     /// The two ends of a rigid flat base in the plane, from `left` to `right`.
@@ -59,8 +57,7 @@ impl BaseNode {
     ///
     /// Displacements along x, along y and up.
     pub fn free_in_plan([x, y]: [f64; 2], [along, across, up]: [usize; 3]) -> Self {
-        let [horizontal, across, vertical] = [along, across, up].map(DofCombination::from);
-        Self { x, y, z: 0.0, horizontal, across, vertical }
+        Self { x, y, z: 0.0, horizontal: along.into(), across: across.into(), vertical: up.into() }
     }
 
     /// A point `[x, y]` (m) of a rigid flat base in plan.
@@ -69,7 +66,8 @@ impl BaseNode {
     /// right-hand rule.
     pub fn rigid_in_plan([x, y]: [f64; 2], center: [f64; 2], dofs: [usize; 6]) -> Self {
         let [along, across, up, about_x, about_y, about_z] = dofs;
-        let [dx, dy] = [x - center[0], y - center[1]];
+        let dx = x - center[0];
+        let dy = y - center[1];
         Self {
             x,
             y,
@@ -94,15 +92,17 @@ impl BaseNode {
     /// Slope to the right, slope away from the reader, and turn about the vertical.
     pub(crate) fn mean_rotations(nodes: &[Self]) -> [DofCombination; 3] {
         let count = nodes.len() as f64;
-        let mean = |of: &dyn Fn(&Self) -> f64| nodes.iter().map(of).sum::<f64>() / count;
-        let (x, y) = (mean(&|node| node.x), mean(&|node| node.y));
-        let product = |one: fn([f64; 2]) -> f64| mean(&|node| one([node.x - x, node.y - y]));
-        let (xx, xy, yy) =
-            (product(|d| d[0] * d[0]), product(|d| d[0] * d[1]), product(|d| d[1] * d[1]));
-        let (scale, polar) = (count * (xx * yy - xy * xy), count * (xx + yy));
+        let x = nodes.iter().map(|node| node.x).sum::<f64>() / count;
+        let y = nodes.iter().map(|node| node.y).sum::<f64>() / count;
+        let xx = nodes.iter().map(|node| (node.x - x) * (node.x - x)).sum::<f64>() / count;
+        let xy = nodes.iter().map(|node| (node.x - x) * (node.y - y)).sum::<f64>() / count;
+        let yy = nodes.iter().map(|node| (node.y - y) * (node.y - y)).sum::<f64>() / count;
+        let scale = count * (xx * yy - xy * xy);
+        let polar = count * (xx + yy);
         let mut rotations: [DofCombination; 3] = Default::default();
         for node in nodes {
-            let [dx, dy] = [node.x - x, node.y - y];
+            let dx = node.x - x;
+            let dy = node.y - y;
             rotations[0] += ((yy * dx - xy * dy) / scale) * node.vertical.clone();
             rotations[1] += ((xx * dy - xy * dx) / scale) * node.vertical.clone();
             rotations[2] += (dx / polar) * node.across.clone();
@@ -116,23 +116,25 @@ impl BaseNode {
     /// The point lies at `[x, y]` (m), `height` above the base, and moves with the plane that fits the nodes
     /// best.
     pub(crate) fn carried(nodes: &[Self], [x, y]: [f64; 2], height: f64) -> [DofCombination; 3] {
-        let share = 1.0 / nodes.len() as f64;
-        let mut mean: [DofCombination; 3] = Default::default();
+        let weight = 1.0 / nodes.len() as f64;
         let mut middle = [0.0; 2];
+        let mut along = DofCombination::default();
+        let mut across = DofCombination::default();
+        let mut up = DofCombination::default();
         for node in nodes {
-            middle[0] += share * node.x;
-            middle[1] += share * node.y;
-            for (sum, row) in mean.iter_mut().zip([&node.horizontal, &node.across, &node.vertical])
-            {
-                *sum += share * row.clone();
-            }
+            middle[0] += weight * node.x;
+            middle[1] += weight * node.y;
+            along += weight * node.horizontal.clone();
+            across += weight * node.across.clone();
+            up += weight * node.vertical.clone();
         }
-        let [to_the_right, away, turn] = Self::mean_rotations(nodes);
-        let ([dx, dy], [along, across, up]) = ([x - middle[0], y - middle[1]], mean);
+        let dx = x - middle[0];
+        let dy = y - middle[1];
+        let [slope_right, slope_away, turn] = Self::mean_rotations(nodes);
         [
-            along - height * to_the_right.clone() - dy * turn.clone(),
-            across - height * away.clone() + dx * turn,
-            up + dx * to_the_right + dy * away,
+            along - height * slope_right.clone() - dy * turn.clone(),
+            across - height * slope_away.clone() + dx * turn,
+            up + dx * slope_right + dy * slope_away,
         ]
     }
 
@@ -141,10 +143,11 @@ impl BaseNode {
     /// All nodes, if only one is the lowest: a base without walls.
     pub(crate) fn floor(nodes: &[Self]) -> &[Self] {
         let [lowest, highest] = span(nodes.iter().map(|node| node.z));
-        let limit = lowest + FLAT * (highest - lowest);
-        let is_low = |node: &Self| node.z <= limit;
-        match [nodes.iter().position(is_low), nodes.iter().rposition(is_low)] {
-            [Some(first), Some(last)] if first < last => &nodes[first..=last],
+        let limit = lowest + FLATNESS_TOLERANCE * (highest - lowest);
+        let first = nodes.iter().position(|node| node.z <= limit);
+        let last = nodes.iter().rposition(|node| node.z <= limit);
+        match (first, last) {
+            (Some(first), Some(last)) if first < last => &nodes[first..=last],
             _ => nodes,
         }
     }
@@ -163,37 +166,51 @@ impl BaseNode {
     pub(crate) fn are_flat(nodes: &[Self]) -> bool {
         let Some(first) = nodes.first() else { return true };
         let in_plan = nodes.iter().any(|node| node.y != 0.0);
-        let second = |node: &Self| if in_plan { node.y } else { node.z };
-        let from = |node: &Self| [node.x - first.x, second(node) - second(first)];
-        let farthest = |distance: &dyn Fn([f64; 2]) -> f64| {
-            let far = nodes.iter().map(|node| (distance(from(node)), node));
-            far.fold((0.0, first), |most, own| if own.0 > most.0 { own } else { most })
-        };
-        let (length, second) = farthest(&|[x, y]| x.hypot(y));
+        let offsets: Vec<[f64; 2]> =
+            nodes.iter().map(|node| node.offset_from(first, in_plan)).collect();
+        let distances = offsets.iter().map(|offset| offset[0].hypot(offset[1]));
+        let (length, second) = largest_value(distances);
         if length == 0.0 {
             return nodes.iter().all(|node| node.rows() == first.rows());
         }
-        let axis = from(second).map(|x| x / length);
-        let aside = |[x, y]: [f64; 2]| axis[0] * y - axis[1] * x;
-        let (width, third) = farthest(&|place| aside(place).abs());
-        let is_line = width <= FLAT * length;
-        nodes.iter().all(|node| {
-            let place = from(node);
-            let off = if is_line { 0.0 } else { aside(place) / aside(from(third)) };
-            let [x, y] = [0, 1].map(|k| place[k] - off * from(third)[k]);
-            let along = (axis[0] * x + axis[1] * y) / length;
-            let weighted = [(first, 1.0 - along - off), (second, along), (third, off)];
-            node.rows().into_iter().enumerate().all(|(k, row)| {
-                let mut rest = row.clone();
-                for (own, weight) in weighted.into_iter().filter(|(_, weight)| *weight != 0.0) {
-                    rest -= weight * own.rows()[k].clone();
+        let axis = offsets[second].map(|x| x / length);
+        let (width, third) =
+            largest_value(offsets.iter().map(|offset| cross_product(axis, *offset).abs()));
+        let is_line = width <= FLATNESS_TOLERANCE * length;
+        let corners = [first, &nodes[second], &nodes[third]];
+        nodes.iter().zip(&offsets).all(|(node, offset)| {
+            let third_offset = offsets[third];
+            let third_weight = if is_line {
+                0.0
+            } else {
+                cross_product(axis, *offset) / cross_product(axis, third_offset)
+            };
+            let x = offset[0] - third_weight * third_offset[0];
+            let y = offset[1] - third_weight * third_offset[1];
+            let second_weight = (axis[0] * x + axis[1] * y) / length;
+            let first_weight = 1.0 - second_weight - third_weight;
+            node.is_interpolated(corners, [first_weight, second_weight, third_weight])
+        })
+    }
+
+    /// Place relative to `first`: x and y in plan, x and z in the plane.
+    fn offset_from(&self, first: &Self, in_plan: bool) -> [f64; 2] {
+        let second = if in_plan { self.y - first.y } else { self.z - first.z };
+        [self.x - first.x, second]
+    }
+
+    /// Whether the weighted sum of three corners' displacements gives the node's, up to rounding.
+    fn is_interpolated(&self, corners: [&Self; 3], weights: [f64; 3]) -> bool {
+        self.rows().into_iter().enumerate().all(|(k, row)| {
+            let mut residual = row.clone();
+            let mut scale = largest_weight(row);
+            for (corner, weight) in corners.into_iter().zip(weights) {
+                if weight != 0.0 {
+                    residual -= weight * corner.rows()[k].clone();
                 }
-                let largest = |row: &DofCombination| {
-                    row.iter().fold(0.0_f64, |most, (_, weight)| most.max(weight.abs()))
-                };
-                let scale = [row, first.rows()[k], second.rows()[k], third.rows()[k]];
-                largest(&rest) <= FLAT * scale.into_iter().map(largest).fold(0.0, f64::max)
-            })
+                scale = scale.max(largest_weight(corner.rows()[k]));
+            }
+            largest_weight(&residual) <= FLATNESS_TOLERANCE * scale
         })
     }
 
@@ -238,6 +255,27 @@ impl BaseNode {
     }
 }
 
+/// Largest of the values above zero and its index, the first of equals; (0, 0) without any.
+fn largest_value(values: impl Iterator<Item = f64>) -> (f64, usize) {
+    let mut largest = (0.0, 0);
+    for (index, value) in values.enumerate() {
+        if value > largest.0 {
+            largest = (value, index);
+        }
+    }
+    largest
+}
+
+/// Component of the cross product of two vectors along the normal of their plane.
+fn cross_product(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// Largest size of a weight in a row.
+fn largest_weight(row: &DofCombination) -> f64 {
+    row.iter().fold(0.0_f64, |largest, (_, weight)| largest.max(weight.abs()))
+}
+
 /// Error unless a contact node at `x` lies to the right of the node before it, at `before`.
 pub(crate) fn from_the_left(before: f64, x: f64) -> Result<()> {
     let needed = "to the right of the node before it: contact nodes are listed from left to right";
@@ -258,8 +296,9 @@ mod tests {
     #[test]
     fn only_nodes_that_leave_the_flat_divide_a_base() {
         for far in [0.0, 4500.0] {
-            let rigid = |x: f64| BaseNode::rigid(far + x, far, [0, 1, 2]);
-            let mut nodes: Vec<_> = [-3.0, -1.0, 0.5, 2.0, 3.0].map(rigid).into();
+            let mut nodes: Vec<_> = [-3.0, -1.0, 0.5, 2.0, 3.0]
+                .map(|x| BaseNode::rigid(far + x, far, [0, 1, 2]))
+                .into();
             assert!(BaseNode::are_flat(&nodes));
             assert_eq!(BaseNode::segments(&nodes), 1);
             nodes[2].vertical = 7.into();
@@ -275,7 +314,8 @@ mod tests {
             assert!(!BaseNode::are_flat(&face));
         }
         // Nodes on the line through free ends move with the ends; free ends alone are one segment.
-        let [left, right] = [BaseNode::free(0.0, 0, 1), BaseNode::free(4.0, 2, 3)];
+        let left = BaseNode::free(0.0, 0, 1);
+        let right = BaseNode::free(4.0, 2, 3);
         let mut between = BaseNode::free(1.0, 0, 1);
         between.vertical = [(1, 0.75), (3, 0.25)].into();
         between.horizontal = [(0, 0.75), (2, 0.25)].into();

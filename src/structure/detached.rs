@@ -8,12 +8,12 @@ use crate::linalg::{Partition, SparseFactor, SparseMatrix, sparse_condition};
 /// Condition of a part's stiffness above which the part counts as floating.
 ///
 /// A floating part has a condition of 10¹⁶ up to rounding, a tower 800 times as high as wide has 10¹².
-const FLOATS: f64 = 1e14;
+const FLOATING_CONDITION: f64 = 1e14;
 /// A modal mass within 1e-6 of one counts as normalised.
-const NORMALISED: f64 = 1e-6;
+const UNIT_MASS_TOLERANCE: f64 = 1e-6;
 
 /// Largest number of degrees of freedom or nodes that a text lists.
-pub(super) const NAMED: usize = 8;
+pub(super) const MAX_LISTED_ITEMS: usize = 8;
 
 /// Error for a part that no stiffness connects to a degree of freedom of `base`.
 ///
@@ -34,7 +34,7 @@ pub(crate) fn check_attached(
 
 /// Degrees of freedom by their numbers.
 pub(crate) fn numbers(dofs: &[usize]) -> String {
-    let texts: Vec<String> = dofs.iter().take(NAMED).map(ToString::to_string).collect();
+    let texts: Vec<String> = dofs.iter().take(MAX_LISTED_ITEMS).map(ToString::to_string).collect();
     let noun = if dofs.len() == 1 { "degree of freedom" } else { "degrees of freedom" };
     format!("{noun} {}", listed(&texts, dofs.len()))
 }
@@ -73,21 +73,22 @@ fn detached(stiffness: &SparseMatrix, mass: &SparseMatrix, base: &[usize]) -> Re
         dofs.iter().enumerate().for_each(|(k, &dof)| place[dof] = (part, k));
     }
     let base_part = place[first].0;
-    let mut own: Vec<_> = parts.iter().map(|part| Triplets::new(part.len())).collect();
+    let mut part_stiffness: Vec<_> = parts.iter().map(|part| Triplets::new(part.len())).collect();
     for (row, column, value) in stiffness.entries() {
-        let (part, k) = place[row];
+        let part = place[row].0;
         if part != base_part && value != 0.0 {
-            own[part].add(k, place[column].1, value);
+            part_stiffness[part].add(place[row].1, place[column].1, value);
         }
     }
-    let (masses, massless) = (mass.diagonal(), massless(mass));
+    let masses = mass.diagonal();
+    let massless = massless(mass);
     let mut found = Vec::new();
     for (part, dofs) in parts.iter().enumerate().filter(|(part, _)| *part != base_part) {
         let has_mass = dofs.iter().any(|&dof| !massless[dof]);
-        let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= NORMALISED;
+        let is_mode = dofs.len() == 1 && (masses[dofs[0]] - 1.0).abs() <= UNIT_MASS_TOLERANCE;
         let takes_part = !has_mass || is_mode || by_any.root(dofs[0]) == ground;
-        let is_empty = !has_mass && own[part].entries().is_empty();
-        let is_attached = is_empty || takes_part && holds_itself(&own[part])?;
+        let is_empty = !has_mass && part_stiffness[part].entries().is_empty();
+        let is_attached = is_empty || takes_part && holds_itself(&part_stiffness[part])?;
         if !is_attached {
             found.extend_from_slice(dofs);
         }
@@ -114,11 +115,11 @@ pub(super) fn restricted(
 
 /// Whether a stiffness resists every motion.
 fn holds_itself(stiffness: &Triplets) -> Result<bool> {
-    const NAME: &str = "stiffness matrix of a part";
-    let matrix = SparseMatrix::new(NAME, stiffness)?;
+    const MATRIX_NAME: &str = "stiffness matrix of a part";
+    let matrix = SparseMatrix::new(MATRIX_NAME, stiffness)?;
     if matrix.is_empty() {
         return Ok(false);
     }
-    Ok(SparseFactor::new(NAME, stiffness)
-        .is_ok_and(|factor| sparse_condition(&matrix, &factor) < FLOATS))
+    Ok(SparseFactor::new(MATRIX_NAME, stiffness)
+        .is_ok_and(|factor| sparse_condition(&matrix, &factor) < FLOATING_CONDITION))
 }

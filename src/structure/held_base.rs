@@ -35,8 +35,11 @@ impl<'a> HeldBase<'a> {
 
     /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.
     pub(crate) fn pulls(&self) -> Vec<Vec<f64>> {
-        let rows = |direction| self.nodes.iter().map(move |node| (node.rows()[direction], 1.0));
-        (0..self.directions()).map(|direction| self.forces(rows(direction))).collect()
+        (0..self.directions())
+            .map(|direction| {
+                self.forces(self.nodes.iter().map(move |node| (node.rows()[direction], 1.0)))
+            })
+            .collect()
     }
 
     /// Forces γ Nᵀn for rotations of `nodes` by 1 rad about `middle`.
@@ -55,10 +58,8 @@ impl<'a> HeldBase<'a> {
         let mut turns = vec![self.forces(up.chain(along))];
         if self.directions() == COMPONENTS_IN_SPACE {
             turns.push(self.forces(nodes.clone().map(|node| (&node.vertical, node.y - y))));
-            let [along, across] = [
-                self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y))),
-                self.forces(nodes.map(|node| (&node.across, node.x - x))),
-            ];
+            let along = self.forces(nodes.clone().map(|node| (&node.horizontal, y - node.y)));
+            let across = self.forces(nodes.map(|node| (&node.across, node.x - x)));
             turns.push(along.iter().zip(&across).map(|(one, other)| one + other).collect());
         }
         turns

@@ -2,18 +2,18 @@
 
 /// Forwards the methods of [`Structure`] that a wrapper leaves unchanged.
 macro_rules! forward_structure {
-    ($own:ident.$inner:ident) => {
+    ($wrapper:ident.$inner:ident) => {
         forward! {
-            $own.$inner;
-            fn dofs(&$own) -> usize;
-            fn base(&$own) -> $crate::structure::Base;
-            fn mass(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
-            fn geometric_stiffness(&$own, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
-            fn has_active_damping(&$own) -> bool;
-            fn has_active_stiffness(&$own) -> bool;
-            fn description(&$own) -> $crate::structure::StructureDescription;
-            fn describe(&$own, dofs: &[usize]) -> Option<String>;
-            fn load(&$own, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
+            $wrapper.$inner;
+            fn dofs(&$wrapper) -> usize;
+            fn base(&$wrapper) -> $crate::structure::Base;
+            fn mass(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
+            fn geometric_stiffness(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::error::Result<()>;
+            fn has_active_damping(&$wrapper) -> bool;
+            fn has_active_stiffness(&$wrapper) -> bool;
+            fn description(&$wrapper) -> $crate::structure::StructureDescription;
+            fn describe(&$wrapper, dofs: &[usize]) -> Option<String>;
+            fn load(&$wrapper, time: f64, load: &mut [f64]) -> $crate::error::Result<()>;
         }
     };
 }
@@ -51,7 +51,7 @@ pub use hysteresis::{
     PendulumBearing, SpringResponse, WithSprings,
 };
 pub(crate) use matrix_checks::{
-    UNNOTICED, check_damping, check_mass, check_stiffness, combination, massless,
+    NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, combination, massless,
 };
 pub use modal_damping::{ModalDamping, WithModalDamping};
 #[cfg(feature = "embedded")]

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::rigid_motions::{check_rows, rigid_momenta};
 use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
-use crate::structure::matrix_checks::SYMMETRIC;
+use crate::structure::matrix_checks::SYMMETRY_TOLERANCE;
 use crate::structure::{
     HeldBase, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
 };
@@ -57,22 +57,22 @@ short_debug! {
 }
 
 /// Largest number of degrees of freedom: C is a full matrix.
-const MOST: usize = 3000;
+const MAX_DAMPED_DOFS: usize = 3000;
 /// A mode is rigid if rigid motions hold more than this fraction of its momentum.
 ///
 /// Eigenvalues do not distinguish rigid modes: rounding leaves theirs small but arbitrary, and in fine meshes
 /// the lowest modes that are not rigid have 10⁻¹² of the highest eigenvalue.
-const RIGID: f64 = 0.5;
+const RIGID_MOMENTUM_FRACTION: f64 = 0.5;
 /// Stiffness of the springs that hold a base, relative to the largest stiffness: within a millionth of a fixed base.
-const HELD: f64 = 1e6;
+const FIXED_BASE_STIFFNESS_RATIO: f64 = 1e6;
 /// Values of 1/ω² below this fraction of the largest are rounding of massless degrees of freedom.
-const MASSLESS: f64 = 1e-13;
-const SYMMETRIC_AND_HEAVY: Error = Error::Scene {
+const MASSLESS_VALUE_FRACTION: f64 = 1e-13;
+const UNSUITABLE_MATRICES: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must have symmetric matrices and mass at every degree of freedom (elements with density give mass to \
              rotations; damping on a fixed base needs none)",
 };
-const RESISTS: Error = Error::Scene {
+const UNRESISTED_MOTION: Error = Error::Scene {
     quantity: "structure with modal damping",
     needed: "must resist every motion that is not rigid",
 };
@@ -110,18 +110,22 @@ impl ModalDamping {
     /// # Errors
     /// As for [`ModalDamping::on`], except for massless degrees of freedom.
     pub fn on_fixed_base(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
-        let [mass, stiffness] = matrices(&structure)?;
+        let matrices = matrices(&structure)?;
+        let stiffness = &matrices.stiffness;
         let nodes = structure.base().into_nodes();
-        check_rows(&nodes, mass.order())?;
-        let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
-        let held = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
-        let (values, vectors) = generalised_modes(&mass, &held).ok_or(RESISTS)?;
+        check_rows(&nodes, matrices.mass.order())?;
+        let spring = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
+        let on_springs = HeldBase::new(&nodes, stiffness, spring);
+        let on_springs = SparseMatrix::new(HeldBase::NAME, &on_springs.matrix)?;
+        let (values, vectors) =
+            generalised_modes(&matrices.mass, &on_springs).ok_or(UNRESISTED_MOTION)?;
         let mut found = WithModalDamping::new(structure);
-        let (n, largest) = (values.len(), values.last().copied().unwrap_or(0.0));
-        let (mut mode, mut force) = (vec![0.0; n], vec![0.0; n]);
+        let largest = values.last().copied().unwrap_or(0.0);
+        let mut mode = vec![0.0; values.len()];
+        let mut force = vec![0.0; values.len()];
         // Values are 1/ω², ascending, and modes have φᵀ(K + γ NᵀN)φ = 1.
         for (j, value) in values.iter().enumerate().rev() {
-            if *value <= MASSLESS * largest {
+            if *value <= MASSLESS_VALUE_FRACTION * largest {
                 break;
             }
             column(&vectors, j, &mut mode);
@@ -148,22 +152,26 @@ impl ModalDamping {
     /// negative one; [`Error::Singular`] when contact nodes at rest do not hold the structure; and errors of
     /// the entries.
     pub fn on(&self, structure: impl Structure + 'static) -> Result<WithModalDamping> {
-        let [mass, stiffness] = matrices(&structure)?;
-        let (values, vectors) = generalised_modes(&stiffness, &mass).ok_or(SYMMETRIC_AND_HEAVY)?;
-        let momenta = rigid_momenta(&structure.base().into_nodes(), &stiffness, &mass)?;
+        let matrices = matrices(&structure)?;
+        let (values, vectors) =
+            generalised_modes(&matrices.stiffness, &matrices.mass).ok_or(UNSUITABLE_MATRICES)?;
+        let nodes = structure.base().into_nodes();
+        let rigid_momenta = rigid_momenta(&nodes, &matrices.stiffness, &matrices.mass)?;
         let mut found = WithModalDamping::new(structure);
-        let (mut mode, mut momentum) = (vec![0.0; values.len()], vec![0.0; values.len()]);
+        let mut mode = vec![0.0; values.len()];
+        let mut momentum = vec![0.0; values.len()];
         for (j, value) in values.iter().enumerate() {
             column(&vectors, j, &mut mode);
-            if momenta.iter().map(|momentum| dot(momentum, &mode).powi(2)).sum::<f64>() > RIGID {
+            let rigid_parts = rigid_momenta.iter().map(|momentum| dot(momentum, &mode).powi(2));
+            if rigid_parts.sum::<f64>() > RIGID_MOMENTUM_FRACTION {
                 continue;
             }
             if *value <= 0.0 {
-                return Err(RESISTS);
+                return Err(UNRESISTED_MOTION);
             }
             let circular = value.sqrt();
             momentum.fill(0.0);
-            mass.multiply_add(1.0, &mode, &mut momentum);
+            matrices.mass.multiply_add(1.0, &mode, &mut momentum);
             let ratio = self.ratio(found.frequencies.len());
             found.add(circular, 2.0 * ratio * circular, &momentum);
         }
@@ -176,16 +184,23 @@ impl ModalDamping {
     }
 }
 
-/// Mass and stiffness of a structure; the stiffness includes the first tangent.
-fn matrices(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
+/// Matrices of a structure; the stiffness includes the first tangent.
+struct Matrices {
+    mass: SparseMatrix,
+    stiffness: SparseMatrix,
+}
+
+/// Matrices of a structure that is small enough; an error unless they are symmetric.
+fn matrices(structure: &dyn Structure) -> Result<Matrices> {
     let n = structure.dofs();
+    let is_small = n <= MAX_DAMPED_DOFS;
     let needed = "3000 or fewer: reduce it first";
-    require("number of degrees of freedom with modal damping", n as f64, n <= MOST, needed)?;
+    require("number of degrees of freedom with modal damping", n as f64, is_small, needed)?;
     let [mass, stiffness] = mass_and_stiffness(structure)?;
-    if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRIC {
-        return Err(SYMMETRIC_AND_HEAVY);
+    if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRY_TOLERANCE {
+        return Err(UNSUITABLE_MATRICES);
     }
-    Ok([mass, stiffness])
+    Ok(Matrices { mass, stiffness })
 }
 
 /// Overwrites `vector` with column `j` of a square matrix.

@@ -179,9 +179,9 @@ pub(crate) fn nonlinear_state(
     displacement: &[f64],
 ) -> Result<(Vec<f64>, Option<InternalEnergy>)> {
     let mut force = vec![0.0; displacement.len()];
-    let Some(own) = structure.nonlinear() else { return Ok((force, None)) };
-    own.force(displacement, &mut force)?;
-    Ok((force, own.energy(displacement)))
+    let Some(law) = structure.nonlinear() else { return Ok((force, None)) };
+    law.force(displacement, &mut force)?;
+    Ok((force, law.energy(displacement)))
 }
 
 /// Mass, and stiffness with the tangent of the nonlinear force at rest.
@@ -216,14 +216,14 @@ impl Tangent {
 
     /// Computes the tangent at a displacement; allocates only for entries at new places.
     pub(crate) fn refill(&mut self, structure: &dyn Structure, displacement: &[f64]) -> Result<()> {
-        const NAME: &str = "tangent of the nonlinear force";
+        const TANGENT_NAME: &str = "tangent of the nonlinear force";
         self.entries.clear();
-        if let Some(own) = structure.nonlinear() {
-            own.tangent(displacement, &mut self.entries)?;
-            same_length(NAME, self.entries.order(), displacement.len())?;
+        if let Some(law) = structure.nonlinear() {
+            law.tangent(displacement, &mut self.entries)?;
+            same_length(TANGENT_NAME, self.entries.order(), displacement.len())?;
         }
         if self.matrix.order() != displacement.len() || !self.matrix.refill(&self.entries) {
-            self.matrix = SparseMatrix::new(NAME, &self.entries)?;
+            self.matrix = SparseMatrix::new(TANGENT_NAME, &self.entries)?;
         }
         Ok(())
     }

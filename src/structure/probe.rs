@@ -109,12 +109,10 @@ impl Probe {
         map: impl Fn(DofCombination) -> Result<DofCombination>,
     ) -> Result<Self> {
         let Self { name, displacement, velocity, acceleration, .. } = self.clone();
-        let mapped = |row: DofCombination| {
-            let named = |fault: Error| fault.within(format!("probe '{name}'"));
-            map(row).map_err(named)
-        };
-        let (displacement, velocity) = (mapped(displacement)?, mapped(velocity)?);
-        let acceleration = mapped(acceleration)?;
+        let map = |row| map(row).map_err(|fault| fault.within(format!("probe '{name}'")));
+        let displacement = map(displacement)?;
+        let velocity = map(velocity)?;
+        let acceleration = map(acceleration)?;
         Ok(Self { displacement, velocity, acceleration, ..self })
     }
 }
@@ -123,13 +121,13 @@ impl Probe {
 pub(crate) fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
-        let name = || probe.name.clone();
+        let name = &probe.name;
         for row in probe.rows() {
-            let named = |fault: Error| fault.within(format!("probe '{}'", name()));
-            row.check("degree of freedom", dofs).map_err(named)?;
+            row.check("degree of freedom", dofs)
+                .map_err(|fault| fault.within(format!("probe '{name}'")))?;
         }
-        if !names.insert(&probe.name) {
-            return Err(Error::DuplicateName { quantity: "probe", name: name() });
+        if !names.insert(name) {
+            return Err(Error::DuplicateName { quantity: "probe", name: name.clone() });
         }
     }
     Ok(())
@@ -141,6 +139,6 @@ pub(crate) fn probe_index<T>(
     name: &str,
     name_of: impl Fn(&T) -> &String + Copy,
 ) -> Result<usize> {
-    let unknown = || Error::no_name("probe", name, list.iter().map(name_of));
-    list.iter().position(|entry| name_of(entry) == name).ok_or_else(unknown)
+    let index = list.iter().position(|entry| name_of(entry) == name);
+    index.ok_or_else(|| Error::no_name("probe", name, list.iter().map(name_of)))
 }

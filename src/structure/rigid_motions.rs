@@ -5,9 +5,9 @@ use crate::linalg::{Partition, SparseMatrix, dot};
 use crate::structure::{BaseNode, HeldBase, stiffest};
 
 /// A part counts as at rest if it has less than this fraction of a motion's norm.
-const NOTHING: f64 = 1e-8;
+const RESTING_PART_FRACTION: f64 = 1e-8;
 /// A motion depends on the others if the rest after removing them is below this fraction.
-const DEPENDENT: f64 = 1e-6;
+const DEPENDENT_MOTION_FRACTION: f64 = 1e-6;
 
 /// Error for contact nodes with degrees of freedom at `n` or beyond.
 pub(super) fn check_rows(contact: &[BaseNode], n: usize) -> Result<()> {
@@ -27,10 +27,11 @@ pub(super) fn rigid_momenta(
 ) -> Result<Vec<Vec<f64>>> {
     let n = mass.order();
     check_rows(contact, n)?;
-    let mean = |place: fn(&BaseNode) -> f64| {
-        contact.iter().map(place).sum::<f64>() / contact.len().max(1) as f64
-    };
-    let center = [mean(|node| node.x), mean(|node| node.y)];
+    let count = contact.len().max(1) as f64;
+    let center = [
+        contact.iter().map(|node| node.x).sum::<f64>() / count,
+        contact.iter().map(|node| node.y).sum::<f64>() / count,
+    ];
     let held = HeldBase::new(contact, stiffness, stiffest(stiffness));
     let mut factor = held.factor()?;
     let mut rigid = held.pulls();
@@ -38,7 +39,8 @@ pub(super) fn rigid_momenta(
     let mut coupled = Partition::new(n);
     coupled.couple(stiffness);
     let parts = coupled.sets();
-    let (mut motions, mut momenta): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
+    let mut motions: Vec<Vec<f64>> = Vec::new();
+    let mut momenta: Vec<Vec<f64>> = Vec::new();
     for mut all in rigid {
         factor.solve(&mut all);
         let whole = mass.form(&all, &all).sqrt();
@@ -48,7 +50,7 @@ pub(super) fn rigid_momenta(
                 motion[i] = all[i];
             }
             let norm = mass.form(&motion, &motion).sqrt();
-            if norm.is_nan() || norm <= NOTHING * whole {
+            if norm.is_nan() || norm <= RESTING_PART_FRACTION * whole {
                 continue;
             }
             for x in &mut motion {
@@ -59,7 +61,7 @@ pub(super) fn rigid_momenta(
                 motion.iter_mut().zip(other).for_each(|(x, y)| *x -= share * y);
             }
             let rest = mass.form(&motion, &motion).sqrt();
-            if rest > DEPENDENT {
+            if rest > DEPENDENT_MOTION_FRACTION {
                 for x in &mut motion {
                     *x /= rest;
                 }

@@ -30,7 +30,7 @@ use crate::coupled::base::influence::Influence;
 use crate::error::{Error, Result, StructureError, require, require_part};
 use crate::linalg::matrix::spread;
 use crate::linalg::{SparseMatrix, largest};
-use crate::structure::{Structure, Tangent, UNNOTICED};
+use crate::structure::{NEGLIGIBLE_SQUARED_FREQUENCY, Structure, Tangent};
 
 /// Largest lag that is accepted, far above rounding; also the largest accepted error of contact nodes' weights.
 const MAX_CONTACT_NODE_LAG: f64 = 1e-6;
@@ -74,7 +74,8 @@ pub(crate) fn check(
     for (translation, direction) in translations.iter_mut().zip(TRANSLATION_NAMES) {
         let resistance = Resistance::new(stiffness, translation);
         let square = stiffness.form(translation, translation).abs();
-        let is_noticed = square > UNNOTICED * mass.form(translation, translation);
+        let inertia = mass.form(translation, translation);
+        let is_noticed = square > NEGLIGIBLE_SQUARED_FREQUENCY * inertia;
         if is_noticed && resistance.holds(lag, firmer) {
             let Resistance { force, dof, ratio, .. } = resistance;
             return Err(StructureError::Restrained { direction, force, dof, ratio }.into());

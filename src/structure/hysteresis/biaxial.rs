@@ -53,10 +53,10 @@ impl From<CoupledBoucWen> for BiaxialSpring {
 
 /// Calls a function of the law, whichever it is.
 macro_rules! of_law {
-    ($law:expr, $own:ident => $call:expr) => {
+    ($law:expr, $variant:ident => $call:expr) => {
         match $law {
-            Law::Slider($own) => $call,
-            Law::BoucWen($own) => $call,
+            Law::Slider($variant) => $call,
+            Law::BoucWen($variant) => $call,
         }
     };
 }

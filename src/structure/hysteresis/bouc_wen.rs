@@ -50,9 +50,15 @@ impl BoucWen {
         positive("yield force of the Bouc–Wen spring", yield_force)?;
         positive("yield displacement of the Bouc–Wen spring", yield_force / stiffness)?;
         elastic_share(hardening)?;
-        let curve = Curve::new(2.0, 0.5);
-        let (deformation, z, dissipated) = (0.0, 0.0, 0.0);
-        Ok(Self { stiffness, yield_force, hardening, curve, deformation, z, dissipated })
+        Ok(Self {
+            stiffness,
+            yield_force,
+            hardening,
+            curve: Curve::new(2.0, 0.5),
+            deformation: 0.0,
+            z: 0.0,
+            dissipated: 0.0,
+        })
     }
 
     /// Sets the exponent n and β.
@@ -89,34 +95,43 @@ impl BoucWen {
         let exponent = self.curve.exponent;
         let quantity = "exponent of the coupled Bouc–Wen spring";
         require(quantity, exponent, exponent == 2.0, "2")?;
-        let (k, b) = (self.stiffness, self.curve.unloading);
-        Ok(CoupledBoucWen::new(k, self.yield_force, self.hardening, b).into())
+        let unloading = self.curve.unloading;
+        let law = CoupledBoucWen::new(self.stiffness, self.yield_force, self.hardening, unloading);
+        Ok(law.into())
     }
 
-    /// z at a deformation, dz/d(d/d_y) there, and the energy dissipated on the path to it.
-    ///
-    /// Energy in units of (1 − α) F_y d_y.
-    fn follow(&self, deformation: f64) -> (f64, f64, f64) {
+    /// The straight path to a deformation.
+    fn follow(&self, deformation: f64) -> Path {
         let change = deformation - self.deformation;
         let side = if change == 0.0 { -self.z.signum() } else { change.signum() };
         let way = change.abs() * self.stiffness / self.yield_force;
-        let (y, dissipated) = self.curve.advance(side * self.z, way);
-        (side * y, self.curve.slope(y), dissipated)
+        let (y, lost) = self.curve.advance(side * self.z, way);
+        Path { z: side * y, slope: self.curve.slope(y), lost }
     }
+}
+
+/// End of a straight path.
+struct Path {
+    z: f64,
+    /// dz/d(d/d_y).
+    slope: f64,
+    /// Energy dissipated on the path, in units of (1 − α) F_y d_y.
+    lost: f64,
 }
 
 impl Hysteresis for BoucWen {
     fn response(&self, deformation: f64) -> SpringResponse {
-        let (z, slope, _) = self.follow(deformation);
-        let (k, share) = (self.stiffness, 1.0 - self.hardening);
+        let Path { z, slope, .. } = self.follow(deformation);
+        let k = self.stiffness;
+        let hysteretic = 1.0 - self.hardening;
         SpringResponse {
-            force: self.hardening * k * deformation + share * self.yield_force * z,
-            tangent: (self.hardening + share * slope) * k,
+            force: self.hardening * k * deformation + hysteretic * self.yield_force * z,
+            tangent: (self.hardening + hysteretic * slope) * k,
         }
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        let (z, _, lost) = self.follow(deformation);
+        let Path { z, lost, .. } = self.follow(deformation);
         let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
         let elastic = self.hardening * self.stiffness * deformation * deformation;
         InternalEnergy {
@@ -127,7 +142,7 @@ impl Hysteresis for BoucWen {
 
     fn commit(&mut self, deformation: f64) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.z = self.follow(deformation).0;
+        self.z = self.follow(deformation).z;
         self.deformation = deformation;
     }
 
@@ -164,7 +179,7 @@ pub(super) struct Curve {
 }
 
 /// Limit of Newton's iterations, which converge from one side and finally quadratically.
-const ITERATIONS: usize = 60;
+const MAX_NEWTON_ITERATIONS: usize = 60;
 
 impl Curve {
     pub(super) fn new(exponent: f64, beta: f64) -> Self {
@@ -182,7 +197,8 @@ impl Curve {
         if !(start.abs() <= 1.0 && way.is_finite()) {
             return (f64::NAN, f64::NAN);
         }
-        let (mut start, mut way) = (start, way);
+        let mut start = start;
+        let mut way = way;
         let mut dissipated = 0.0;
         if start < 0.0 {
             let turn = self.unloaded(-start, 0);
@@ -208,7 +224,8 @@ impl Curve {
 
     /// ∫₀^w sᵖ ds/(1 + b sⁿ).
     fn unloaded(&self, w: f64, p: i32) -> f64 {
-        let (n, b) = (self.exponent, self.unloading);
+        let n = self.exponent;
+        let b = self.unloading;
         let low = w.min(0.5);
         self.series(-b, low, p) + integral(low, w, |s| s.powi(p) / (1.0 + b * s.powf(n)))
     }
@@ -223,7 +240,8 @@ impl Curve {
     /// Σ cᵏ x^(nk+p+1)/(nk+p+1) = ∫₀^x sᵖ ds/(1 − c sⁿ) for x ≤ ½ and |c| ≤ 1.
     fn series(&self, c: f64, x: f64, p: i32) -> f64 {
         let ratio = x.powf(self.exponent);
-        let (mut power, mut order) = (x.powi(p + 1), f64::from(p + 1));
+        let mut power = x.powi(p + 1);
+        let mut order = f64::from(p + 1);
         let mut sum = 0.0;
         loop {
             let term = power / order;
@@ -241,7 +259,7 @@ impl Curve {
     /// w with ∫₀^w ds/(1 + b sⁿ) = `way`: Newton from the left on a concave function.
     fn find_unloaded(&self, way: f64) -> f64 {
         let mut w = way.min(1.0);
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_NEWTON_ITERATIONS {
             let step = (way - self.unloaded(w, 0)) * self.slope(-w);
             w = (w + step).min(1.0);
             if step.abs() <= 1e-16 {
@@ -258,7 +276,7 @@ impl Curve {
         }
         let target = self.loaded(-(-start).ln_1p()) + way;
         let mut v = target;
-        for _ in 0..ITERATIONS {
+        for _ in 0..MAX_NEWTON_ITERATIONS {
             // (1 − yⁿ)/(1 − y)
             let slope = -f64::exp_m1(self.exponent * (-(-v).exp()).ln_1p()) / (-v).exp();
             let slope = if slope.is_finite() { slope } else { self.exponent };
@@ -279,8 +297,9 @@ impl Curve {
         if y <= 0.5 {
             return self.series(1.0, y, 0);
         }
-        let rest = |s: f64| 1.0 / (1.0 - s.powf(n)) - 1.0 / (n * (1.0 - s));
-        self.series(1.0, 0.5, 0) + (v - std::f64::consts::LN_2) / n + integral(0.5, y, rest)
+        // The integrand less its singular part 1/(n (1 − s)).
+        let regular = integral(0.5, y, |s| 1.0 / (1.0 - s.powf(n)) - 1.0 / (n * (1.0 - s)));
+        self.series(1.0, 0.5, 0) + (v - std::f64::consts::LN_2) / n + regular
     }
 }
 
@@ -289,7 +308,8 @@ fn integral(low: f64, high: f64, f: impl Fn(f64) -> f64) -> f64 {
     if high <= low {
         return 0.0;
     }
-    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    let middle = 0.5 * (low + high);
+    let half = 0.5 * (high - low);
     let rule = gauss::largest();
     let points = rule.nodes.iter().zip(&rule.weights);
     half * points.map(|(x, weight)| weight * f(middle + half * x)).sum::<f64>()

@@ -22,17 +22,25 @@ pub(super) struct CoupledBoucWen {
 }
 
 /// Largest |z| of a saved state: the circle of yield, and rounding.
-const LARGEST: f64 = 1.0 + 1e-12;
+const MAX_SAVED_Z: f64 = 1.0 + 1e-12;
 
 impl CoupledBoucWen {
     pub(super) fn new(stiffness: f64, yield_force: f64, hardening: f64, unloading: f64) -> Self {
-        let (deformation, z, dissipated) = ([0.0; 2], [0.0; 2], 0.0);
-        Self { stiffness, yield_force, hardening, unloading, deformation, z, dissipated }
+        Self {
+            stiffness,
+            yield_force,
+            hardening,
+            unloading,
+            deformation: [0.0; 2],
+            z: [0.0; 2],
+            dissipated: 0.0,
+        }
     }
 
     /// The straight path to a deformation.
-    fn follow(&self, deformation: [f64; 2]) -> Path {
-        let [x, y] = [0, 1].map(|k| deformation[k] - self.deformation[k]);
+    fn follow(&self, deformation: [f64; 2]) -> PlanePath {
+        let x = deformation[0] - self.deformation[0];
+        let y = deformation[1] - self.deformation[1];
         let length = x.hypot(y);
         let size = self.z[0].hypot(self.z[1]);
         let along = if length > 0.0 {
@@ -48,31 +56,33 @@ impl CoupledBoucWen {
             self.z[0] * along[0] + self.z[1] * along[1],
             self.z[1] * along[0] - self.z[0] * along[1],
         ];
-        Path { along, glide: Glide::along(self.unloading, start, way) }
+        PlanePath { along, glide: Glide::along(self.unloading, start, way) }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
         let path = self.follow(deformation);
-        let (z, slope) = (path.end(), path.slope());
-        let (k, share) = (self.stiffness, 1.0 - self.hardening);
-        let part = |i: usize, j: usize| {
-            let unit = if i == j { self.hardening } else { 0.0 };
-            k * (unit + share * 0.5 * (slope[i][j] + slope[j][i]))
-        };
-        BiaxialResponse {
-            force: [0, 1]
-                .map(|i| self.hardening * k * deformation[i] + share * self.yield_force * z[i]),
-            tangent: [0, 1].map(|i| [0, 1].map(|j| part(i, j))),
+        let z = path.end();
+        let slope = path.slope();
+        let k = self.stiffness;
+        let hysteretic = 1.0 - self.hardening;
+        let mut tangent = [[0.0; 2]; 2];
+        for (i, row) in tangent.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let elastic = if i == j { self.hardening } else { 0.0 };
+                *entry = k * (elastic + hysteretic * 0.5 * (slope[i][j] + slope[j][i]));
+            }
         }
+        let force = [0, 1]
+            .map(|i| self.hardening * k * deformation[i] + hysteretic * self.yield_force * z[i]);
+        BiaxialResponse { force, tangent }
     }
 
     pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
         let path = self.follow(deformation);
         let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
-        let square = |[x, y]: [f64; 2]| x * x + y * y;
-        let elastic = self.hardening * self.stiffness * square(deformation);
+        let elastic = self.hardening * self.stiffness * squared_length(deformation);
         InternalEnergy {
-            stored: 0.5 * (elastic + unit * square(path.end())),
+            stored: 0.5 * (elastic + unit * squared_length(path.end())),
             dissipated: self.dissipated + unit * path.glide.lost,
         }
     }
@@ -91,7 +101,7 @@ impl CoupledBoucWen {
         match values {
             &[x, y, z_x, z_y, dissipated]
                 if values.iter().all(|value| value.is_finite())
-                    && z_x.hypot(z_y) <= LARGEST
+                    && z_x.hypot(z_y) <= MAX_SAVED_Z
                     && dissipated >= 0.0 =>
             {
                 (self.deformation, self.z, self.dissipated) = ([x, y], [z_x, z_y], dissipated);
@@ -102,17 +112,21 @@ impl CoupledBoucWen {
     }
 }
 
+fn squared_length([x, y]: [f64; 2]) -> f64 {
+    x * x + y * y
+}
+
 /// A straight path in the direction `along`.
-struct Path {
+struct PlanePath {
     along: [f64; 2],
     glide: Glide,
 }
 
-impl Path {
+impl PlanePath {
     /// Vector of components along and across the path, in the axes of the spring.
     fn turned(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let [x, y] = self.along;
-        [x * along - y * across, y * along + x * across]
+        let direction = self.along;
+        [direction[0] * along - direction[1] * across, direction[1] * along + direction[0] * across]
     }
 
     fn end(&self) -> [f64; 2] {
@@ -121,8 +135,10 @@ impl Path {
 
     /// ∂z/∂(d/d_y).
     fn slope(&self) -> [[f64; 2]; 2] {
-        let [x, y] = self.along;
-        let [longer, turned] = [self.glide.longer, self.glide.turned].map(|z| self.turned(z));
+        let x = self.along[0];
+        let y = self.along[1];
+        let longer = self.turned(self.glide.longer);
+        let turned = self.turned(self.glide.turned);
         [0, 1].map(|i| [longer[i] * x - turned[i] * y, longer[i] * y + turned[i] * x])
     }
 }
@@ -185,15 +201,21 @@ struct Phase {
 
 impl Phase {
     fn loading(way: f64) -> Self {
-        let (tangent, secant, half) = (way.tanh(), 1.0 / way.cosh(), (0.5 * way).tanh());
-        Self { kappa: 1.0, way, tangent, secant, half }
+        Self {
+            kappa: 1.0,
+            way,
+            tangent: way.tanh(),
+            secant: 1.0 / way.cosh(),
+            half: (0.5 * way).tanh(),
+        }
     }
 
     fn unloading(b: f64, way: f64) -> Self {
         let root = b.sqrt();
         let x = root * way;
-        let (tangent, half) =
-            if b > 0.0 { (x.tan() / root, (0.5 * x).tan() / root) } else { (way, 0.5 * way) };
+        let has_curvature = b > 0.0;
+        let tangent = if has_curvature { x.tan() / root } else { way };
+        let half = if has_curvature { (0.5 * x).tan() / root } else { 0.5 * way };
         Self { kappa: -b, way, tangent, secant: 1.0 / x.cos(), half }
     }
 
@@ -226,8 +248,8 @@ impl Phase {
 
     /// Energy dissipated from `start` to `end`: ∫ κ c |z|² dξ.
     fn lost(&self, start: [f64; 2], end: [f64; 2]) -> f64 {
-        let square = |[c, w]: [f64; 2]| c * c + w * w;
-        let (from, to) = (square(start), square(end));
+        let from = squared_length(start);
+        let to = squared_length(end);
         if self.kappa <= 0.0 {
             let b = -self.kappa;
             let released = (from - to).max(0.0);

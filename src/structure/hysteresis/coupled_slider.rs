@@ -19,6 +19,16 @@ pub(super) struct CoupledSlider {
     dissipated: f64,
 }
 
+/// Motion of the slider in a step.
+struct Sliding {
+    /// Direction from the slider to the deformation.
+    direction: [f64; 2],
+    /// Force of the slider.
+    force: f64,
+    /// Distance by which it slides, m.
+    way: f64,
+}
+
 impl CoupledSlider {
     /// A new spring with the numbers of `slider`.
     pub(super) fn new(slider: &Slider) -> Self {
@@ -26,38 +36,40 @@ impl CoupledSlider {
         Self { parallel, series, limit, slip: [0.0; 2], dissipated: 0.0 }
     }
 
-    /// Direction from the slider to the deformation, force of the slider and the way that it slides.
-    fn slide(&self, deformation: [f64; 2]) -> ([f64; 2], f64, f64) {
-        let [x, y] = [0, 1].map(|k| deformation[k] - self.slip[k]);
-        let distance = x.hypot(y);
+    /// Motion of the slider that the deformation causes.
+    fn slide(&self, deformation: [f64; 2]) -> Sliding {
+        let offset = [deformation[0] - self.slip[0], deformation[1] - self.slip[1]];
+        let distance = offset[0].hypot(offset[1]);
         if distance == 0.0 {
-            return ([0.0; 2], 0.0, 0.0);
+            return Sliding { direction: [0.0; 2], force: 0.0, way: 0.0 };
         }
-        let direction = [x, y].map(|part| part / distance);
+        let direction = offset.map(|part| part / distance);
         let trial = self.series * distance;
         if trial <= self.limit {
-            return (direction, trial, 0.0);
+            return Sliding { direction, force: trial, way: 0.0 };
         }
-        (direction, self.limit, distance - self.limit / self.series)
+        let way = distance - self.limit / self.series;
+        Sliding { direction, force: self.limit, way }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
-        let (direction, force, way) = self.slide(deformation);
+        let Sliding { direction, force, way } = self.slide(deformation);
         // Across its direction the force turns with the deformation about the slider.
         let across = if way > 0.0 { force / (force / self.series + way) } else { self.series };
         let along = if way > 0.0 { 0.0 } else { self.series };
-        let part = |i: usize, j: usize| {
-            let unit = if i == j { self.parallel + across } else { 0.0 };
-            unit + (along - across) * (direction[i] * direction[j])
-        };
-        BiaxialResponse {
-            force: [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]),
-            tangent: [0, 1].map(|i| [0, 1].map(|j| part(i, j))),
+        let mut tangent = [[0.0; 2]; 2];
+        for (i, row) in tangent.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let isotropic = if i == j { self.parallel + across } else { 0.0 };
+                *entry = isotropic + (along - across) * (direction[i] * direction[j]);
+            }
         }
+        let force = [0, 1].map(|k| self.parallel * deformation[k] + force * direction[k]);
+        BiaxialResponse { force, tangent }
     }
 
     pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
-        let (_, force, way) = self.slide(deformation);
+        let Sliding { force, way, .. } = self.slide(deformation);
         let square: f64 = deformation.iter().map(|d| d * d).sum();
         InternalEnergy {
             stored: 0.5 * (self.parallel * square + force * force / self.series),
@@ -66,18 +78,19 @@ impl CoupledSlider {
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
-        let (direction, _, way) = self.slide(deformation);
+        let Sliding { direction, way, .. } = self.slide(deformation);
         self.dissipated += self.limit * way;
         self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
     }
 
     /// Sets the limit after a commit of `deformation`. A force above it falls to it, and its energy becomes heat.
     pub(super) fn set_limit(&mut self, limit: f64, deformation: [f64; 2]) {
-        let (direction, before, _) = self.slide(deformation);
+        let before = self.slide(deformation);
         self.limit = limit;
-        let (_, force, way) = self.slide(deformation);
-        self.dissipated += 0.5 * (before * before - force * force) / self.series;
-        self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
+        let after = self.slide(deformation);
+        let released = before.force * before.force - after.force * after.force;
+        self.dissipated += 0.5 * released / self.series;
+        self.slip = [0, 1].map(|k| self.slip[k] + after.way * before.direction[k]);
     }
 
     pub(super) fn save(&self) -> Vec<f64> {

@@ -57,42 +57,49 @@ impl PendulumBearing {
 
     /// Forces along x, along y and up at a deformation (m), positive against positive deformations, N.
     pub fn force(&self, deformation: [f64; 3]) -> [f64; 3] {
-        let [x, y, _] = deformation;
+        let level = horizontal(deformation);
         let weight = self.vertical_force(deformation);
-        let [along, across] = self.slider.response([x, y]).force;
-        [along + weight * x / self.radius, across + weight * y / self.radius, -weight]
+        let friction = self.slider.response(level).force;
+        [
+            friction[0] + weight * level[0] / self.radius,
+            friction[1] + weight * level[1] / self.radius,
+            -weight,
+        ]
     }
 
     /// Slopes of the forces over the deformation, N/m: a symmetric matrix, by rows.
     pub(super) fn tangent(&self, deformation: [f64; 3]) -> [[f64; 3]; 3] {
-        let [x, y, _] = deformation;
-        let slopes = self.slider.response([x, y]).tangent;
+        let level = horizontal(deformation);
+        let slider_tangent = self.slider.response(level).tangent;
         let is_closed = self.shortening(deformation) >= 0.0;
         let stiffness = if is_closed { self.stiffness } else { 0.0 };
         let climb = self.vertical_force(deformation) / self.radius;
         // Slopes of the shortening.
-        let shortening = [x / self.radius, y / self.radius, -1.0];
-        let slope = |i: usize, j: usize| {
-            let level = if i < 2 && j < 2 { slopes[i][j] } else { 0.0 };
-            let turned = if i == j && i < 2 { climb } else { 0.0 };
-            level + turned + stiffness * shortening[i] * shortening[j]
-        };
-        [0, 1, 2].map(|i| [0, 1, 2].map(|j| slope(i, j)))
+        let shortening = [level[0] / self.radius, level[1] / self.radius, -1.0];
+        let mut tangent = [[0.0; 3]; 3];
+        for (i, row) in tangent.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                let sliding = if i < 2 && j < 2 { slider_tangent[i][j] } else { 0.0 };
+                let turning = if i == j && i < 2 { climb } else { 0.0 };
+                *entry = sliding + turning + stiffness * shortening[i] * shortening[j];
+            }
+        }
+        tangent
     }
 
     /// Stored and dissipated energy (J) at a deformation, on a straight path to it.
     pub fn energy(&self, deformation: [f64; 3]) -> InternalEnergy {
-        let [x, y, _] = deformation;
         let weight = self.vertical_force(deformation);
-        let own = self.slider.energy([x, y]);
-        InternalEnergy { stored: own.stored + 0.5 * weight * weight / self.stiffness, ..own }
+        let mut energy = self.slider.energy(horizontal(deformation));
+        energy.stored += 0.5 * weight * weight / self.stiffness;
+        energy
     }
 
     /// Accepts a step that ended with a deformation: friction then follows the vertical force at its end.
     pub(super) fn commit(&mut self, deformation: [f64; 3]) {
-        let [x, y, _] = deformation;
-        self.slider.commit([x, y]);
-        self.slider.set_limit(self.friction * self.vertical_force(deformation), [x, y]);
+        let level = horizontal(deformation);
+        self.slider.commit(level);
+        self.slider.set_limit(self.friction * self.vertical_force(deformation), level);
     }
 
     pub(super) fn save(&self) -> Vec<f64> {
@@ -100,10 +107,17 @@ impl PendulumBearing {
     }
 
     pub(super) fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let is_limit = |(limit, _): &(&f64, &[f64])| limit.is_finite() && **limit >= 0.0;
-        let (&limit, own) = values.split_last().filter(is_limit).ok_or_else(corrupt)?;
-        self.slider.restore(own)?;
+        let (&limit, slider_variables) = values.split_last().ok_or_else(corrupt)?;
+        if !(limit.is_finite() && limit >= 0.0) {
+            return Err(corrupt());
+        }
+        self.slider.restore(slider_variables)?;
         self.slider.limit = limit;
         Ok(())
     }
+}
+
+/// Deformations along x and y.
+fn horizontal([x, y, _]: [f64; 3]) -> [f64; 2] {
+    [x, y]
 }

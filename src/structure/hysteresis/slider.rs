@@ -17,23 +17,29 @@ pub(super) struct Slider {
     dissipated: f64,
 }
 
+/// Force of a slider and its displacement.
+struct SliderState {
+    force: f64,
+    slip: f64,
+}
+
 impl Slider {
     pub(super) fn new(parallel: f64, series: f64, limit: f64) -> Self {
         Self { parallel, series, limit, slip: 0.0, dissipated: 0.0 }
     }
 
-    /// Force of the slider and its slip.
-    fn slide(&self, deformation: f64) -> (f64, f64) {
+    /// State of the slider at a deformation.
+    fn slide(&self, deformation: f64) -> SliderState {
         let trial = self.series * (deformation - self.slip);
         if trial.abs() <= self.limit {
-            return (trial, self.slip);
+            return SliderState { force: trial, slip: self.slip };
         }
         let force = self.limit.copysign(trial);
-        (force, deformation - force / self.series)
+        SliderState { force, slip: deformation - force / self.series }
     }
 
     pub(super) fn response(&self, deformation: f64) -> SpringResponse {
-        let (force, slip) = self.slide(deformation);
+        let SliderState { force, slip } = self.slide(deformation);
         let tangent = if slip == self.slip { self.series } else { 0.0 };
         SpringResponse {
             force: self.parallel * deformation + force,
@@ -42,7 +48,7 @@ impl Slider {
     }
 
     pub(super) fn energy(&self, deformation: f64) -> InternalEnergy {
-        let (force, slip) = self.slide(deformation);
+        let SliderState { force, slip } = self.slide(deformation);
         InternalEnergy {
             stored: 0.5 * (self.parallel * deformation * deformation + force * force / self.series),
             dissipated: self.dissipated + self.limit * (slip - self.slip).abs(),
@@ -51,7 +57,7 @@ impl Slider {
 
     pub(super) fn commit(&mut self, deformation: f64) {
         self.dissipated = self.energy(deformation).dissipated;
-        self.slip = self.slide(deformation).1;
+        self.slip = self.slide(deformation).slip;
     }
 
     pub(super) fn save(&self) -> Vec<f64> {

@@ -79,9 +79,9 @@ impl Springs {
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
         let mut rest = values;
         for spring in &mut self.0 {
-            let (own, after) = rest.split_at(spring.save().len().min(rest.len()));
-            spring.restore(own)?;
-            rest = after;
+            let count = spring.save().len().min(rest.len());
+            spring.restore(&rest[..count])?;
+            rest = &rest[count..];
         }
         Ok(())
     }
@@ -237,15 +237,15 @@ impl Structure for WithSprings {
 /// The springs, and the structure's own nonlinear force if it has one.
 impl NonlinearForce for WithSprings {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        if let Some(own) = self.structure.nonlinear() {
-            own.force(displacement, force)?;
+        if let Some(law) = self.structure.nonlinear() {
+            law.force(displacement, force)?;
         }
         self.springs.force(displacement, force)
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        if let Some(own) = self.structure.nonlinear() {
-            own.tangent(displacement, matrix)?;
+        if let Some(law) = self.structure.nonlinear() {
+            law.tangent(displacement, matrix)?;
         }
         self.springs.tangent(displacement, matrix)
     }
@@ -253,14 +253,14 @@ impl NonlinearForce for WithSprings {
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
         let springs = self.springs.energy(displacement)?;
         match self.structure.nonlinear() {
-            Some(own) => Some(own.energy(displacement)? + springs),
+            Some(law) => Some(law.energy(displacement)? + springs),
             None => Some(springs),
         }
     }
 
     fn commit(&mut self, displacement: &[f64]) {
-        if let Some(own) = self.structure.nonlinear_mut() {
-            own.commit(displacement);
+        if let Some(law) = self.structure.nonlinear_mut() {
+            law.commit(displacement);
         }
         self.springs.commit(displacement);
     }
@@ -272,10 +272,10 @@ impl NonlinearForce for WithSprings {
     }
 
     fn restore(&mut self, values: &[f64]) -> Result<()> {
-        let (own, others) = values.split_at(self.springs.variables().min(values.len()));
+        let count = self.springs.variables().min(values.len());
         let before = self.springs.state();
-        self.springs.restore(own)?;
-        let outcome = restore_variables(self.structure.as_mut(), others);
+        self.springs.restore(&values[..count])?;
+        let outcome = restore_variables(self.structure.as_mut(), &values[count..]);
         if outcome.is_err() {
             self.springs.restore(&before)?;
         }

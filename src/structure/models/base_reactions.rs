@@ -46,13 +46,14 @@ impl FemModel {
     pub(super) fn is_held(&self) -> Vec<bool> {
         let mut is_held = vec![false; self.dofs()];
         let base = self.base();
-        let floors = base.parts().iter().flat_map(|own| BaseNode::floor(own));
+        let floors = base.parts().iter().flat_map(|part| BaseNode::floor(part));
         for dof in floors.flat_map(BaseNode::dofs) {
             is_held[dof] = true;
         }
         is_held
     }
 
+    /// Axis and direction of each rotation.
     fn rotations(&self) -> &'static [(usize, Direction)] {
         if self.mesh.has_depth() { ROTATIONS_OF_SPACE } else { ROTATIONS_OF_THE_PLANE }
     }
@@ -64,33 +65,38 @@ impl FemModel {
         SparseMatrix::new("matrix of the elements", &matrix)
     }
 
+    /// Sum of the elements' matrices by the degrees of freedom of the mesh, before rigid links.
+    fn mesh_matrix(&self, quantity: MatrixKind) -> Result<SparseMatrix> {
+        let mut matrix = Triplets::new(self.numbering.dofs());
+        assemble(&self.mesh, &self.numbering, quantity, 1.0, |_| true, &mut matrix);
+        SparseMatrix::new("matrix of the elements", &matrix)
+    }
+
     /// Geometric stiffness of rigid links: their followers move by θ × a + θ × (θ × a)/2 at the arm a.
     pub(super) fn rotation_of_links(&self, displacement: &[f64], gravity: f64) -> Result<Entries> {
         let mut entries = Entries::new();
         let Some(links) = &self.links else { return Ok(entries) };
         let n = self.numbering.dofs();
-        let of_mesh = |quantity| {
-            let mut matrix = Triplets::new(n);
-            assemble(&self.mesh, &self.numbering, quantity, 1.0, |_| true, &mut matrix);
-            SparseMatrix::new("matrix of the elements", &matrix)
-        };
-        let number = |node, direction| self.numbering.dof(node, direction);
         let mut upwards = vec![0.0; n];
-        self.fill_rigid_motion(self.mesh.upwards(), [0.0; 3], &mut upwards, number);
+        self.fill_rigid_motion(self.mesh.upwards(), [0.0; 3], &mut upwards, |node, direction| {
+            self.numbering.dof(node, direction)
+        });
         let moved: Vec<f64> =
             (0..n).map(|dof| self.remaining_row(vec![(dof, 1.0)]).value(displacement)).collect();
         // Forces of the elements less the weight: what a follower exerts on its leader.
         let mut forces = vec![0.0; n];
-        of_mesh(MatrixKind::Stiffness)?.multiply_add(1.0, &moved, &mut forces);
-        of_mesh(MatrixKind::Mass(self.mass_kind))?.multiply_add(gravity, &upwards, &mut forces);
+        let stiffness = self.mesh_matrix(MatrixKind::Stiffness)?;
+        stiffness.multiply_add(1.0, &moved, &mut forces);
+        let mass = self.mesh_matrix(MatrixKind::Mass(self.mass_kind))?;
+        mass.multiply_add(gravity, &upwards, &mut forces);
         for Follower { node, leader, is_body } in links.followers() {
-            let [place, origin] = [node, leader].map(|node| self.mesh.nodes()[node]);
+            let place = self.mesh.nodes()[node];
+            let origin = self.mesh.nodes()[leader];
             let arm: [f64; 3] = std::array::from_fn(|axis| place[axis] - origin[axis]);
-            // A diaphragm holds its nodes in its plane only.
-            let directions = [Direction::X, Direction::Y, Direction::Z];
-            let tied = |direction| is_body || direction != Direction::Z;
-            let force = directions.map(|direction| {
-                let dof = number(node, direction).filter(|_| tied(direction));
+            let force = [Direction::X, Direction::Y, Direction::Z].map(|direction| {
+                // A diaphragm holds its nodes in its plane only.
+                let is_tied = is_body || direction != Direction::Z;
+                let dof = self.numbering.dof(node, direction).filter(|_| is_tied);
                 dof.map_or(0.0, |dof| forces[dof])
             });
             let work = dot(&arm, &force);
@@ -142,6 +148,19 @@ impl FemModel {
         Ok(())
     }
 
+    /// Forces of the mass under an `acceleration` (m/s²) in `direction`.
+    fn inertia_forces(
+        &self,
+        mass: &SparseMatrix,
+        direction: Direction,
+        acceleration: f64,
+    ) -> Vec<f64> {
+        let mut forces = vec![0.0; self.dofs()];
+        let motion = self.rigid_motion(direction, [0.0; 3]);
+        mass.multiply_add(acceleration, &motion, &mut forces);
+        forces
+    }
+
     /// Forces T that hold the structure in rigid rotations of `base`.
     fn forces_of_rotations(
         &self,
@@ -151,17 +170,10 @@ impl FemModel {
     ) -> Result<Vec<Vec<f64>>> {
         let n = self.dofs();
         let mass = self.matrix_of(MatrixKind::Mass(self.mass_kind))?;
-        let weight_along = |direction: Direction, factor: f64| {
-            let mut weight = vec![0.0; n];
-            let motion = self.rigid_motion(direction, [0.0; 3]);
-            mass.multiply_add(-factor * gravity, &motion, &mut weight);
-            weight
-        };
         let upwards = self.mesh.upwards();
-        let mut reactions = weight_along(upwards, -1.0);
+        let mut reactions = self.inertia_forces(&mass, upwards, gravity);
         self.matrix_of(MatrixKind::Stiffness)?.multiply_add(1.0, displacement, &mut reactions);
         let is_held = self.is_held();
-        let held = |node, direction| self.dof(node, direction).filter(|&dof| is_held[dof]);
         let mut targets = Vec::with_capacity(base.motions.len());
         for (_, rotation) in self.rotations() {
             // In this rotation a vertical vector of length 1 moves by `factor` along `level`.
@@ -174,11 +186,13 @@ impl FemModel {
                     continue;
                 }
             };
-            let mut target = weight_along(level, factor);
+            let mut target = self.inertia_forces(&mass, level, -factor * gravity);
             let moments: Vec<f64> =
                 base.motions.iter().map(|motion| dot(motion, &target)).collect();
             for node in 0..self.mesh.nodes().len() {
-                if let (Some(up), Some(level)) = (held(node, upwards), held(node, level)) {
+                let up = self.dof(node, upwards).filter(|&dof| is_held[dof]);
+                let level = self.dof(node, level).filter(|&dof| is_held[dof]);
+                if let (Some(up), Some(level)) = (up, level) {
                     target[level] += factor * reactions[up];
                 }
             }
@@ -225,9 +239,10 @@ impl MovingBase {
         let heights = model.feet.iter().flatten();
         let heights =
             heights.map(|foot| model.mesh.nodes()[foot.node][model.mesh.up()] - foot.depth);
-        let share = 1.0 / nodes.len() as f64;
-        let mean = |place: fn(&BaseNode) -> f64| nodes.iter().map(place).sum::<f64>() * share;
-        let mut point = [mean(|node| node.x), mean(|node| node.y), 0.0];
+        let weight = 1.0 / nodes.len() as f64;
+        let x = nodes.iter().map(|node| node.x).sum::<f64>() * weight;
+        let y = nodes.iter().map(|node| node.y).sum::<f64>() * weight;
+        let mut point = [x, y, 0.0];
         point[model.mesh.up()] = heights.reduce(f64::min)?;
         let motions = model.rotations().iter();
         let motions = motions.map(|(_, rotation)| model.rigid_motion(*rotation, point)).collect();
@@ -237,7 +252,6 @@ impl MovingBase {
 
     /// Removes the `surplus` forces D from the forces of rigid rotations.
     fn remove(&self, surplus: &[Vec<f64>], entries: &mut Entries) {
-        let product = |a: usize, b: usize| dot(&self.motions[a], &surplus[b]);
         for (a, row) in self.rows.iter().enumerate() {
             for (dof, &force) in surplus[a].iter().enumerate().filter(|(_, force)| **force != 0.0) {
                 for &(other, weight) in row {
@@ -246,7 +260,8 @@ impl MovingBase {
                 }
             }
             for (b, column) in self.rows.iter().enumerate() {
-                let moment = 0.5 * (product(a, b) + product(b, a));
+                let moment =
+                    0.5 * (dot(&self.motions[a], &surplus[b]) + dot(&self.motions[b], &surplus[a]));
                 for &(i, weight) in row.iter().filter(|_| moment != 0.0) {
                     for &(j, other) in column {
                         entries.push((i, j, moment * weight * other));
@@ -265,13 +280,15 @@ fn outermost(nodes: &[BaseNode]) -> Vec<BaseNode> {
     let ways = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| [x, y]));
     let mut found: Vec<BaseNode> = Vec::new();
     for [x, y] in ways.into_iter().flatten().filter(|way| *way != [0.0; 2]) {
-        let outwards = |node: &BaseNode| x * node.x + y * node.y;
-        let along = |node: &BaseNode| x * node.y - y * node.x;
-        let [nearest, farthest] = span(nodes.iter().map(outwards));
+        let distances: Vec<f64> = nodes.iter().map(|node| x * node.x + y * node.y).collect();
+        let [nearest, farthest] = span(distances.iter().copied());
         let slack = SAME_DISTANCE * (farthest - nearest);
-        let row = || nodes.iter().filter(|node| outwards(node) >= farthest - slack);
-        let first = row().min_by(|a, b| along(a).total_cmp(&along(b)));
-        let last = row().max_by(|a, b| along(a).total_cmp(&along(b)));
+        let along = |node: &BaseNode| x * node.y - y * node.x;
+        let outer = nodes.iter().zip(&distances);
+        let outer = outer.filter(|(_, distance)| **distance >= farthest - slack);
+        let row = outer.map(|(node, _)| node);
+        let first = row.clone().min_by(|a, b| along(a).total_cmp(&along(b)));
+        let last = row.max_by(|a, b| along(a).total_cmp(&along(b)));
         for node in first.into_iter().chain(last) {
             if found.iter().all(|other| other.place() != node.place()) {
                 found.push(node.clone());

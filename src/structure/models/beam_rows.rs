@@ -96,22 +96,22 @@ impl FemModel {
         beam.geometric_stiffness(&points, &mut matrix);
         let mut dofs = Vec::with_capacity(order);
         self.numbering.of_element(beam, &mut dofs);
-        let end = |index: usize| {
-            let weights = |moment: bool, axis: [f64; 3]| {
-                let terms = end_force_row(beam.directions(), &frame, index, moment, axis, &matrix);
+        let ends = [0, 1].map(|end| {
+            let row = |moment: bool, axis: [f64; 3]| {
+                let terms = end_force_row(beam.directions(), &frame, end, moment, axis, &matrix);
                 self.remaining_row(
                     dofs.iter().copied().zip(terms).filter(|term| term.1 != 0.0).collect(),
                 )
             };
             BeamEndRows {
-                node: beam.nodes()[index],
-                axial: self.force(weights(false, frame.axes[0])),
-                shears: [1, 2].map(|k| self.force(weights(false, frame.axes[k]))),
-                torque: self.moment(weights(true, frame.axes[0])),
-                moments: [1, 2].map(|k| self.moment(weights(true, frame.axes[k]))),
+                node: beam.nodes()[end],
+                axial: self.force(row(false, frame.axes[0])),
+                shears: [1, 2].map(|k| self.force(row(false, frame.axes[k]))),
+                torque: self.moment(row(true, frame.axes[0])),
+                moments: [1, 2].map(|k| self.moment(row(true, frame.axes[k]))),
             }
-        };
-        Ok(BeamRows { axes: frame.axes, ends: [end(0), end(1)] })
+        });
+        Ok(BeamRows { axes: frame.axes, ends })
     }
 
     fn force(&self, displacement: DofCombination) -> SectionRows {
@@ -155,7 +155,7 @@ fn end_force_row(
     let to_node = frame.offsets[end].map(|offset| -offset);
     let mut row = vec![0.0; order];
     for (k, direction) in directions.iter().enumerate() {
-        let motions = if moment { ROTATIONS } else { TRANSLATIONS };
+        let motions = if moment { ROTATION_DIRECTIONS } else { TRANSLATION_DIRECTIONS };
         // The rotation of the plane is about z.
         let direction =
             if *direction == Direction::Rotation { Direction::RotationZ } else { *direction };
@@ -170,6 +170,6 @@ fn end_force_row(
     row
 }
 
-const TRANSLATIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
-const ROTATIONS: [Direction; 3] =
+const TRANSLATION_DIRECTIONS: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+const ROTATION_DIRECTIONS: [Direction; 3] =
     [Direction::RotationX, Direction::RotationY, Direction::RotationZ];

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::error::in_brackets;
 use crate::fem::{Direction, Mesh};
-use crate::structure::detached::{NAMED, listed};
+use crate::structure::detached::{MAX_LISTED_ITEMS, listed};
 
 /// Nodes of these degrees of freedom with their places, for an error.
 ///
@@ -16,25 +16,31 @@ pub(super) fn describe(
     dofs: &[usize],
 ) -> Option<String> {
     let limit = dofs.iter().copied().max()?;
-    let mut is_meant =
-        vec![false; limit.saturating_add(1).min(mesh.directions().len() * mesh.nodes().len())];
+    let max_dofs = mesh.directions().len() * mesh.nodes().len();
+    let mut is_wanted = vec![false; limit.saturating_add(1).min(max_dofs)];
     for &dof in dofs {
-        *is_meant.get_mut(dof)? = true;
+        *is_wanted.get_mut(dof)? = true;
     }
-    let meant = |dof: usize| is_meant.get(dof).copied().unwrap_or(false);
     let mut nodes = Vec::new();
     let mut texts = Vec::new();
     for (node, place) in mesh.nodes().iter().enumerate() {
-        let own = || mesh.directions().iter().copied().filter(|d| number(node, *d).is_some());
-        let these: Vec<_> = own().filter(|d| number(node, *d).is_some_and(meant)).collect();
-        if these.is_empty() {
+        let mut node_dofs = 0;
+        let mut wanted_directions = Vec::new();
+        for &direction in mesh.directions() {
+            let Some(dof) = number(node, direction) else { continue };
+            node_dofs += 1;
+            if is_wanted.get(dof).copied().unwrap_or(false) {
+                wanted_directions.push(direction);
+            }
+        }
+        if wanted_directions.is_empty() {
             continue;
         }
         nodes.push(node);
-        if texts.len() < NAMED {
+        if texts.len() < MAX_LISTED_ITEMS {
             let mut text = format!("node {node} at {}", in_brackets(place, mesh.nodes()));
-            if these.len() < own().count() {
-                for direction in these {
+            if wanted_directions.len() < node_dofs {
+                for direction in wanted_directions {
                     let _ = write!(text, " in {direction:?}");
                 }
             }

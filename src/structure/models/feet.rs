@@ -6,7 +6,7 @@ use crate::error::{Result, at_least, in_bounds, positive, require, require_part}
 use crate::fem::{Element, ElementFace, Mesh};
 
 /// Distance from a corner of a shell towards its middle, relative to it, that clears rounding.
-const INWARDS: f64 = 1e-6;
+const INWARD_OFFSET_RATIO: f64 = 1e-6;
 
 /// A point of the base: it moves with a node of the mesh, some distance above it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,17 +35,23 @@ pub(super) fn of_lines(mesh: &Mesh, lines: &[&[usize]]) -> Result<Vec<Vec<Foot>>
     for line in lines {
         at_least("contact nodes of a foundation", line.len(), 2)?;
     }
-    let (mut height, mut left) = (None, None);
+    let mut height = None;
+    let mut previous_x = None;
     for index in contact {
-        let [x, y, _] = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
-        let near = (y - *height.get_or_insert(y)).abs() <= mesh.tolerance();
-        require("y of a contact node", y, near, "the height of the others")?;
-        if let Some(left) = left.replace(x) {
-            positive("distance between contact nodes", x - left)?;
+        let place = mesh.nodes()[in_bounds("contact node", index, mesh.nodes().len())?];
+        let y = place[1];
+        let is_level = (y - *height.get_or_insert(y)).abs() <= mesh.tolerance();
+        require("y of a contact node", y, is_level, "the height of the others")?;
+        if let Some(previous_x) = previous_x.replace(place[0]) {
+            positive("distance between contact nodes", place[0] - previous_x)?;
         }
     }
-    let foot = |&node: &usize| Foot { node, depth: 0.0, height: 0.0 };
-    Ok(lines.iter().map(|line| line.iter().map(foot).collect()).collect())
+    Ok(lines.iter().map(|line| feet_at(line, 0.0)).collect())
+}
+
+/// Feet of these nodes at the surface, `depth` (m) below the nodes.
+fn feet_at(nodes: &[usize], depth: f64) -> Vec<Foot> {
+    nodes.iter().map(|&node| Foot { node, depth, height: 0.0 }).collect()
 }
 
 /// Feet of the `faces` of a base in space, each given by its corner nodes.
@@ -63,37 +69,41 @@ pub(super) fn of_faces(mesh: &Mesh, faces: &[Vec<usize>]) -> Result<Vec<Vec<Foot
     at_least("faces of the base", faces.len(), 1)?;
     let shells = faces_by_corners(mesh, |face| !face.is_side());
     let mut height = None;
-    let foot = |face: &Vec<usize>| {
+    let mut feet = Vec::with_capacity(faces.len());
+    for face in faces {
         at_least("corners of a face of the base", face.len(), 3)?;
         for &node in face {
-            let [_, _, z] =
-                mesh.nodes()[in_bounds("corner of the base", node, mesh.nodes().len())?];
-            let near = (z - *height.get_or_insert(z)).abs() <= mesh.tolerance();
-            require("z of a corner of the base", z, near, "the height of the others")?;
+            let place = mesh.nodes()[in_bounds("corner of the base", node, mesh.nodes().len())?];
+            let z = place[2];
+            let is_level = (z - *height.get_or_insert(z)).abs() <= mesh.tolerance();
+            require("z of a corner of the base", z, is_level, "the height of the others")?;
         }
         let shell = shells.get(&sorted(face));
         let thickness =
             shell.map_or_else(|| thickness_over(mesh, &shells, face), ElementFace::thickness);
-        let depth = 0.5 * thickness;
-        Ok(face.iter().map(|&node| Foot { node, depth, height: 0.0 }).collect())
-    };
-    faces.iter().map(foot).collect()
+        feet.push(feet_at(face, 0.5 * thickness));
+    }
+    Ok(feet)
 }
 
 /// Largest thickness of the `shells` that a face of the base covers, m; zero without any.
 fn thickness_over(mesh: &Mesh, shells: &HashMap<Vec<usize>, ElementFace>, face: &[usize]) -> f64 {
     let height = mesh.nodes()[face[0]][mesh.up()];
-    let is_covered = |corners: &Vec<usize>| {
-        let [x, y] = middle(mesh, corners);
-        // Just inside the corners, which may lie on a side of the face.
-        let mut places = corners.iter().map(|&node| {
-            let [corner_x, corner_y, _] = mesh.nodes()[node];
-            [corner_x + INWARDS * (x - corner_x), corner_y + INWARDS * (y - corner_y)]
-        });
-        is_level(mesh, corners, height) && places.all(|place| covers(mesh, face, place))
-    };
-    let covered = shells.iter().filter(|(corners, _)| is_covered(corners));
+    let covered = shells
+        .iter()
+        .filter(|(corners, _)| is_level(mesh, corners, height) && covers_all(mesh, face, corners));
     covered.map(|(_, shell)| shell.thickness()).fold(0.0, f64::max)
+}
+
+/// Whether a convex face covers another one with these corners in plan.
+fn covers_all(mesh: &Mesh, face: &[usize], corners: &[usize]) -> bool {
+    let middle = middle(mesh, corners);
+    // Just inside the corners, which may lie on a side of the face.
+    let mut places = corners.iter().map(|&node| {
+        let corner = mesh.nodes()[node];
+        [0, 1].map(|axis| corner[axis] + INWARD_OFFSET_RATIO * (middle[axis] - corner[axis]))
+    });
+    places.all(|place| covers(mesh, face, place))
 }
 
 /// Whether all `corners` are at this height.
@@ -115,30 +125,26 @@ fn middle(mesh: &Mesh, corners: &[usize]) -> [f64; 2] {
 /// [`Error::Scene`](crate::Error::Scene) if the mesh has no such face.
 pub(super) fn of_lowest_faces(mesh: &Mesh) -> Result<Vec<Vec<Foot>>> {
     let highest = mesh.lowest() + mesh.tolerance();
-    let low = |face: &ElementFace| {
+    let lowest_faces = faces_by_corners(mesh, |face| {
         face.corners().iter().all(|&node| mesh.nodes()[node][mesh.up()] <= highest)
-    };
-    let mut faces: Vec<_> = faces_by_corners(mesh, low).into_values().collect();
+    });
+    let mut faces: Vec<_> = lowest_faces.into_values().collect();
     let needed = "must have shells or sides of solids at the lowest height of the mesh, which stand on the ground: \
                   add them there, or name the faces that do";
     require_part("base of a mesh in space", !faces.is_empty(), needed)?;
     faces.sort_by(|a, b| a.corners().cmp(b.corners()));
-    let feet = |face: &ElementFace| {
-        let depth = 0.5 * face.thickness();
-        face.corners().iter().map(|&node| Foot { node, depth, height: 0.0 }).collect()
-    };
-    Ok(faces.iter().map(feet).collect())
+    Ok(faces.iter().map(|face| feet_at(face.corners(), 0.5 * face.thickness())).collect())
 }
 
 /// Faces of elements at the height of the base that none of its faces covers: their number, and the middle of the first.
 pub(super) fn uncovered(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64; 2])> {
     let height = mesh.nodes()[feet.first()?.first()?.node][mesh.up()];
-    let is_beside = |face: &ElementFace| mesh.has_depth() && is_level(mesh, face.corners(), height);
-    let nodes = |face: &Vec<Foot>| face.iter().map(|foot| foot.node).collect::<Vec<_>>();
-    let base: Vec<Vec<usize>> = feet.iter().map(nodes).collect();
-    let named: HashSet<Vec<usize>> = base.iter().map(|face| sorted(face)).collect();
-    let others = faces_by_corners(mesh, is_beside).into_iter();
-    let others = others.filter(|(corners, _)| !named.contains(corners));
+    let base: Vec<Vec<usize>> =
+        feet.iter().map(|face| face.iter().map(|foot| foot.node).collect()).collect();
+    let base_corners: HashSet<Vec<usize>> = base.iter().map(|face| sorted(face)).collect();
+    let level_faces =
+        faces_by_corners(mesh, |face| mesh.has_depth() && is_level(mesh, face.corners(), height));
+    let others = level_faces.into_iter().filter(|(corners, _)| !base_corners.contains(corners));
     let mut middles: Vec<[f64; 2]> = others
         .map(|(corners, _)| middle(mesh, &corners))
         .filter(|place| !base.iter().any(|face| covers(mesh, face, *place)))
@@ -149,12 +155,16 @@ pub(super) fn uncovered(mesh: &Mesh, feet: &[Vec<Foot>]) -> Option<(usize, [f64;
 
 /// Whether a place in plan lies in the convex face with these corners, in either order.
 fn covers(mesh: &Mesh, corners: &[usize], [x, y]: [f64; 2]) -> bool {
-    let side = |k: usize| {
-        let [a, b] = [k, k + 1].map(|k| mesh.nodes()[corners[k % corners.len()]]);
-        (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
-    };
-    let sides = || (0..corners.len()).map(side);
-    sides().all(|own| own >= 0.0) || sides().all(|own| own <= 0.0)
+    let mut is_left = true;
+    let mut is_right = true;
+    for (k, &corner) in corners.iter().enumerate() {
+        let a = mesh.nodes()[corner];
+        let b = mesh.nodes()[corners[(k + 1) % corners.len()]];
+        let side = (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+        is_left &= side >= 0.0;
+        is_right &= side <= 0.0;
+    }
+    is_left || is_right
 }
 
 /// Faces of elements that `keep` selects, by their sorted corners; of several the thickest.
@@ -164,9 +174,9 @@ fn faces_by_corners(
 ) -> HashMap<Vec<usize>, ElementFace> {
     let mut faces: HashMap<Vec<usize>, ElementFace> = HashMap::new();
     for face in mesh.elements().flat_map(Element::faces).filter(keep) {
-        let own = faces.entry(sorted(face.corners())).or_insert_with(|| face.clone());
-        if face.thickness() > own.thickness() {
-            *own = face;
+        let thickest = faces.entry(sorted(face.corners())).or_insert_with(|| face.clone());
+        if face.thickness() > thickest.thickness() {
+            *thickest = face;
         }
     }
     faces

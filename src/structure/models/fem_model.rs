@@ -80,15 +80,17 @@ impl FemModel {
 
     /// The base, by the present degrees of freedom.
     fn base_of_feet(&self) -> Result<Base> {
-        let part = |feet: &Vec<Foot>| feet.iter().map(|foot| self.base_node(*foot)).collect();
-        let parts = self.feet.iter().map(part).collect::<Result<Vec<Vec<_>>>>()?;
+        let parts = self.feet.iter();
+        let parts = parts
+            .map(|feet| feet.iter().map(|foot| self.base_node(*foot)).collect())
+            .collect::<Result<Vec<Vec<_>>>>()?;
         Ok(if self.mesh.has_depth() { Base::Faces(parts) } else { Base::Lines(parts) })
     }
 
     /// Motion of a foot.
     fn base_node(&self, foot: Foot) -> Result<BaseNode> {
         let has_depth = self.mesh.has_depth();
-        let fault = Error::Scene {
+        let unmoved = Error::Scene {
             quantity: "contact node",
             needed: if has_depth {
                 "must have three displacements, and rotations on a shell, from some element"
@@ -96,25 +98,33 @@ impl FemModel {
                 "must have horizontal and vertical degrees of freedom from some element"
             },
         };
-        let term = |direction| self.row(foot.node, direction).map_err(|_| fault.clone());
-        let row = |direction: Direction| {
-            let mut row = term(direction)?;
-            // The foot hangs below its node.
-            for &motion in self.mesh.directions().iter().filter(|own| own.is_rotation()) {
-                let weight = direction.in_rigid_motion(motion, [0.0, 0.0, -foot.depth]);
-                if weight != 0.0 {
-                    row += weight * term(motion)?;
-                }
-            }
-            Ok::<_, Error>(row)
+        let row = |direction| self.foot_row(foot, direction).map_err(|_| unmoved.clone());
+        let place = self.mesh.nodes()[foot.node];
+        let mut node = BaseNode {
+            x: place[0],
+            z: foot.height,
+            horizontal: row(Direction::X)?,
+            vertical: row(self.mesh.upwards())?,
+            ..BaseNode::default()
         };
-        let [x, y, _] = self.mesh.nodes()[foot.node];
-        let (horizontal, vertical) = (row(Direction::X)?, row(self.mesh.upwards())?);
-        Ok(if has_depth {
-            BaseNode { x, y, z: 0.0, horizontal, across: row(Direction::Y)?, vertical }
-        } else {
-            BaseNode { x, z: foot.height, horizontal, vertical, ..BaseNode::default() }
-        })
+        if has_depth {
+            node.y = place[1];
+            node.z = 0.0;
+            node.across = row(Direction::Y)?;
+        }
+        Ok(node)
+    }
+
+    /// Displacement of a foot, which hangs below its node, in `direction`.
+    fn foot_row(&self, foot: Foot, direction: Direction) -> Result<DofCombination> {
+        let mut row = self.row(foot.node, direction)?;
+        for &motion in self.mesh.directions().iter().filter(|motion| motion.is_rotation()) {
+            let weight = direction.in_rigid_motion(motion, [0.0, 0.0, -foot.depth]);
+            if weight != 0.0 {
+                row += weight * self.row(foot.node, motion)?;
+            }
+        }
+        Ok(row)
     }
 
     /// Structure on separate foundations.
@@ -291,34 +301,37 @@ impl FemModel {
         displacement: &[f64],
     ) -> Result<Vec<f64>> {
         same_length("displacement of the model", displacement.len(), self.dofs())?;
-        let mut own = Vec::with_capacity(element.order());
+        let mut values = Vec::with_capacity(element.order());
         for &node in element.nodes() {
             for &direction in element.directions() {
-                own.push(self.row(node, direction)?.value(displacement));
+                values.push(self.row(node, direction)?.value(displacement));
             }
         }
-        Ok(own)
+        Ok(values)
     }
 
     /// Adds matrices of all elements, each times its factor, for the remaining degrees of freedom.
     pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
-        let fill = |matrix: &mut Triplets| {
-            for &(quantity, factor) in parts {
-                assemble(&self.mesh, &self.numbering, quantity, factor, |_| true, matrix);
-            }
-        };
         match &self.links {
-            None => fill(matrix),
+            None => self.add_elements(matrix, parts),
             Some(links) => {
-                let mut own = Triplets::new(self.numbering.dofs());
-                fill(&mut own);
-                links.add_condensed(&own, matrix);
+                let mut mesh_matrix = Triplets::new(self.numbering.dofs());
+                self.add_elements(&mut mesh_matrix, parts);
+                links.add_condensed(&mesh_matrix, matrix);
             }
         }
-        let is_geometric = |(kind, _): &&_| matches!(kind, MatrixKind::GeometricStiffness);
-        for (_, factor) in parts.iter().filter(is_geometric) {
-            let entries = self.base_reactions.iter();
-            matrix.extend(entries.map(|&(row, column, value)| (row, column, factor * value)));
+        for (kind, factor) in parts {
+            if matches!(kind, MatrixKind::GeometricStiffness) {
+                let entries = self.base_reactions.iter();
+                matrix.extend(entries.map(|&(row, column, value)| (row, column, factor * value)));
+            }
+        }
+    }
+
+    /// Adds matrices of all elements for the degrees of freedom of the mesh.
+    fn add_elements(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
+        for &(kind, factor) in parts {
+            assemble(&self.mesh, &self.numbering, kind, factor, |_| true, matrix);
         }
     }
 }

@@ -99,10 +99,10 @@ impl StructureGroup {
             dofs: structure.dofs(),
             structure: Box::new(structure),
         };
-        let own = member.range();
+        let member_dofs = member.range();
         for node in member.base.nodes_mut() {
             node.x += shift;
-            node.map_rows(|row| moved(row, &own));
+            node.map_rows(|row| moved(row, &member_dofs));
         }
         self.check_place(&member.base)?;
         self.members.push(member);
@@ -111,7 +111,6 @@ impl StructureGroup {
 
     /// Error for a base without nodes, a base of another kind than all others, or a place taken by another base.
     fn check_place(&self, base: &Base) -> Result<()> {
-        let refuse = |needed| Err(Error::Scene { quantity: "structure of a group", needed });
         let Some(left) = base.nodes().next() else {
             let quantity = "list of contact nodes";
             return Err(Error::Size { quantity, found: 0, needed: 2 });
@@ -119,7 +118,8 @@ impl StructureGroup {
         let others = self.members.iter().map(|member| &member.base);
         match base {
             _ if others.clone().any(|other| discriminant(other) != discriminant(base)) => {
-                refuse("must be one in the plane as the others are, or in plan as they are")
+                let needed = "must be one in the plane as the others are, or in plan as they are";
+                Err(Error::Scene { quantity: "structure of a group", needed })
             }
             Base::Lines(_) => {
                 let end =
@@ -130,11 +130,11 @@ impl StructureGroup {
             }
             Base::Faces(faces) => {
                 let touches =
-                    |other: &Vec<BaseNode>| faces.iter().any(|own| !are_apart(own, other));
+                    |other: &Vec<BaseNode>| faces.iter().any(|face| !are_apart(face, other));
                 if others.flat_map(Base::parts).any(touches) {
-                    return refuse(
-                        "must have a base apart from those before it: these touch or overlap",
-                    );
+                    let needed =
+                        "must have a base apart from those before it: these touch or overlap";
+                    return Err(Error::Scene { quantity: "structure of a group", needed });
                 }
                 Ok(())
             }
@@ -155,9 +155,9 @@ impl StructureGroup {
     /// that is not finite.
     pub fn row(&self, member: usize, row: impl Into<DofCombination>) -> Result<DofCombination> {
         let row = row.into();
-        let own = &self.members[in_bounds("structure of the group", member, self.len())?];
-        row.check("degree of freedom of a structure of the group", own.dofs)?;
-        Ok(row.map_dofs(|index| own.first_dof.saturating_add(index)))
+        let member = &self.members[in_bounds("structure of the group", member, self.len())?];
+        row.check("degree of freedom of a structure of the group", member.dofs)?;
+        Ok(row.map_dofs(|index| member.first_dof.saturating_add(index)))
     }
 
     /// Converts a probe of structure `member` to a probe of the group.
@@ -170,6 +170,7 @@ impl StructureGroup {
         probe.try_map_rows(|row| self.row(member, row))
     }
 
+    /// Adds a matrix of every member at its degrees of freedom.
     fn write(
         &self,
         matrix: &mut Triplets,
@@ -194,26 +195,32 @@ impl Member {
     }
 }
 
-/// A row of a member, whose degrees of freedom are `own`, in degrees of freedom of the group.
+/// A row of a member in degrees of freedom of the group, of which the member has `member_dofs`.
 ///
 /// An index that is not a degree of freedom of the member becomes an index beyond all degrees of freedom of the
 /// group.
-fn moved(row: &DofCombination, own: &Range<usize>) -> DofCombination {
-    row.map_dofs(|k| if k < own.len() { own.start.saturating_add(k) } else { usize::MAX })
+fn moved(row: &DofCombination, member_dofs: &Range<usize>) -> DofCombination {
+    row.map_dofs(|k| {
+        if k < member_dofs.len() { member_dofs.start.saturating_add(k) } else { usize::MAX }
+    })
+}
+
+/// Coordinate to the right of the first node of a base, m.
+fn first_place(base: &Base) -> f64 {
+    base.nodes().next().map_or(0.0, |node| node.x)
 }
 
 /// Whether there is a gap between two convex polygons.
 ///
 /// There is one if in the direction of some edge's normal one polygon ends before the other begins.
 fn are_apart(one: &[BaseNode], other: &[BaseNode]) -> bool {
-    let [one, other] =
-        [one, other].map(|face| face.iter().map(BaseNode::place).collect::<Vec<_>>());
-    let separates = |edge: Edge| {
-        let range = |corners: &[[f64; 2]]| span(corners.iter().map(|p| edge.outward(*p)));
-        let ([low, high], [least, most]) = (range(&one), range(&other));
-        high < least || most < low
-    };
-    Edge::all(&one).chain(Edge::all(&other)).any(separates)
+    let one: Vec<[f64; 2]> = one.iter().map(BaseNode::place).collect();
+    let other: Vec<[f64; 2]> = other.iter().map(BaseNode::place).collect();
+    Edge::all(&one).chain(Edge::all(&other)).any(|edge| {
+        let one_range = span(one.iter().map(|corner| edge.outward(*corner)));
+        let other_range = span(other.iter().map(|corner| edge.outward(*corner)));
+        one_range[1] < other_range[0] || other_range[1] < one_range[0]
+    })
 }
 
 impl Structure for StructureGroup {
@@ -254,8 +261,9 @@ impl Structure for StructureGroup {
             let range = member.range();
             let all: Vec<usize> = dofs.iter().copied().filter(|u| range.contains(u)).collect();
             if !all.is_empty() {
-                let own: Vec<usize> = all.iter().map(|u| u - range.start).collect();
-                let text = member.structure.describe(&own).unwrap_or_else(|| numbers(&all));
+                let member_dofs: Vec<usize> = all.iter().map(|u| u - range.start).collect();
+                let text = member.structure.describe(&member_dofs);
+                let text = text.unwrap_or_else(|| numbers(&all));
                 texts.push(format!("structure {k}: {text}"));
             }
         }
@@ -274,9 +282,8 @@ impl Structure for StructureGroup {
 
     fn description(&self) -> StructureDescription {
         let descriptions = self.members.iter().map(|member| {
-            let first = |base: &Base| base.nodes().next().map_or(0.0, |node| node.x);
-            let moved = first(&member.base) - first(&member.structure.base());
-            member.structure.description().moved(moved)
+            let shift = first_place(&member.base) - first_place(&member.structure.base());
+            member.structure.description().moved(shift)
         });
         descriptions.reduce(StructureDescription::joined).unwrap_or_default()
     }
@@ -305,19 +312,19 @@ impl Structure for StructureGroup {
 
 impl NonlinearForce for StructureGroup {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
-        for (member, own) in self.forces() {
+        for (member, law) in self.forces() {
             let range = member.range();
             if let (Some(u), Some(f)) = (displacement.get(range.clone()), force.get_mut(range)) {
-                own.force(u, f)?;
+                law.force(u, f)?;
             }
         }
         Ok(())
     }
 
     fn tangent(&self, displacement: &[f64], matrix: &mut Triplets) -> Result<()> {
-        for (member, own) in self.forces() {
+        for (member, law) in self.forces() {
             if let Some(u) = displacement.get(member.range()) {
-                matrix.block(member.first_dof, member.dofs, |block| own.tangent(u, block))?;
+                matrix.block(member.first_dof, member.dofs, |block| law.tangent(u, block))?;
             }
         }
         Ok(())
@@ -325,16 +332,16 @@ impl NonlinearForce for StructureGroup {
 
     /// Energies of all members; `None` unless all nonlinear members return theirs.
     fn energy(&self, displacement: &[f64]) -> Option<InternalEnergy> {
-        self.forces().try_fold(InternalEnergy::default(), |sum, (member, own)| {
-            Some(sum + own.energy(displacement.get(member.range())?)?)
+        self.forces().try_fold(InternalEnergy::default(), |sum, (member, law)| {
+            Some(sum + law.energy(displacement.get(member.range())?)?)
         })
     }
 
     fn commit(&mut self, displacement: &[f64]) {
         for member in &mut self.members {
-            let own = displacement.get(member.range());
-            if let (Some(u), Some(force)) = (own, member.structure.nonlinear_mut()) {
-                force.commit(u);
+            let u = displacement.get(member.range());
+            if let (Some(u), Some(law)) = (u, member.structure.nonlinear_mut()) {
+                law.commit(u);
             }
         }
     }
@@ -342,9 +349,9 @@ impl NonlinearForce for StructureGroup {
     fn save(&self) -> Result<Vec<f64>> {
         let mut all = Vec::new();
         for member in &self.members {
-            let own = save_variables(member.structure.as_ref())?;
-            all.push(own.len() as f64);
-            all.extend(own);
+            let variables = save_variables(member.structure.as_ref())?;
+            all.push(variables.len() as f64);
+            all.extend(variables);
         }
         Ok(all)
     }
@@ -356,9 +363,8 @@ impl NonlinearForce for StructureGroup {
         for _ in &self.members {
             let (&count, after) = rest.split_first().ok_or_else(corrupt)?;
             let length = (0..=after.len()).find(|n| *n as f64 == count).ok_or_else(corrupt)?;
-            let (own, after) = after.split_at(length);
-            parts.push(own);
-            rest = after;
+            parts.push(&after[..length]);
+            rest = &after[length..];
         }
         if !rest.is_empty() {
             return Err(corrupt().into());

@@ -45,23 +45,32 @@ impl FemModel {
 fn feet(mesh: &Mesh, outline: &[usize]) -> Result<Vec<Foot>> {
     require_part("outline in a trench", !mesh.has_depth(), "nodes of a mesh in the plane")?;
     at_least("contact nodes", outline.len(), 2)?;
-    let foot = |&node: &usize| {
-        let [_, height, _] = mesh.nodes()[in_bounds("contact node", node, mesh.nodes().len())?];
-        Ok(Foot { node, depth: 0.0, height })
-    };
-    let feet = outline.iter().map(foot).collect::<Result<Vec<_>>>()?;
-    // Number of the face from one node to the next.
-    let face = |ends: &[Foot]| {
-        let [from, to] = [0, 1].map(|k| mesh.nodes()[ends[k].node]);
-        let way = [0, 1].map(|axis| to[axis] - from[axis]);
-        let [along, up] = way.map(|part| if part.abs() > mesh.tolerance() { part } else { 0.0 });
-        [along == 0.0 && up < 0.0, along > 0.0 && up == 0.0, along == 0.0 && up > 0.0]
-            .into_iter()
-            .position(|leads| leads)
-    };
-    let faces: Option<Vec<usize>> = feet.windows(2).map(face).collect();
+    let mut feet = Vec::with_capacity(outline.len());
+    for &node in outline {
+        let place = mesh.nodes()[in_bounds("contact node", node, mesh.nodes().len())?];
+        feet.push(Foot { node, depth: 0.0, height: place[1] });
+    }
+    let faces: Option<Vec<usize>> =
+        outline.windows(2).map(|ends| face_number(mesh, ends[0], ends[1])).collect();
     let in_order = faces.is_some_and(|faces| faces.is_sorted());
     let needed = "nodes down a vertical left wall, along a level base to the right, and up a vertical right wall";
     require_part("outline in a trench", in_order, needed)?;
     Ok(feet)
+}
+
+/// Face between two nodes: 0 down the left wall, 1 along the base, 2 up the right wall.
+fn face_number(mesh: &Mesh, from: usize, to: usize) -> Option<usize> {
+    let way = [0, 1].map(|axis| {
+        let distance = mesh.nodes()[to][axis] - mesh.nodes()[from][axis];
+        if distance.abs() > mesh.tolerance() { distance } else { 0.0 }
+    });
+    if way[0] == 0.0 && way[1] < 0.0 {
+        Some(0)
+    } else if way[0] > 0.0 && way[1] == 0.0 {
+        Some(1)
+    } else if way[0] == 0.0 && way[1] > 0.0 {
+        Some(2)
+    } else {
+        None
+    }
 }

@@ -68,10 +68,11 @@ impl FemModel {
         let needed = "a displacement, not a rotation";
         require_part("resultant along a line", !direction.is_rotation(), needed)?;
         let weights = self.line_weights(nodes)?;
-        let lengths = || weights.iter().map(|(_, [x, y, z])| x.hypot(*y).hypot(*z));
-        let whole: f64 = lengths().sum();
+        let lengths: Vec<f64> =
+            weights.iter().map(|(_, [x, y, z])| x.hypot(*y).hypot(*z)).collect();
+        let whole: f64 = lengths.iter().sum();
         let mut row = DofCombination::default();
-        for ((node, _), length) in weights.iter().zip(lengths()) {
+        for ((node, _), length) in weights.iter().zip(&lengths) {
             row += (length / whole) * self.row(*node, direction)?;
         }
         Ok(row)
@@ -81,23 +82,22 @@ impl FemModel {
     fn line_weights(&self, nodes: &[usize]) -> Result<Vec<(usize, [f64; 3])>> {
         at_least("nodes of a loaded line", nodes.len(), 2)?;
         let all = self.mesh().nodes();
-        let at = |index: usize| in_bounds("node", index, all.len()).map(|index| all[index]);
         let mut weights = Vec::with_capacity(2 * nodes.len());
         let mut k = 0;
         while k + 1 < nodes.len() {
-            let middle = nodes.get(k..k + 3).filter(|edge| self.is_quadratic_edge(edge));
-            let (count, shares): (usize, &[f64]) = match middle {
-                Some(_) => (2, &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0]),
-                None => (1, &[0.5, 0.5]),
-            };
-            let [from, to] = [at(nodes[k])?, at(nodes[k + count])?];
+            let is_quadratic = nodes.get(k..k + 3).is_some_and(|edge| self.is_quadratic_edge(edge));
+            let fractions: &[f64] =
+                if is_quadratic { &[1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0] } else { &[0.5, 0.5] };
+            let count = fractions.len() - 1;
+            let from = all[in_bounds("node", nodes[k], all.len())?];
+            let to = all[in_bounds("node", nodes[k + count], all.len())?];
             let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
             positive(
                 "distance between nodes of a loaded line",
                 way[0].hypot(way[1]).hypot(way[2]),
             )?;
-            let own = nodes[k..=k + count].iter().zip(shares);
-            weights.extend(own.map(|(&node, share)| (node, way.map(|w| share * w))));
+            let edge = nodes[k..=k + count].iter().zip(fractions);
+            weights.extend(edge.map(|(&node, fraction)| (node, way.map(|w| fraction * w))));
             k += count;
         }
         Ok(weights)
@@ -106,13 +106,12 @@ impl FemModel {
     /// Whether three nodes are an edge of an eight-node element, with the middle node second.
     fn is_quadratic_edge(&self, edge: &[usize]) -> bool {
         self.mesh().elements().any(|element| {
-            let own = element.nodes();
-            let place = |node| own.iter().position(|n| *n == node);
-            let [Some(a), Some(middle), Some(b)] = [place(edge[0]), place(edge[1]), place(edge[2])]
-            else {
-                return false;
-            };
-            own.len() == 8 && a < 4 && b < 4 && middle >= 4
+            // Corners come first, nodes of edges then.
+            let nodes = element.nodes();
+            nodes.len() == 8
+                && nodes[..4].contains(&edge[0])
+                && nodes[4..].contains(&edge[1])
+                && nodes[..4].contains(&edge[2])
         })
     }
 }

@@ -5,7 +5,7 @@ use crate::linalg::{Elimination, SparseMatrix};
 use crate::structure::matrix_checks::{check_damping, check_mass, check_stiffness};
 use crate::structure::{Base, DofCombination, RayleighDamping, SectionRows, Structure, Triplets};
 
-const DAMPING: &str = "damping matrix";
+const DAMPING_MATRIX_NAME: &str = "damping matrix";
 
 /// A structure given by mass, damping and stiffness matrices, from another program for example.
 ///
@@ -79,7 +79,8 @@ impl MatrixModel {
         at_least("mass matrix", order, 1)?;
         check_mass(&SparseMatrix::new("mass matrix", &mass)?, &Elimination::default())?;
         check("stiffness matrix", &stiffness, order)?;
-        let (base, damping) = (base.into(), Triplets::new(order));
+        let base = base.into();
+        let damping = Triplets::new(order);
         base.check(order)?;
         Ok(Self { mass, damping, stiffness, base, active: false, active_stiffness: false })
     }
@@ -137,7 +138,7 @@ impl MatrixModel {
     /// [`Error::Unsymmetric`] for a matrix that is not symmetric (it names the stiffness if that is not symmetric either),
     /// [`Error::Indefinite`] for negative damping beyond rounding.
     pub fn with_damping(self, damping: Triplets) -> Result<Self> {
-        let matrix = check(DAMPING, &damping, self.mass.order())?;
+        let matrix = check(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
         check_damping(&matrix, &Elimination::default()).map_err(|error| match error {
             Error::Unsymmetric { .. } => self.unsymmetric_stiffness().unwrap_or(error),
             other => other,
@@ -161,7 +162,7 @@ impl MatrixModel {
     /// [`Error::Size`], [`Error::Index`] and
     /// [`Error::Input`] as for [`with_damping`](MatrixModel::with_damping).
     pub fn with_active_damping(self, damping: Triplets) -> Result<Self> {
-        check(DAMPING, &damping, self.mass.order())?;
+        check(DAMPING_MATRIX_NAME, &damping, self.mass.order())?;
         Ok(Self { damping, active: true, ..self })
     }
 

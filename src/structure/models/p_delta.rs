@@ -6,13 +6,13 @@ use crate::linalg::{SparseFactor, SparseMatrix, largest};
 use crate::structure::detached::restricted;
 use crate::structure::{FemModel, Structure, Triplets};
 
-const HELD: &str = "stiffness matrix with the contact nodes held";
+const MATRIX_NAME: &str = "stiffness matrix with the contact nodes held";
 /// Residual forces of a solution, relative to the weight, above which the structure is a mechanism.
-const EQUILIBRIUM: f64 = 1e-6;
+const EQUILIBRIUM_TOLERANCE: f64 = 1e-6;
 /// Largest multiple of the axial forces in the search for buckling.
-const MOST: f64 = 1e6;
+const MAX_BUCKLING_FACTOR: f64 = 1e6;
 /// Relative accuracy of a buckling factor.
-const ACCURACY: f64 = 1e-9;
+const BUCKLING_FACTOR_TOLERANCE: f64 = 1e-9;
 
 impl FemModel {
     /// Adds the P–Δ effect of the structure's own weight.
@@ -70,8 +70,10 @@ impl FemModel {
         // They belong to the links of an earlier call.
         self.base_reactions = Vec::new();
         let displacement = self.under_weight(gravity)?;
-        let of_element = |element| self.element_displacements(element, &displacement);
-        let displacements: Vec<_> = self.mesh.elements().map(of_element).collect::<Result<_>>()?;
+        let elements = self.mesh.elements();
+        let displacements: Vec<_> = elements
+            .map(|element| self.element_displacements(element, &displacement))
+            .collect::<Result<_>>()?;
         let has_given_force =
             set_static_state(&mut self.mesh, &displacements, gravity, self.mass_kind)?;
         let mut entries = self.rotation_of_links(&displacement, gravity)?;
@@ -102,7 +104,7 @@ impl FemModel {
         let mut high = 1.0;
         while held.stands(high)? {
             high *= 2.0;
-            if high > MOST {
+            if high > MAX_BUCKLING_FACTOR {
                 return Ok(f64::INFINITY);
             }
         }
@@ -145,15 +147,15 @@ impl HeldStructure {
         let free: Vec<usize> = (0..n).filter(|&dof| !is_held[dof]).collect();
         let mut place = vec![None; n];
         free.iter().enumerate().for_each(|(k, &dof)| place[dof] = Some(k));
-        let part = |quantity| {
+        let free_matrix = |kind| {
             let mut all = Triplets::new(n);
-            model.add(&mut all, &[(quantity, 1.0)]);
+            model.add(&mut all, &[(kind, 1.0)]);
             // Through the full matrix, which returns an error for indices out of range.
-            let all = SparseMatrix::new(HELD, &all)?;
-            restricted(HELD, &all, free.len(), |dof| place[dof])
+            let all = SparseMatrix::new(MATRIX_NAME, &all)?;
+            restricted(MATRIX_NAME, &all, free.len(), |dof| place[dof])
         };
-        let (elastic, geometric) =
-            (part(MatrixKind::Stiffness)?, part(MatrixKind::GeometricStiffness)?);
+        let elastic = free_matrix(MatrixKind::Stiffness)?;
+        let geometric = free_matrix(MatrixKind::GeometricStiffness)?;
         Ok(Self { free, elastic, geometric })
     }
 
@@ -163,14 +165,14 @@ impl HeldStructure {
             return Ok(load);
         }
         let mut displacement = load.clone();
-        SparseFactor::positive_definite(HELD, &self.elastic)?.solve(&mut displacement);
+        SparseFactor::positive_definite(MATRIX_NAME, &self.elastic)?.solve(&mut displacement);
         let mut rest = load;
         let weight = largest(&rest);
         self.elastic.multiply_add(-1.0, &displacement, &mut rest);
-        if rest.iter().all(|force| force.abs() <= EQUILIBRIUM * weight) {
+        if rest.iter().all(|force| force.abs() <= EQUILIBRIUM_TOLERANCE * weight) {
             Ok(displacement)
         } else {
-            Err(Error::Singular { matrix: HELD, order: self.free.len() })
+            Err(Error::Singular { matrix: MATRIX_NAME, order: self.free.len() })
         }
     }
 
@@ -182,8 +184,8 @@ impl HeldStructure {
         let mut matrix = Triplets::new(self.free.len());
         self.elastic.add_to(1.0, &mut matrix);
         self.geometric.add_to(factor, &mut matrix);
-        let matrix = SparseMatrix::new(HELD, &matrix)?;
-        Ok(SparseFactor::positive_definite(HELD, &matrix).is_ok())
+        let matrix = SparseMatrix::new(MATRIX_NAME, &matrix)?;
+        Ok(SparseFactor::positive_definite(MATRIX_NAME, &matrix).is_ok())
     }
 
     /// Factor on the axial forces at which the structure buckles, by bisection.
@@ -191,10 +193,10 @@ impl HeldStructure {
     /// The structure must not stand under `high` times the forces; an error unless it stands without axial forces.
     fn buckling_factor(&self, mut high: f64) -> Result<f64> {
         if !self.stands(0.0)? {
-            return Err(Error::Singular { matrix: HELD, order: self.free.len() });
+            return Err(Error::Singular { matrix: MATRIX_NAME, order: self.free.len() });
         }
         let mut low = 0.0;
-        while high - low > ACCURACY * high && high > f64::MIN_POSITIVE {
+        while high - low > BUCKLING_FACTOR_TOLERANCE * high && high > f64::MIN_POSITIVE {
             let middle = 0.5 * (low + high);
             if self.stands(middle)? {
                 low = middle;

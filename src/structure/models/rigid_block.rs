@@ -119,7 +119,8 @@ impl Structure for RigidBlock {
     }
 
     fn base(&self) -> Base {
-        let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
+        let left = self.center - 0.5 * self.width;
+        let right = self.center + 0.5 * self.width;
         BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION]).into()
     }
 

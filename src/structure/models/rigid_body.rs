@@ -7,7 +7,7 @@ use crate::geometry::circle;
 use crate::structure::{Base, BaseNode, DofCombination, Structure, Triplets};
 
 /// Relative difference up to which mirrored entries of an inertia tensor count as equal.
-const SYMMETRIC: f64 = 1e-9;
+const SYMMETRY_TOLERANCE: f64 = 1e-9;
 
 /// Rigid body on a flat base in plan, with six degrees of freedom.
 ///
@@ -50,7 +50,8 @@ impl RigidBody {
         positive("width of the cuboid", width)?;
         positive("height of the cuboid", height)?;
         positive("density of the cuboid", density)?;
-        let (x, y) = (0.5 * length, 0.5 * width);
+        let x = 0.5 * length;
+        let y = 0.5 * width;
         let mass = length * width * height * density;
         let about = |one: f64, other: f64| mass * (one * one + other * other) / 12.0;
         let inertia = diagonal([about(width, height), about(length, height), about(length, width)]);
@@ -152,8 +153,8 @@ impl RigidBody {
         let square: f64 = c.iter().map(|x| x * x).sum();
         std::array::from_fn(|i| {
             std::array::from_fn(|j| {
-                let own = if i == j { square } else { 0.0 };
-                self.inertia[i][j] + self.mass * (own - c[i] * c[j])
+                let unit = if i == j { square } else { 0.0 };
+                self.inertia[i][j] + self.mass * (unit - c[i] * c[j])
             })
         })
     }
@@ -165,21 +166,21 @@ fn diagonal([x, y, z]: [f64; 3]) -> [[f64; 3]; 3] {
 
 /// Error unless a tensor of inertia is symmetric and positive definite.
 fn check_tensor(t: &[[f64; 3]; 3]) -> Result<()> {
-    const NAME: &str = "tensor of inertia of the body";
+    const TENSOR_NAME: &str = "tensor of inertia of the body";
     let mut largest = 0.0_f64;
     for value in t.iter().flatten() {
-        largest = largest.max(finite(NAME, *value)?.abs());
+        largest = largest.max(finite(TENSOR_NAME, *value)?.abs());
     }
     for (i, j) in [(0, 1), (0, 2), (1, 2)] {
         let value = t[i][j] - t[j][i];
-        require(NAME, value, value.abs() <= SYMMETRIC * largest, "symmetric")?;
+        require(TENSOR_NAME, value, value.abs() <= SYMMETRY_TOLERANCE * largest, "symmetric")?;
     }
     let two = t[0][0] * t[1][1] - t[0][1] * t[1][0];
     let all = t[0][2] * (t[1][0] * t[2][1] - t[1][1] * t[2][0])
         - t[1][2] * (t[0][0] * t[2][1] - t[0][1] * t[2][0])
         + t[2][2] * two;
     for value in [t[0][0], two, all] {
-        require(NAME, value, value > 0.0, "positive definite")?;
+        require(TENSOR_NAME, value, value > 0.0, "positive definite")?;
     }
     Ok(())
 }
@@ -229,8 +230,8 @@ impl Structure for RigidBody {
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        const NAMES: [&str; 6] = ["u_x", "u_y", "u_z", "r_x", "r_y", "r_z"];
-        let names: Option<Vec<_>> = dofs.iter().map(|dof| NAMES.get(*dof).copied()).collect();
+        const DOF_NAMES: [&str; 6] = ["u_x", "u_y", "u_z", "r_x", "r_y", "r_z"];
+        let names: Option<Vec<_>> = dofs.iter().map(|dof| DOF_NAMES.get(*dof).copied()).collect();
         Some(format!("{} of the rigid body", names?.join(", ")))
     }
 }

@@ -32,6 +32,10 @@ impl Link {
     }
 }
 
+fn link_error(needed: &'static str) -> Error {
+    Error::Scene { quantity: "rigid link", needed }
+}
+
 /// A node that follows another one.
 pub(super) struct Follower {
     pub(super) node: usize,
@@ -54,7 +58,8 @@ pub(super) struct RigidLinks {
 impl RigidLinks {
     /// No links yet.
     pub(super) fn new(mesh: &Mesh, numbering: &Numbering) -> Self {
-        let (nodes, dofs) = (mesh.nodes().len(), numbering.dofs());
+        let nodes = mesh.nodes().len();
+        let dofs = numbering.dofs();
         let rows = (0..dofs).map(|dof| vec![(dof, 1.0)]).collect();
         Self { leader: vec![None; nodes], is_leader: vec![false; nodes], rows, dofs }
     }
@@ -68,27 +73,28 @@ impl RigidLinks {
         leader: usize,
         followers: &[usize],
     ) -> Result<()> {
-        let fault = |needed| Error::Scene { quantity: "rigid link", needed };
         let bound = mesh.nodes().len();
         for &index in std::iter::once(&leader).chain(followers) {
             in_bounds("node of a rigid link", index, bound)?;
         }
-        let mut tied = mesh.directions().iter().filter(|own| link.ties(**own));
-        if tied.any(|&own| numbering.dof(leader, own).is_none()) {
-            return Err(fault(link.needed()));
+        let mut tied = mesh.directions().iter().filter(|direction| link.ties(**direction));
+        if tied.any(|&direction| numbering.dof(leader, direction).is_none()) {
+            return Err(link_error(link.needed()));
         }
-        let height = |node: usize| mesh.nodes()[node][mesh.up()];
-        let level = |&node: &usize| (height(node) - height(leader)).abs() <= mesh.tolerance();
-        if link == Link::Floor && !followers.iter().all(level) {
-            return Err(fault("the nodes of a diaphragm must lie at one height"));
+        if link == Link::Floor {
+            let floor = mesh.nodes()[leader][mesh.up()];
+            let mut heights = followers.iter().map(|&node| mesh.nodes()[node][mesh.up()]);
+            if !heights.all(|height| (height - floor).abs() <= mesh.tolerance()) {
+                return Err(link_error("the nodes of a diaphragm must lie at one height"));
+            }
         }
         if self.leader[leader].is_some() {
-            return Err(fault("its leader must not follow another node"));
+            return Err(link_error("its leader must not follow another node"));
         }
         for (place, &follower) in followers.iter().enumerate() {
             let twice = self.leader[follower].is_some() || followers[..place].contains(&follower);
             if follower == leader || twice || self.is_leader[follower] {
-                return Err(fault("its followers must follow one node only, and lead none"));
+                return Err(link_error("its followers must follow one node only, and lead none"));
             }
         }
         self.is_leader[leader] = true;
@@ -105,7 +111,10 @@ impl RigidLinks {
         let mut next = 0;
         let mut remaining = vec![None; numbering.dofs()];
         for node in 0..nodes.len() {
-            for &direction in mesh.directions().iter().filter(|own| !self.is_tied(node, **own)) {
+            for &direction in mesh.directions() {
+                if self.is_tied(node, direction) {
+                    continue;
+                }
                 if let Some(dof) = numbering.dof(node, direction) {
                     remaining[dof] = Some(next);
                     next += 1;
@@ -113,7 +122,6 @@ impl RigidLinks {
             }
         }
         self.dofs = next;
-        let number = |node, direction| remaining[numbering.dof(node, direction)?];
         for node in 0..nodes.len() {
             for &direction in mesh.directions() {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
@@ -121,13 +129,16 @@ impl RigidLinks {
                 let (link, leader) = tied.unwrap_or((Link::Body, node));
                 let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
                 // A follower moves like its leader, and its displacement also with the leader's rotations.
-                let own = mesh.directions().iter().filter(|motion| link.ties(**motion));
-                let motions = own.map(|&motion| {
-                    (number(leader, motion), direction.in_rigid_motion(motion, arm))
-                });
-                let own = motions.filter(|(_, weight)| *weight != 0.0);
-                let row = own.filter_map(|(index, weight)| Some((index?, weight)));
-                self.rows[dof] = row.collect();
+                let motions = mesh.directions().iter().filter(|motion| link.ties(**motion));
+                let mut row = Vec::new();
+                for &motion in motions {
+                    let weight = direction.in_rigid_motion(motion, arm);
+                    let index = numbering.dof(leader, motion).and_then(|dof| remaining[dof]);
+                    if let Some(index) = index.filter(|_| weight != 0.0) {
+                        row.push((index, weight));
+                    }
+                }
+                self.rows[dof] = row;
             }
         }
     }
@@ -139,7 +150,8 @@ impl RigidLinks {
 
     /// Whether a node follows another one in this direction.
     fn is_tied(&self, node: usize, direction: Direction) -> bool {
-        self.leader.get(node).is_some_and(|own| own.is_some_and(|(link, _)| link.ties(direction)))
+        let link = self.leader.get(node).copied().flatten();
+        link.is_some_and(|(link, _)| link.ties(direction))
     }
 
     /// The new number of a mesh's degree of freedom; `None` for a follower's.
@@ -164,26 +176,22 @@ impl RigidLinks {
 
     /// All nodes that follow another one.
     pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
-        self.leader.iter().enumerate().filter_map(|(node, leader)| {
-            let (link, leader) = (*leader)?;
-            Some(Follower { node, leader, is_body: link == Link::Body })
+        self.leader.iter().enumerate().filter_map(|(node, leader)| match *leader {
+            Some((link, leader)) => Some(Follower { node, leader, is_body: link == Link::Body }),
+            None => None,
         })
     }
 
     /// Marks all nodes of each rigid body of which one node is marked.
     pub(super) fn mark_bodies(&self, marks: &mut [bool]) {
-        let body = |node: usize| match self.leader[node] {
-            Some((Link::Body, leader)) => Some(leader),
-            _ => None,
-        };
         // From the followers to their leaders, then back.
         for node in 0..marks.len() {
-            if let Some(leader) = body(node) {
+            if let Some((Link::Body, leader)) = self.leader[node] {
                 marks[leader] |= marks[node];
             }
         }
         for node in 0..marks.len() {
-            if let Some(leader) = body(node) {
+            if let Some((Link::Body, leader)) = self.leader[node] {
                 marks[node] |= marks[leader];
             }
         }

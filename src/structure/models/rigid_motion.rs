@@ -10,7 +10,7 @@ impl FemModel {
     /// direction that the mesh does not have.
     pub fn rigid_motion(&self, direction: Direction, point: [f64; 3]) -> Vec<f64> {
         let mut motion = vec![0.0; self.dofs()];
-        self.fill_rigid_motion(direction, point, &mut motion, |node, own| self.dof(node, own));
+        self.fill_rigid_motion(direction, point, &mut motion, |node, axis| self.dof(node, axis));
         motion
     }
 
@@ -27,9 +27,9 @@ impl FemModel {
         }
         for (node, place) in self.mesh.nodes().iter().enumerate() {
             let arm = [0, 1, 2].map(|axis| place[axis] - point[axis]);
-            for &own in self.mesh.directions() {
-                if let Some(dof) = number(node, own) {
-                    motion[dof] = own.in_rigid_motion(direction, arm);
+            for &component in self.mesh.directions() {
+                if let Some(dof) = number(node, component) {
+                    motion[dof] = component.in_rigid_motion(direction, arm);
                 }
             }
         }

@@ -76,9 +76,9 @@ short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.le
 
 impl ShearBuilding {
     // Degrees of freedom of the base; the floors follow.
-    const HORIZONTAL: usize = 0;
-    const VERTICAL: usize = 1;
-    const ROTATION: usize = 2;
+    const BASE_HORIZONTAL: usize = 0;
+    const BASE_VERTICAL: usize = 1;
+    const BASE_ROTATION: usize = 2;
 
     /// Building on a rigid base, with storeys listed from below.
     ///
@@ -114,11 +114,10 @@ impl ShearBuilding {
             gravity: 0.0,
         };
         finite("mass of the building", building.total_mass())?;
-        let rocking = |of: fn(&Storey) -> f64| -> f64 {
-            building.storeys.iter().map(|storey| of(storey) * storey.height.powi(2)).sum()
-        };
-        finite("rotary inertia of the building, by masses and heights", rocking(|s| s.mass))?;
-        finite("stiffness in rotation, by storeys and heights", rocking(|s| s.stiffness))?;
+        let inertias = storeys.iter().map(|storey| storey.mass * storey.height.powi(2));
+        finite("rotary inertia of the building, by masses and heights", inertias.sum())?;
+        let stiffnesses = storeys.iter().map(|storey| storey.stiffness * storey.height.powi(2));
+        finite("stiffness in rotation, by storeys and heights", stiffnesses.sum())?;
         positive("rotary inertia of base and floors", building.rotary_inertia())?;
         Ok(building)
     }
@@ -208,7 +207,7 @@ impl ShearBuilding {
     pub fn total_drift(&self, storey: usize) -> Result<DofCombination> {
         let floor = self.floor(storey)?;
         let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
-        Ok([(floor, 1.0), (Self::HORIZONTAL, -1.0), (Self::ROTATION, height)].into())
+        Ok([(floor, 1.0), (Self::BASE_HORIZONTAL, -1.0), (Self::BASE_ROTATION, height)].into())
     }
 
     /// Horizontal force of the floor on top of `storey` on the part below, N.
@@ -276,14 +275,14 @@ impl ShearBuilding {
 
     /// `u_j − u_(j−1)`, including the part caused by the base's rotation.
     fn sway_row(storey: usize) -> [(usize, f64); 2] {
-        let below = if storey == 0 { Self::HORIZONTAL } else { storey + 2 };
+        let below = if storey == 0 { Self::BASE_HORIZONTAL } else { storey + 2 };
         [(storey + 3, 1.0), (below, -1.0)]
     }
 
     /// Terms of the drift of a storey that exists.
     fn drift_terms(&self, storey: usize) -> [(usize, f64); 3] {
-        let [upper, lower] = Self::sway_row(storey);
-        [upper, lower, (Self::ROTATION, self.storeys[storey].height)]
+        let sway = Self::sway_row(storey);
+        [sway[0], sway[1], (Self::BASE_ROTATION, self.storeys[storey].height)]
     }
 
     /// Weight that the columns of `storey` carry, N.
@@ -314,11 +313,11 @@ impl ShearBuilding {
             let weight = self.weight_on(index);
             if self.isolated && index == 0 {
                 for (dof, sign) in Self::sway_row(0) {
-                    matrix.add(dof, Self::ROTATION, sign * weight);
-                    matrix.add(Self::ROTATION, dof, sign * weight);
+                    matrix.add(dof, Self::BASE_ROTATION, sign * weight);
+                    matrix.add(Self::BASE_ROTATION, dof, sign * weight);
                 }
                 // d = u_1 − u_0 + h θ, so d θ contains another h θ².
-                matrix.add(Self::ROTATION, Self::ROTATION, weight * storey.height);
+                matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, weight * storey.height);
             } else {
                 matrix.add_outer(Self::sway_row(index), -weight / storey.height);
             }
@@ -358,14 +357,16 @@ impl Structure for ShearBuilding {
     }
 
     fn base(&self) -> Base {
-        let (left, right) = (self.center - 0.5 * self.width, self.center + 0.5 * self.width);
-        BaseNode::rigid_base(left, right, [Self::HORIZONTAL, Self::VERTICAL, Self::ROTATION]).into()
+        let left = self.center - 0.5 * self.width;
+        let right = self.center + 0.5 * self.width;
+        let dofs = [Self::BASE_HORIZONTAL, Self::BASE_VERTICAL, Self::BASE_ROTATION];
+        BaseNode::rigid_base(left, right, dofs).into()
     }
 
     fn mass(&self, matrix: &mut Triplets) -> Result<()> {
-        matrix.add(Self::HORIZONTAL, Self::HORIZONTAL, self.base_mass);
-        matrix.add(Self::VERTICAL, Self::VERTICAL, self.total_mass());
-        matrix.add(Self::ROTATION, Self::ROTATION, self.rotary_inertia());
+        matrix.add(Self::BASE_HORIZONTAL, Self::BASE_HORIZONTAL, self.base_mass);
+        matrix.add(Self::BASE_VERTICAL, Self::BASE_VERTICAL, self.total_mass());
+        matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, self.rotary_inertia());
         for (index, storey) in self.storeys.iter().enumerate() {
             matrix.add(index + 3, index + 3, storey.mass);
         }

@@ -58,8 +58,8 @@ impl FemModel {
         displacement: &[f64],
     ) -> Result<Vec<ShellResultants>> {
         let shell = shell(&self.mesh, element)?;
-        let own = self.element_displacements(shell, displacement)?;
-        shell.resultants(&self.mesh.coordinates(shell.nodes()), &own)
+        let shell_displacement = self.element_displacements(shell, displacement)?;
+        shell.resultants(&self.mesh.coordinates(shell.nodes()), &shell_displacement)
     }
 
     /// Rows of the forces and moments at every node of some shells, in ascending order of nodes.
@@ -85,14 +85,14 @@ impl FemModel {
     /// let model = FemModel::on_base(mesh)?;
     /// let rows = model.shell_rows(&mat, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
     /// let middle = model.mesh().node_at_point([2.0, 1.0, 0.0])?;
-    /// let own = rows.iter().find(|own| own.node == middle).unwrap();
+    /// let node_rows = rows.iter().find(|rows| rows.node == middle).unwrap();
     /// // Tension below is positive.
-    /// let probe = Probe::section("moment along x", &own.moments[0]);
+    /// let probe = Probe::section("moment along x", &node_rows.moments[0]);
     /// assert_eq!(probe.unit, "N·m/m");
     /// // The largest moment in the mat in any direction, for any displacement.
     /// let rest = model.rigid_motion(Direction::Z, [0.0; 3]);
-    /// let moments = rows.iter().flat_map(|own| own.value(&rest).principal_moments());
-    /// assert!(moments.fold(0.0, |most: f64, moment| most.max(moment.abs())) < 1e-3);
+    /// let moments = rows.iter().flat_map(|rows| rows.value(&rest).principal_moments());
+    /// assert!(moments.fold(0.0, |largest: f64, moment| largest.max(moment.abs())) < 1e-3);
     /// # Ok::<(), basemat::Error>(())
     /// ```
     ///
@@ -114,11 +114,12 @@ impl FemModel {
                 unit[k] = 1.0;
                 let all = shell.resultants(&points, &unit)?;
                 unit[k] = 0.0;
-                for ((&node, &point), own) in shell.nodes().iter().zip(&points).zip(&all) {
+                let nodes = shell.nodes().iter().zip(&points);
+                for ((&node, &point), resultants) in nodes.zip(&all) {
                     let [along, outward] = axes(point);
-                    let own = own.in_axes(along, outward);
-                    let own = own.map_err(|fault| fault.within(item(element)))?;
-                    sums.entry(node).or_default().add(k == 0, dof, &own);
+                    let turned = resultants.in_axes(along, outward);
+                    let turned = turned.map_err(|fault| fault.within(item(element)))?;
+                    sums.entry(node).or_default().add(k == 0, dof, &turned);
                 }
             }
         }
@@ -158,14 +159,15 @@ struct Sum {
 
 impl Sum {
     /// Adds the resultants of a shell for a unit displacement, and the shell itself with the first one.
-    fn add(&mut self, is_first: bool, dof: usize, own: &ShellResultants) {
+    fn add(&mut self, is_first: bool, dof: usize, resultants: &ShellResultants) {
         if is_first {
             self.count += 1.0;
-            for (sum, value) in self.axes.iter_mut().flatten().zip(own.axes.iter().flatten()) {
+            let components = resultants.axes.iter().flatten();
+            for (sum, value) in self.axes.iter_mut().flatten().zip(components) {
                 *sum += value;
             }
         }
-        for (row, value) in self.rows.iter_mut().zip(own.values()) {
+        for (row, value) in self.rows.iter_mut().zip(resultants.values()) {
             if value != 0.0 {
                 *row.entry(dof).or_insert(0.0) += value;
             }
@@ -176,16 +178,16 @@ impl Sum {
 /// The shell of this index.
 fn shell(mesh: &Mesh, element: usize) -> Result<&Shell> {
     in_bounds("element", element, mesh.elements().len())?;
-    let own = mesh.elements().nth(element).and_then(as_shell);
-    own.ok_or_else(|| Error::part(item(element), "it is not a shell"))
+    let shell = mesh.elements().nth(element).and_then(as_shell);
+    shell.ok_or_else(|| Error::part(item(element), "it is not a shell"))
 }
 
 /// The element as a shell, also from a box.
 fn as_shell(element: &dyn Element) -> Option<&Shell> {
-    let own: &dyn Any = element;
-    match own.downcast_ref::<Box<dyn Element>>() {
+    let any: &dyn Any = element;
+    match any.downcast_ref::<Box<dyn Element>>() {
         Some(inner) => as_shell(inner.as_ref()),
-        None => own.downcast_ref(),
+        None => any.downcast_ref(),
     }
 }
 

@@ -40,11 +40,12 @@ impl PlanStorey {
     ///
     /// Sides of the floor along x and y, m. Without eccentricities and dashpots.
     pub fn new(height: f64, mass: f64, [length, width]: [f64; 2], stiffness: [f64; 3]) -> Self {
-        let [along, across] = [length, width].map(|side| mass * side * side / 12.0);
+        let about_y = mass * length * length / 12.0;
+        let about_x = mass * width * width / 12.0;
         Self {
             height,
             mass,
-            inertia: [across, along, along + across],
+            inertia: [about_x, about_y, about_y + about_x],
             mass_center: [0.0; 2],
             stiffness,
             stiffness_center: [0.0; 2],
@@ -110,10 +111,9 @@ impl StoreyBuilding {
         for storey in storeys {
             positive("height of a storey", storey.height)?;
             positive("mass of a floor", storey.mass)?;
-            let [about_x, about_y, about_z] = storey.inertia;
-            not_negative("moment of inertia of a floor about x", about_x)?;
-            not_negative("moment of inertia of a floor about y", about_y)?;
-            positive("moment of inertia of a floor about the vertical", about_z)?;
+            not_negative("moment of inertia of a floor about x", storey.inertia[0])?;
+            not_negative("moment of inertia of a floor about y", storey.inertia[1])?;
+            positive("moment of inertia of a floor about the vertical", storey.inertia[2])?;
             for k in 0..3 {
                 positive("stiffness of a storey", storey.stiffness[k])?;
                 not_negative("damping of a storey", storey.damping[k])?;
@@ -122,8 +122,13 @@ impl StoreyBuilding {
                 finite("centre of a storey", *place)?;
             }
         }
-        let (has_law, springs) = (vec![[false; 3]; storeys.len()], Springs::default());
-        let building = Self { mat, storeys: storeys.to_vec(), has_law, springs, gravity: 0.0 };
+        let building = Self {
+            mat,
+            storeys: storeys.to_vec(),
+            has_law: vec![[false; 3]; storeys.len()],
+            springs: Springs::default(),
+            gravity: 0.0,
+        };
         finite("mass of the building", building.total_mass())?;
         Ok(building)
     }
@@ -215,8 +220,8 @@ impl StoreyBuilding {
     /// # Errors
     /// [`Error::Index`] when there is no such storey.
     pub fn drift(&self, storey: usize) -> Result<[DofCombination; 3]> {
-        let place = self.storeys.get(storey).map_or([0.0; 2], |own| own.stiffness_center);
-        self.drift_at(storey, place)
+        let center = self.storeys.get(storey).map_or([0.0; 2], |storey| storey.stiffness_center);
+        self.drift_at(storey, center)
     }
 
     /// Deformation of `storey` at `place`: drifts along x and y, and twist.
@@ -243,18 +248,22 @@ impl StoreyBuilding {
 
     /// Displacement of level 2 relative to level 1, without the part caused by the mat's rotation.
     fn deformation(&self, levels: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
-        let height = self.storeys[levels[0]..levels[1]].iter().map(|own| own.height).sum();
+        let storeys = &self.storeys[levels[0]..levels[1]];
+        let height: f64 = storeys.iter().map(|storey| storey.height).sum();
         let [along, across, twist] = sway(levels, place);
-        let tilt = |dof: usize| DofCombination::from((dof, height));
-        [along - tilt(ABOUT_Y), across + tilt(ABOUT_X), twist]
+        [
+            along - DofCombination::from((MAT_ROTATION_Y, height)),
+            across + DofCombination::from((MAT_ROTATION_X, height)),
+            twist,
+        ]
     }
 
     /// Displacements of the mass centre of the floor on `storey`, and rotations.
     pub(super) fn floor_motion(&self, storey: usize) -> [DofCombination; 6] {
         let place = self.storeys[storey].mass_center;
         let [along, across, twist] = level(storey + 1, place);
-        let [_, _, up] = self.mat.displacement_at([place[0], place[1], 0.0]);
-        [along, across, up, ABOUT_X.into(), ABOUT_Y.into(), twist]
+        let [.., up] = self.mat.displacement_at([place[0], place[1], 0.0]);
+        [along, across, up, MAT_ROTATION_X.into(), MAT_ROTATION_Y.into(), twist]
     }
 
     /// Adds lᵀl of each storey's deformations times a factor.
@@ -271,30 +280,34 @@ impl StoreyBuilding {
     fn add_p_delta(&self, matrix: &mut Triplets) {
         for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
             for floor in &self.storeys[index..] {
-                let [along, across, twist] = sway([index, index + 1], floor.mass_center);
                 let softening = -self.gravity / storey.height;
-                matrix.add_outer(along, softening * floor.mass);
-                matrix.add_outer(across, softening * floor.mass);
-                matrix.add_outer(twist, softening * floor.inertia[2]);
+                let inertias = [floor.mass, floor.mass, floor.inertia[2]];
+                let rows = sway([index, index + 1], floor.mass_center);
+                for (row, inertia) in rows.into_iter().zip(inertias) {
+                    matrix.add_outer(row, softening * inertia);
+                }
             }
         }
     }
 }
 
 /// Degree of freedom of the mat: rotation about x.
-const ABOUT_X: usize = 3;
+const MAT_ROTATION_X: usize = 3;
 /// Degree of freedom of the mat: rotation about y.
-const ABOUT_Y: usize = 4;
+const MAT_ROTATION_Y: usize = 4;
 
 /// Motion of a level at a place: the mat's base 0, floors from 1.
 fn level(level: usize, [x, y]: [f64; 2]) -> [DofCombination; 3] {
     let first = 3 * level + 3;
-    let [along, across, twist] = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
-    let point = |own: usize, lever: f64| {
-        let turned = Some((twist, lever)).filter(|_| lever != 0.0);
-        std::iter::once((own, 1.0)).chain(turned).collect()
-    };
-    [point(along, -y), point(across, x), twist.into()]
+    let dofs = if level == 0 { [0, 1, 5] } else { [first, first + 1, first + 2] };
+    let twist = dofs[2];
+    [translation_row(dofs[0], twist, -y), translation_row(dofs[1], twist, x), twist.into()]
+}
+
+/// Displacement by the degree of freedom `dof` and a rotation `twist` at a lever, m.
+fn translation_row(dof: usize, twist: usize, lever: f64) -> DofCombination {
+    let by_twist = Some((twist, lever)).filter(|_| lever != 0.0);
+    std::iter::once((dof, 1.0)).chain(by_twist).collect()
 }
 
 /// Displacement of level 2 relative to level 1, including the part caused by the mat's tilt.
@@ -330,8 +343,8 @@ impl Structure for StoreyBuilding {
     fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
         self.mat.stiffness(matrix)?;
         self.add_drifts(matrix, |storey| {
-            let (stiffness, has_law) = (self.storeys[storey].stiffness, self.has_law[storey]);
-            [0, 1, 2].map(|k| if has_law[k] { 0.0 } else { stiffness[k] })
+            let stiffness = self.storeys[storey].stiffness;
+            [0, 1, 2].map(|k| if self.has_law[storey][k] { 0.0 } else { stiffness[k] })
         })?;
         self.add_p_delta(matrix);
         Ok(())
@@ -356,15 +369,17 @@ impl Structure for StoreyBuilding {
     }
 
     fn describe(&self, dofs: &[usize]) -> Option<String> {
-        const NAMES: [&str; 3] = ["u_x", "u_y", "r_z"];
-        let name = |dof: &usize| match dof.checked_sub(6) {
-            None => self.mat.describe(&[*dof]),
-            Some(own) if *dof < self.dofs() => {
-                Some(format!("{} of floor {}", NAMES[own % 3], own / 3))
+        const FLOOR_DOF_NAMES: [&str; 3] = ["u_x", "u_y", "r_z"];
+        let mut names = Vec::with_capacity(dofs.len());
+        for &dof in dofs {
+            if dof >= self.dofs() {
+                return None;
             }
-            Some(_) => None,
-        };
-        let names: Option<Vec<_>> = dofs.iter().map(name).collect();
-        Some(names?.join(", "))
+            names.push(match dof.checked_sub(6) {
+                None => self.mat.describe(&[dof])?,
+                Some(place) => format!("{} of floor {}", FLOOR_DOF_NAMES[place % 3], place / 3),
+            });
+        }
+        Some(names.join(", "))
     }
 }

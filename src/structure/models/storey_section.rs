@@ -15,10 +15,9 @@ impl StoreyBuilding {
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) when there is no such storey.
     pub fn shear(&self, storey: usize) -> Result<[SectionRows; 3]> {
-        let about = self.storeys.get(storey).map_or([0.0; 2], |own| own.stiffness_center);
-        let section = self.section(storey, about)?;
-        let [along, across] = section.shear;
-        Ok([along, across, section.torque])
+        let center = self.storeys.get(storey).map_or([0.0; 2], |storey| storey.stiffness_center);
+        let SpaceSection { shear: [along, across], torque, .. } = self.section(storey, center)?;
+        Ok([along, across, torque])
     }
 
     /// Six resultants of the floors above on the part below the foot of `storey` (0: the lowest, on the mat).
@@ -55,7 +54,8 @@ impl StoreyBuilding {
         let mut height = 0.0;
         for (index, floor) in self.storeys.iter().enumerate().skip(storey) {
             height += floor.height;
-            let [x, y] = [0, 1].map(|k| floor.mass_center[k] - reference[k]);
+            let x = floor.mass_center[0] - reference[0];
+            let y = floor.mass_center[1] - reference[1];
             let [along, across, up, about_x, about_y, twist] = self.floor_motion(index);
             sums[3] -= floor.mass * (y * up.clone() - height * across.clone());
             sums[3] -= floor.inertia[0] * about_x;
@@ -68,15 +68,17 @@ impl StoreyBuilding {
             }
         }
         let [along, across, up, about_x, about_y, about_z] = sums;
-        let rows =
-            |unit| move |acceleration| SectionRows { unit, acceleration, ..SectionRows::default() };
-        let (force, moment) = (rows("N"), rows("N·m"));
         Ok(SpaceSection {
-            height: self.storeys[..storey].iter().map(|own| own.height).sum(),
-            shear: [along, across].map(force),
-            compression: force(-up),
-            moments: [about_x, about_y].map(moment),
-            torque: moment(about_z),
+            height: self.storeys[..storey].iter().map(|storey| storey.height).sum(),
+            shear: [along, across].map(|row| inertia_rows("N", row)),
+            compression: inertia_rows("N", -up),
+            moments: [about_x, about_y].map(|row| inertia_rows("N·m", row)),
+            torque: inertia_rows("N·m", about_z),
         })
     }
+}
+
+/// A resultant of inertia alone, by accelerations.
+fn inertia_rows(unit: &'static str, acceleration: DofCombination) -> SectionRows {
+    SectionRows { unit, acceleration, ..SectionRows::default() }
 }

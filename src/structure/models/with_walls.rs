@@ -1,9 +1,7 @@
 //! A structure whose rigid base has walls up to the surface.
 
 use crate::error::{Error, Result, positive};
-use crate::structure::{
-    Base, BaseNode, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
-};
+use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescription, Triplets};
 
 /// Structure in the ground: its rigid base lies at a depth and has walls up to the surface.
 ///
@@ -43,24 +41,23 @@ impl WithWalls {
             needed: "one rigid base in the plane, on the surface",
         };
         let Base::Lines(mut lines) = structure.base() else { return Err(refused) };
-        let Some(mut nodes) = lines.pop().filter(|own| lines.is_empty() && own.len() > 1) else {
+        let Some(mut nodes) = lines.pop().filter(|line| lines.is_empty() && line.len() > 1) else {
             return Err(refused);
         };
         if !BaseNode::are_flat(&nodes) || nodes.iter().any(|node| node.z != 0.0) {
             return Err(refused);
         }
-        let (first, last) = (nodes[0].clone(), nodes[nodes.len() - 1].clone());
+        let first = nodes[0].clone();
+        let last = nodes[nodes.len() - 1].clone();
         let rotation =
             (1.0 / (last.x - first.x)) * (last.vertical.clone() - first.vertical.clone());
         for node in &mut nodes {
             node.z = -depth;
         }
-        let top = |corner: BaseNode| {
-            let horizontal: DofCombination = corner.horizontal - depth * rotation.clone();
-            BaseNode { horizontal, ..corner }
-        };
-        nodes.insert(0, top(first));
-        nodes.push(top(last));
+        let left_top = first.horizontal - depth * rotation.clone();
+        let right_top = last.horizontal - depth * rotation;
+        nodes.insert(0, BaseNode { horizontal: left_top, ..first });
+        nodes.push(BaseNode { horizontal: right_top, ..last });
         Ok(Self { structure: Box::new(structure), nodes })
     }
 }

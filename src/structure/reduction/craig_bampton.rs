@@ -16,7 +16,7 @@ use crate::error::{
 };
 use crate::linalg::{SparseFactor, SparseMatrix, dot, lowest_modes};
 use crate::structure::detached::{check_attached, numbers, restricted};
-use crate::structure::matrix_checks::{MASSLESS, check_mirrored};
+use crate::structure::matrix_checks::{MASSLESS_FRACTION, check_mirrored};
 use crate::structure::nonlinear::is_nonlinear;
 use crate::structure::{Base, BaseNode, DofCombination, Structure, StructureDescription, Triplets};
 
@@ -110,14 +110,10 @@ impl CraigBampton {
         let needed = "must be linear: put springs on the reduced model";
         require_part("structure to be reduced", !is_nonlinear(&mut structure)?, needed)?;
         let mut triplets = Triplets::new(n);
-        let mut assemble = |name, fill: &dyn Fn(&mut Triplets) -> Result<()>| {
-            let matrix = SparseMatrix::assembled(name, &mut triplets, fill)?;
-            check_mirrored(name, &matrix)?;
-            Ok::<_, Error>(matrix)
-        };
-        let mass = assemble("mass matrix", &|m| structure.mass(m))?;
-        let stiffness = assemble("stiffness matrix", &|m| structure.stiffness(m))?;
-        let damping = assemble("damping matrix", &|m| structure.damping(m))?;
+        let mass = mirrored_matrix("mass matrix", &mut triplets, &|m| structure.mass(m))?;
+        let stiffness =
+            mirrored_matrix("stiffness matrix", &mut triplets, &|m| structure.stiffness(m))?;
+        let damping = mirrored_matrix("damping matrix", &mut triplets, &|m| structure.damping(m))?;
         drop(triplets);
 
         let mut base = structure.base();
@@ -125,8 +121,8 @@ impl CraigBampton {
         check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
         same_length("list of fixed-interface modes", self.modes, self.modes.min(interior))?;
-        let (rows, squares) = parts.basis(&stiffness, &mass, self.modes)?;
-        let basis = Basis::new(parts.kept.clone(), rows, n);
+        let (basis_rows, squares) = parts.basis(&stiffness, &mass, self.modes)?;
+        let basis = Basis::new(parts.kept.clone(), basis_rows, n);
         let order = basis.order();
         let kept = parts.kept.len();
         for node in base.nodes_mut() {
@@ -154,6 +150,17 @@ impl CraigBampton {
     }
 }
 
+/// Assembled matrix; an error unless it is symmetric.
+fn mirrored_matrix(
+    name: &'static str,
+    triplets: &mut Triplets,
+    fill: &dyn Fn(&mut Triplets) -> Result<()>,
+) -> Result<SparseMatrix> {
+    let matrix = SparseMatrix::assembled(name, triplets, fill)?;
+    check_mirrored(name, &matrix)?;
+    Ok(matrix)
+}
+
 /// Kept and interior degrees of freedom.
 struct Parts {
     kept: Vec<usize>,
@@ -170,14 +177,14 @@ impl Parts {
         for index in of_base.map(|&(index, _)| index).chain(more.iter().copied()) {
             is_kept[in_bounds("degree of freedom to be kept", index, n)?] = true;
         }
-        let (mut kept, mut interior) = (Vec::new(), Vec::new());
-        let place = (0..n)
-            .map(|dof| {
-                let list = if is_kept[dof] { &mut kept } else { &mut interior };
-                list.push(dof);
-                list.len() - 1
-            })
-            .collect();
+        let mut kept = Vec::new();
+        let mut interior = Vec::new();
+        let mut place = Vec::with_capacity(n);
+        for (dof, is_kept) in is_kept.iter().enumerate() {
+            let list = if *is_kept { &mut kept } else { &mut interior };
+            place.push(list.len());
+            list.push(dof);
+        }
         at_least("list of kept degrees of freedom", kept.len(), 1)?;
         Ok(Self { kept, interior, place, is_kept })
     }
@@ -188,8 +195,9 @@ impl Parts {
 
     /// A_ii.
     fn inner(&self, name: &'static str, matrix: &SparseMatrix) -> Result<SparseMatrix> {
-        let place = |dof: usize| (!self.is_kept[dof]).then_some(self.place[dof]);
-        restricted(name, matrix, self.interior.len(), place)
+        restricted(name, matrix, self.interior.len(), |dof| {
+            (!self.is_kept[dof]).then_some(self.place[dof])
+        })
     }
 
     /// The rows of Tᵀ, and the squared circular frequencies of the modes.
@@ -199,8 +207,10 @@ impl Parts {
         mass: &SparseMatrix,
         modes: usize,
     ) -> Result<(Vec<f64>, Vec<f64>)> {
-        const NAME: &str = "stiffness matrix with the kept degrees of freedom held";
-        let (n, ni, nb) = (self.place.len(), self.interior.len(), self.kept.len());
+        const MATRIX_NAME: &str = "stiffness matrix with the kept degrees of freedom held";
+        let n = self.place.len();
+        let ni = self.interior.len();
+        let nb = self.kept.len();
         let kept = (nb + modes.min(ni)) as f64;
         memory::check(
             "degrees of freedom and modes of the reduction",
@@ -214,19 +224,21 @@ impl Parts {
         if ni == 0 {
             return Ok((rows, Vec::new()));
         }
-        let factor = SparseFactor::positive_definite(NAME, &self.inner(NAME, stiffness)?)?;
-        let mut answers = vec![0.0; nb * ni];
+        let interior_stiffness = self.inner(MATRIX_NAME, stiffness)?;
+        let factor = SparseFactor::positive_definite(MATRIX_NAME, &interior_stiffness)?;
+        let mut static_responses = vec![0.0; nb * ni];
         for (row, column, value) in stiffness.entries() {
             if !self.is_kept[row] && self.is_kept[column] {
-                answers[self.place[column] * ni + self.place[row]] -= value;
+                static_responses[self.place[column] * ni + self.place[row]] -= value;
             }
         }
-        factor.solve_many(&mut answers);
-        let held = self.inner("mass matrix with the kept degrees of freedom held", mass)?;
-        let (squares, shapes) = lowest_modes(&factor, &held, modes, None)
-            .ok_or(Error::Singular { matrix: NAME, order: ni })?;
+        factor.solve_many(&mut static_responses);
+        let interior_mass =
+            self.inner("mass matrix with the kept degrees of freedom held", mass)?;
+        let (squares, shapes) = lowest_modes(&factor, &interior_mass, modes, None)
+            .ok_or(Error::Singular { matrix: MATRIX_NAME, order: ni })?;
         rows.resize((nb + squares.len()) * n, 0.0);
-        let inner = answers.chunks_exact(ni).chain(shapes.chunks_exact(ni));
+        let inner = static_responses.chunks_exact(ni).chain(shapes.chunks_exact(ni));
         for (row, values) in rows.chunks_exact_mut(n).zip(inner) {
             for (&dof, value) in self.interior.iter().zip(values) {
                 row[dof] = *value;
@@ -235,7 +247,7 @@ impl Parts {
         if rows.iter().all(|value| value.is_finite()) {
             Ok((rows, squares))
         } else {
-            Err(Error::Singular { matrix: NAME, order: ni })
+            Err(Error::Singular { matrix: MATRIX_NAME, order: ni })
         }
     }
 }
@@ -283,7 +295,7 @@ fn without_rounding(mut reduced: Vec<f64>, basis: &Basis, full: &SparseMatrix) -
     let order = basis.order();
     for (i, motion) in basis.rows().enumerate() {
         let terms = full.entries().map(|(row, column, c)| (motion[row] * c * motion[column]).abs());
-        if reduced[i * (order + 1)] <= MASSLESS * terms.sum::<f64>() {
+        if reduced[i * (order + 1)] <= MASSLESS_FRACTION * terms.sum::<f64>() {
             for j in 0..order {
                 reduced[i * order + j] = 0.0;
                 reduced[j * order + i] = 0.0;
@@ -355,15 +367,15 @@ impl Structure for ReducedModel {
     fn describe(&self, dofs: &[usize]) -> Option<String> {
         let full = self.load.lock().unwrap_or_else(PoisonError::into_inner);
         let kept = self.basis.kept();
-        let (own, modes): (Vec<usize>, Vec<usize>) =
-            dofs.iter().partition(|&&dof| dof < kept.len());
-        let own: Vec<usize> = own.into_iter().map(|dof| kept[dof]).collect();
+        let full_dofs: Vec<usize> = dofs.iter().filter_map(|dof| kept.get(*dof).copied()).collect();
         let mut texts = Vec::new();
-        if !own.is_empty() {
-            texts.push(full.structure.describe(&own).unwrap_or_else(|| numbers(&own)));
+        if !full_dofs.is_empty() {
+            let text = full.structure.describe(&full_dofs);
+            texts.push(text.unwrap_or_else(|| numbers(&full_dofs)));
         }
-        let mode = |dof: &usize| format!("mode {} of the reduction", dof - kept.len());
-        texts.extend(modes.first().map(mode));
+        if let Some(dof) = dofs.iter().find(|&&dof| dof >= kept.len()) {
+            texts.push(format!("mode {} of the reduction", dof - kept.len()));
+        }
         (!texts.is_empty()).then(|| texts.join("; "))
     }
 

@@ -8,7 +8,7 @@ use crate::structure::DofCombination;
 use crate::structure::probe::Probe;
 
 /// Columns of A T computed at a time.
-const BLOCK: usize = 16;
+const COLUMNS_PER_BLOCK: usize = 16;
 
 /// The basis T of a reduction, u = T q.
 #[derive(Debug)]
@@ -46,7 +46,7 @@ impl Basis {
         if matrix.is_empty() {
             return result;
         }
-        for (block, rows) in self.transposed.chunks(BLOCK * self.full).enumerate() {
+        for (block, rows) in self.transposed.chunks(COLUMNS_PER_BLOCK * self.full).enumerate() {
             let mut products = vec![0.0; rows.len()];
             for (row, product) in
                 rows.chunks_exact(self.full).zip(products.chunks_exact_mut(self.full))
@@ -55,10 +55,11 @@ impl Basis {
             }
             let columns = rows.len() / self.full;
             // Rows after the block are the columns of later blocks.
-            let upto = (BLOCK * block + columns) * self.full;
+            let upto = (COLUMNS_PER_BLOCK * block + columns) * self.full;
             let entries = row_products(&self.transposed[..upto], &products, self.full);
             for (place, value) in entries.iter().enumerate() {
-                let (i, j) = (place / columns, BLOCK * block + place % columns);
+                let i = place / columns;
+                let j = COLUMNS_PER_BLOCK * block + place % columns;
                 if i <= j {
                     result[i * order + j] = *value;
                     result[j * order + i] = *value;
