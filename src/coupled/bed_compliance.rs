@@ -30,7 +30,7 @@ pub(crate) fn of_bed(
     let base = PlacedBase::of(structure, elements)?;
     let rank = base.dofs().len();
     let has_few_motions = rank <= MAX_STRUCTURE_RANK && 2 * rank <= elements.len();
-    let is_elastic = compliance.in_step.iter().all(|own| *own != 0.0);
+    let is_elastic = compliance.in_step.iter().all(|entry| *entry != 0.0);
     if base.is_flexible() || !has_few_motions || !is_elastic {
         return Ok(None);
     }
@@ -45,8 +45,8 @@ pub(crate) fn inside(
 ) -> Result<Vec<f64>> {
     same_length(quantity, diagonal.len(), elements.layout().len())?;
     all_finite(quantity, &diagonal)?;
-    if let Some((row, own)) = diagonal.iter().enumerate().find(|(_, own)| **own <= 0.0) {
-        return Err(Error::Indefinite { matrix: quantity, row, diagonal: *own });
+    if let Some((row, entry)) = diagonal.iter().enumerate().find(|(_, entry)| **entry <= 0.0) {
+        return Err(Error::Indefinite { matrix: quantity, row, diagonal: *entry });
     }
     elements.spread_inside(&mut diagonal);
     Ok(diagonal)

@@ -17,9 +17,9 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
-const FORMAT: u32 = 10;
+const CHECKPOINT_FORMAT: u32 = 10;
 /// Largest number of steps of a checkpoint: no run has more.
-const MOST_STEPS: usize = match 1_usize.checked_shl(47) {
+const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
@@ -127,10 +127,11 @@ impl Simulation {
             let unknown = CheckpointError::Unsupported { part: "interface law" };
             Ok((number.ok_or(unknown)?, start.has_opened))
         };
-        let (mut own, mut books) = (state.clone(), self.books.clone());
-        let numbers = numbers(scene.layout().components(), &mut own, books.as_mut());
+        let mut state_copy = state.clone();
+        let mut energies = self.books.clone();
+        let numbers = numbers(scene.layout().components(), &mut state_copy, energies.as_mut());
         let mut checkpoint = Checkpoint {
-            format: FORMAT,
+            format: CHECKPOINT_FORMAT,
             identity: self.identity(state.step)?,
             steps: state.step,
             modes: state.start.iter().map(number).collect::<Result<_>>()?,
@@ -195,22 +196,26 @@ impl Simulation {
     pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
         checkpoint.check()?;
         checkpoint.identity.check(&self.identity(checkpoint.steps)?, changes)?;
-        // Changed loads use their own functions.
+        // A changed load uses the function of the new scene.
         let is_kept = !changes.contains(&Change::Load);
         if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {
             return Err(CheckpointError::OtherScene { quantity: "load" }.into());
         }
-        let (scene, structure) = (&self.scene, self.structure.as_mut());
-        let (mut state, mut books) = (self.state.clone(), self.books.clone());
-        let own = numbers(scene.layout().components(), &mut state, books.as_mut());
-        if own.len() != checkpoint.state.len() {
+        let scene = &self.scene;
+        let structure = self.structure.as_mut();
+        let mut state = self.state.clone();
+        let mut energies = self.books.clone();
+        let numbers = numbers(scene.layout().components(), &mut state, energies.as_mut());
+        if numbers.len() != checkpoint.state.len() {
             return Err(CheckpointError::Corrupt { quantity: "state" }.into());
         }
-        own.into_iter().zip(&checkpoint.state).for_each(|(own, saved)| *own = *saved);
+        for (number, saved) in numbers.into_iter().zip(&checkpoint.state) {
+            *number = *saved;
+        }
         restore_modes(scene, &checkpoint.modes, &mut state)?;
         let laws = state.start.state_variables_mut();
         if laws.len() != checkpoint.laws.len() {
-            return Err(CheckpointError::Corrupt { quantity: LAWS }.into());
+            return Err(CheckpointError::Corrupt { quantity: LAW_VARIABLES }.into());
         }
         laws.copy_from_slice(&checkpoint.laws);
         let before = save_variables(structure)?;
@@ -222,13 +227,15 @@ impl Simulation {
         // From here on no error can occur.
         state.step = checkpoint.steps;
         state.time = state.step as f64 * scene.time_step;
-        (state.trials, state.method) = (0, SearchMethod::ActiveSet);
+        state.trials = 0;
+        state.method = SearchMethod::ActiveSet;
         state.transitions.clear();
         state.kinematics.changed();
         state.energy_balance =
-            books.as_ref().map_or(EnergyBalance::LEFT_OUT, |books| books.energy_balance);
+            energies.as_ref().map_or(EnergyBalance::LEFT_OUT, |energies| energies.energy_balance);
         state.update_resultants(scene);
-        (self.state, self.books) = (state, books);
+        self.state = state;
+        self.books = energies;
         let mut saved = checkpoint.set_loads.chunks_exact(2).filter(|_| is_kept);
         for load in &mut self.scene.loads {
             let set = saved.next().filter(|saved| saved[0] != 0.0);
@@ -239,22 +246,24 @@ impl Simulation {
 }
 
 /// Name of [`Checkpoint::laws`] in errors.
-const LAWS: &str = "state variables of the interface laws";
+const LAW_VARIABLES: &str = "state variables of the interface laws";
 
 impl Checkpoint {
     /// Error for another format, another check sum, or a number that no simulation has.
     fn check(&self) -> Result<()> {
-        if self.format != FORMAT {
-            return Err(CheckpointError::Format { found: self.format, needed: FORMAT }.into());
+        if self.format != CHECKPOINT_FORMAT {
+            return Err(
+                CheckpointError::Format { found: self.format, needed: CHECKPOINT_FORMAT }.into()
+            );
         }
         if self.sum != self.sum() {
             return Err(CheckpointError::Corrupt { quantity: "contents" }.into());
         }
-        if self.steps > MOST_STEPS {
+        if self.steps > MAX_CHECKPOINT_STEPS {
             return Err(CheckpointError::Corrupt { quantity: "number of steps" }.into());
         }
         for (values, quantity) in [
-            (&self.laws, LAWS),
+            (&self.laws, LAW_VARIABLES),
             (&self.state, "state"),
             (&self.ground, "state of the ground"),
             (&self.structure, "state of the structure"),
@@ -295,7 +304,7 @@ fn restore_modes(scene: &Scene, saved: &[(usize, bool)], state: &mut State) -> R
 fn numbers<'a>(
     directions: usize,
     state: &'a mut State,
-    books: Option<&'a mut EnergyAccumulator>,
+    energies: Option<&'a mut EnergyAccumulator>,
 ) -> Vec<&'a mut f64> {
     let mut all = Vec::new();
     let State { kinematics, contact, start, free_field, free_field_across, .. } = state;
@@ -322,6 +331,6 @@ fn numbers<'a>(
         all.push(free_field_across);
         all.extend(across);
     }
-    all.extend(books.into_iter().flat_map(|books| books.numbers(directions)));
+    all.extend(energies.into_iter().flat_map(|energies| energies.numbers(directions)));
     all
 }

@@ -17,9 +17,9 @@ use std::fmt;
 const STIFFNESS_LIMIT: f64 = 1e12;
 const DELASSUS_LIMIT: f64 = 1e16;
 /// Fraction of a condition that a quantity must explain to be named as its cause.
-const EXPLAINED: f64 = 1e-3;
+const MIN_CAUSE_FRACTION: f64 = 1e-3;
 /// Condition beyond which a matrix counts as singular.
-const SINGULAR: f64 = 1e18;
+const SINGULAR_CONDITION: f64 = 1e18;
 
 /// Condition numbers of the matrices of a step.
 ///
@@ -116,16 +116,16 @@ pub(crate) fn conditioning(
 ///
 /// Returns its name and ratio.
 fn cause_of_stiffness(scene: &Scene, operators: &Operators, condition: f64) -> (&'static str, f64) {
-    let (c, model) = (&scene.coefficients, &scene.model);
-    let inertia = |vector: &[f64]| c.acceleration[0] * model.mass.form(vector, vector);
+    let c = &scene.coefficients;
+    let model = &scene.model;
     let stiffness = operators.stiffness_diagonal(model, c);
-    let against = |vector: Vec<f64>| {
-        let held: f64 = stiffness.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
-        held / inertia(&vector)
-    };
-    let ratio =
-        model.influence.of_all(model.coordinates).into_iter().map(against).fold(0.0, f64::max);
-    if ratio >= EXPLAINED * condition.min(SINGULAR) {
+    let mut ratio: f64 = 0.0;
+    for vector in model.influence.of_all(model.coordinates) {
+        let resistance: f64 = stiffness.iter().zip(&vector).map(|(k, r)| k * r * r).sum();
+        let inertia = c.acceleration[0] * model.mass.form(&vector, &vector);
+        ratio = ratio.max(resistance / inertia);
+    }
+    if ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
         return ("stiffness of the structure over its inertia in a time step", ratio);
     }
     let positive = || stiffness.iter().copied().filter(|k| *k > 0.0);
@@ -143,15 +143,15 @@ fn cause_of_delassus(
     ground: f64,
 ) -> (&'static str, f64) {
     let size = scene.layout().len();
-    let against = |i: usize| {
-        let own = scene.soil.diagonal(size, i);
-        (operators.delassus.diagonal(size, i) - own).abs() / own.abs()
-    };
-    let ratio = (0..size).map(against).fold(0.0, f64::max);
-    if ratio >= EXPLAINED * condition.min(SINGULAR) {
+    let mut ratio: f64 = 0.0;
+    for i in 0..size {
+        let soil = scene.soil.diagonal(size, i);
+        ratio = ratio.max((operators.delassus.diagonal(size, i) - soil).abs() / soil.abs());
+    }
+    if ratio >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
         return ("compliance of the structure in a time step over that of the ground", ratio);
     }
-    if ground >= EXPLAINED * condition.min(SINGULAR) {
+    if ground >= MIN_CAUSE_FRACTION * condition.min(SINGULAR_CONDITION) {
         return ("condition of the ground's instantaneous operator", ground);
     }
     let areas = scene.base.areas();

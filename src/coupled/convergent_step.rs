@@ -4,7 +4,7 @@ use crate::Simulation;
 use crate::error::{Error, Result, StepError, not_negative, positive};
 
 /// Largest number of halvings.
-const HALVINGS: usize = 10;
+const MAX_STEP_HALVINGS: usize = 10;
 
 /// The longest step with which a scene runs without a failed step.
 ///
@@ -51,7 +51,7 @@ pub fn largest_convergent_step(
 ) -> Result<Option<f64>> {
     let mut step = positive("time step", time_step)?;
     not_negative("duration", duration)?;
-    for _ in 0..=HALVINGS {
+    for _ in 0..=MAX_STEP_HALVINGS {
         let mut simulation = make(step)?;
         match simulation.run(simulation.steps_for(duration), |_| {}) {
             Ok(_) => return Ok(Some(step)),

@@ -24,28 +24,29 @@ use crate::structure::{
 };
 
 /// Stiffness of the springs that hold the base, relative to the largest stiffness.
-const HELD: f64 = 1e6;
+const BASE_SPRING_FACTOR: f64 = 1e6;
 /// Number of modes in which the mode with the most mass is sought.
-const MODES: usize = 12;
+const MAX_SEARCHED_MODES: usize = 12;
 /// Largest part of the base's springs in the stiffness of a structural mode.
-const OF_THE_BASE: f64 = 0.5;
+const MAX_BASE_SPRING_FRACTION: f64 = 0.5;
 /// Smallest part of the mass that a mode must move.
-const LEAST_MASS: f64 = 1e-3;
+const MIN_MASS_FRACTION: f64 = 1e-3;
 /// Base shear in the deflected shape, relative to the weight: small, so that nothing yields.
-const DEFLECTION: f64 = 1e-3;
+const BASE_SHEAR_RATIO: f64 = 1e-3;
 /// Smallest number of steps of the free vibration in a period T.
-const STEPS: f64 = 40.0;
+const STEPS_PER_PERIOD: f64 = 40.0;
 /// Number of moving-average windows in a period T.
-const WINDOW: f64 = 6.0;
-/// Number of half periods that are evaluated, and the largest number of periods T that they may take.
-const HALF_PERIODS: usize = 10;
-const MOST_PERIODS: f64 = 60.0;
+const WINDOWS_PER_PERIOD: f64 = 6.0;
+/// Number of half periods that are evaluated.
+const EVALUATED_HALF_PERIODS: usize = 10;
+/// Largest number of periods T that the evaluated half periods may take.
+const MAX_PERIODS: f64 = 60.0;
 /// Amplitude, relative to the first, at which the evaluation ends.
-const DECAYED: f64 = 1e-3;
+const FINAL_AMPLITUDE_RATIO: f64 = 1e-3;
 /// Misfit of one decaying mode, relative to the amplitude, that is accepted.
-const MISFIT: f64 = 0.1;
+const MISFIT_TOLERANCE: f64 = 0.1;
 
-/// Vibration mode of a structure with its contact nodes held.
+/// Vibration mode of a structure with fixed contact nodes.
 pub(crate) struct FixedBaseMode {
     /// 2π/ω, s.
     pub(crate) period: f64,
@@ -68,32 +69,33 @@ impl FixedBaseMode {
         let base = structure.base();
         base.check(n)?;
         let nodes = base.into_nodes();
-        let held = HeldBase::new(&nodes, &stiffness, HELD * stiffest(&stiffness));
+        let held = HeldBase::new(&nodes, &stiffness, BASE_SPRING_FACTOR * stiffest(&stiffness));
         let mut factor = held.factor()?;
         let Some(mut along) = held.pulls().into_iter().nth([0, 2][axis]) else { return Ok(None) };
         factor.solve(&mut along);
         let total = mass.form(&along, &along);
-        let found = lowest_modes(&factor, &mass, MODES, None);
+        let found = lowest_modes(&factor, &mass, MAX_SEARCHED_MODES, None);
         let Some((squares, modes)) = found else { return Ok(None) };
         let mut momentum = vec![0.0; n];
         mass.multiply_add(1.0, &along, &mut momentum);
-        let own = squares
-            .iter()
-            .zip(modes.chunks_exact(n))
-            .filter(|(square, mode)| stiffness.form(mode, mode) > OF_THE_BASE * **square);
-        let moved = own.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
-        let most = moved.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-        let Some((part, square, mode)) = most.filter(|own| own.0.powi(2) > LEAST_MASS * total)
-        else {
+        let structural = squares.iter().zip(modes.chunks_exact(n)).filter(|(square, mode)| {
+            stiffness.form(mode, mode) > MAX_BASE_SPRING_FRACTION * **square
+        });
+        let participations = structural.map(|(square, mode)| (dot(mode, &momentum), *square, mode));
+        let largest = participations.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+        let Some((participation, square, mode)) = largest else { return Ok(None) };
+        let moves_mass = participation.powi(2) > MIN_MASS_FRACTION * total;
+        if !moves_mass {
             return Ok(None);
-        };
+        }
         let mut force = vec![0.0; n];
         stiffness.multiply_add(1.0, mode, &mut force);
         let energy = dot(mode, &force);
         let circular = square.sqrt();
         // Base shear ω² φᵀM r of a unit amplitude.
-        let amplitude = DEFLECTION * STANDARD_GRAVITY * total / (square * part.abs());
-        let scaled = |factor: f64| force.iter().map(|own| factor * own).enumerate().collect();
+        let amplitude =
+            BASE_SHEAR_RATIO * STANDARD_GRAVITY * total / (square * participation.abs());
+        let scaled = |factor: f64| force.iter().map(|force| factor * force).enumerate().collect();
         Ok(Some(Self {
             period: TAU / circular,
             damping: damping.form(mode, mode) / (2.0 * circular),
@@ -109,7 +111,7 @@ pub(crate) fn free_vibration(
     mut builder: SimulationBuilder,
     mode: &FixedBaseMode,
 ) -> Result<[f64; 2]> {
-    let step = builder.time_step.min(mode.period / STEPS);
+    let step = builder.time_step.min(mode.period / STEPS_PER_PERIOD);
     builder.time_step = step;
     builder.loads = vec![Load::released(mode.load.clone(), 1.0)];
     builder.probes = vec![Probe::displacement("mode", mode.row.clone())];
@@ -119,7 +121,7 @@ pub(crate) fn free_vibration(
     if builder.gravity == 0.0 {
         builder.gravity = STANDARD_GRAVITY;
     }
-    let most = (MOST_PERIODS * mode.period / step) as usize;
+    let max_steps = (MAX_PERIODS * mode.period / step) as usize;
     let builder = builder
         .gravity_stage(GravityStage::Frictionless)
         .motion(AtRest)
@@ -128,20 +130,23 @@ pub(crate) fn free_vibration(
         .without_energy_balance();
     let mut simulation = builder.build()?;
     // Two moving averages keep the pole and remove the vibration of a light base on its springs.
-    let window = 2 * (mode.period / (2.0 * WINDOW * step)).round().max(1.0) as usize;
+    let window = 2 * (mode.period / (2.0 * WINDOWS_PER_PERIOD * step)).round().max(1.0) as usize;
     // Probes are relative to the static state, in which the load acts.
-    let (mut raw, mut once, mut values) = (vec![1.0], Vec::new(), Vec::new());
+    let mut raw = vec![1.0];
+    let mut averaged_once = Vec::new();
+    let mut values = Vec::new();
     // Steps of the changes of sign, and the largest amplitude since the last one.
-    let (mut changes, mut amplitude) = (Vec::new(), 0.0_f64);
-    while raw.len() <= most && changes.len() < HALF_PERIODS {
+    let mut changes = Vec::new();
+    let mut amplitude = 0.0_f64;
+    while raw.len() <= max_steps && changes.len() < EVALUATED_HALF_PERIODS {
         raw.push(1.0 + simulation.step()?.probes[0]);
-        once.extend(mean_of_last(&raw, window));
-        values.extend(mean_of_last(&once, window));
+        averaged_once.extend(mean_of_last(&raw, window));
+        values.extend(mean_of_last(&averaged_once, window));
         let [.., last, now] = values[..] else { continue };
         amplitude = amplitude.max(now.abs());
         if last.signum() != now.signum() {
             changes.push(values.len() - 1);
-            if amplitude < DECAYED {
+            if amplitude < FINAL_AMPLITUDE_RATIO {
                 break;
             }
             amplitude = 0.0;
@@ -166,7 +171,8 @@ fn mean_of_last(values: &[f64], window: usize) -> Option<f64> {
 /// change of sign on: until then base and soil take up the load. The roots of z² = a z + b are exp(±σ m Δt), where
 /// the midpoint rule converts the pole s to σ: s = (2/Δt) tanh(σΔt/2).
 fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option<[f64; 2]> {
-    let ([first, ..], [.., last]) = (changes, changes) else { return None };
+    let first = changes.first()?;
+    let last = changes.last()?;
     let halves = changes.len() - 1;
     if halves == 0 {
         return None;
@@ -182,17 +188,21 @@ fn decay(values: &[f64], changes: &[usize], settled: usize, step: f64) -> Option
     let mut sums = [0.0; 5];
     for ((before, now), after) in triples() {
         let products = [now * now, now * before, before * before, now * after, before * after];
-        sums.iter_mut().zip(products).for_each(|(sum, product)| *sum += product);
+        for (sum, product) in sums.iter_mut().zip(products) {
+            *sum += product;
+        }
     }
     let [nn, nb, bb, na, ba] = sums;
     let determinant = nn * bb - nb * nb;
-    let (a, b) = ((na * bb - ba * nb) / determinant, (ba * nn - na * nb) / determinant);
+    let a = (na * bb - ba * nb) / determinant;
+    let b = (ba * nn - na * nb) / determinant;
     let misfit: f64 =
         triples().map(|((before, now), after)| (after - a * now - b * before).powi(2)).sum();
-    if misfit.sqrt() > MISFIT * (nn + bb).sqrt() || a * a + 4.0 * b >= 0.0 {
+    if misfit.sqrt() > MISFIT_TOLERANCE * (nn + bb).sqrt() || a * a + 4.0 * b >= 0.0 {
         return None;
     }
-    let [decay, angle] = [0.5 * (-b).ln(), (-a * a - 4.0 * b).sqrt().atan2(a)];
+    let decay = 0.5 * (-b).ln();
+    let angle = (-a * a - 4.0 * b).sqrt().atan2(a);
     // σΔt/2.
     let per_step = 0.5 / apart as f64;
     let half = Complex::new(decay * per_step, angle * per_step);
@@ -210,11 +220,14 @@ mod tests {
     /// A vibration as the midpoint rule computes it from its pole, with and without a second one that decays.
     #[test]
     fn a_decaying_vibration_is_read_back() {
-        let (step, steps) = (0.01, 2000);
+        let step = 0.01;
+        let steps = 2000;
         for (period, ratio) in [(0.7_f64, 0.0_f64), (0.7, 0.05), (1.3, 0.2)] {
             let circular = TAU / period;
             let march = |circular: f64, ratio: f64| {
-                let (mut u, mut v, mut values) = (1.0, 0.0, vec![1.0]);
+                let mut u = 1.0;
+                let mut v = 0.0;
+                let mut values = vec![1.0];
                 for _ in 0..steps {
                     // Δu of the midpoint rule.
                     let stiffness = 2.0 / (step * step)
@@ -227,13 +240,14 @@ mod tests {
                 }
                 values
             };
-            let own = march(circular, ratio);
+            let lasting = march(circular, ratio);
             let dying = march(3.3 * circular, 0.6);
             for (part, tolerance) in [(0.0, 1e-9), (0.2, 3e-3)] {
-                let values: Vec<f64> = own.iter().zip(&dying).map(|(x, y)| x + part * y).collect();
+                let values: Vec<f64> =
+                    lasting.iter().zip(&dying).map(|(x, y)| x + part * y).collect();
                 let changes: Vec<usize> = (1..values.len())
                     .filter(|k| values[*k].signum() != values[k - 1].signum())
-                    .take(HALF_PERIODS)
+                    .take(EVALUATED_HALF_PERIODS)
                     .collect();
                 let end = changes[changes.len() - 1];
                 let [found, damping] = decay(&values[..=end], &changes, 0, step).unwrap();

@@ -64,9 +64,13 @@ fn uniform_response(
     layout: ContactLayout,
 ) -> Result<Vec<f64>> {
     ground.prepare(time_step, Some(2), &mut unobserved)?;
-    if let Some(own) = ground.diagonal_compliance()? {
-        same_length("diagonal step compliance of the ground", own.in_step.len(), layout.len())?;
-        return Ok(sums(&own.in_step, layout));
+    if let Some(diagonal) = ground.diagonal_compliance()? {
+        same_length(
+            "diagonal step compliance of the ground",
+            diagonal.in_step.len(),
+            layout.len(),
+        )?;
+        return Ok(sums(&diagonal.in_step, layout));
     }
     let mut matrix = vec![0.0; layout.square()];
     ground.step_compliance(&mut matrix)?;

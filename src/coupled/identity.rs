@@ -10,21 +10,21 @@ use crate::linalg::{largest, mixed, mixing_weight};
 use crate::text::check_sum::CheckSum;
 
 /// Allowed difference of numbers of the same scene, since other processors round differently.
-const SAME: f64 = 1e-9;
+const IDENTITY_TOLERANCE: f64 = 1e-9;
 /// Number of parts of the run in which ground motion and loads are compared.
-const SAMPLES: usize = 64;
+const SAMPLED_PARTS: usize = 64;
 /// Largest number of steps whose loads and motion are compared; a longer run is sampled.
-const MOST_INSTANTS: usize = 100_000;
-/// Largest number of evaluated entries of the structure's own load; larger structures are sampled at fewer steps.
-const LOAD_ENTRIES: usize = 10_000_000;
+const MAX_COMPARED_STEPS: usize = 100_000;
+/// Largest number of evaluated entries of the structure's load; larger structures are sampled at fewer steps.
+const MAX_LOAD_ENTRIES: usize = 10_000_000;
 /// Slip rates of sample states, m/s.
-const RATES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
+const SAMPLE_SLIP_RATES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
 /// Slip of sample states, m.
-const SLIP: f64 = 1e-4;
+const SAMPLE_SLIP: f64 = 1e-4;
 /// Pressure of a sample state if there is no weight, Pa.
-const UNPRESSED: f64 = 1e5;
+const SAMPLE_PRESSURE: f64 = 1e5;
 /// Number that replaces one that is not finite.
-const NOT_FINITE: f64 = -7.25;
+const NOT_FINITE_SUBSTITUTE: f64 = -7.25;
 
 /// An intended difference from the scene of a checkpoint: see [`Simulation::resume_changed`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -91,7 +91,31 @@ pub(crate) struct Identity {
     loads: Vec<f64>,
 }
 
+/// Whether two lists agree within rounding, relative to `scale` or to each number of the second.
+fn close(saved: &[f64], present: &[f64], scale: f64) -> bool {
+    saved.len() == present.len()
+        && saved
+            .iter()
+            .zip(present)
+            .all(|(a, b)| a == b || (a - b).abs() <= IDENTITY_TOLERANCE * scale.max(b.abs()))
+}
+
+/// Sum of the magnitudes of a list.
+fn sum_of_magnitudes(values: &[f64]) -> f64 {
+    values.iter().map(|value| value.abs()).sum()
+}
+
 impl Identity {
+    /// Number of the gravity stage; lists of a file may be of any length.
+    fn gravity_stage(&self) -> &[f64] {
+        self.start.get(..1).unwrap_or_default()
+    }
+
+    /// Sums over the initial displacement and velocity.
+    fn initial_motion(&self) -> &[f64] {
+        self.start.get(1..).unwrap_or_default()
+    }
+
     pub(crate) fn add_to(&self, sum: &mut CheckSum) {
         let Self {
             dofs,
@@ -133,43 +157,49 @@ impl Identity {
     /// Error that names the first difference that is not among the `changes`.
     pub(crate) fn check(
         &self,
-        own: &Self,
+        scene: &Self,
         changes: &[Change],
     ) -> std::result::Result<(), CheckpointError> {
-        let close = |a: &[f64], b: &[f64], scale: f64| {
-            let near = |(a, b): (&f64, &f64)| a == b || (a - b).abs() <= SAME * scale.max(b.abs());
-            a.len() == b.len() && a.iter().zip(b).all(near)
-        };
-        let span = largest(&own.elements);
         let unless = |change: Change, same: bool| changes.contains(&change) || same;
-        // Lists of a file may be of any length.
-        let begin = |own: &Self| own.start.first().copied().into_iter().collect::<Vec<_>>();
-        let moved_by = |own: &Self| own.start.get(1..).unwrap_or_default().to_vec();
-        let [moved, loaded] = [&own.free_field, &own.loads].map(|own| largest(own));
+        let span = largest(&scene.elements);
+        let largest_motion = largest(&scene.free_field);
+        let largest_load = largest(&scene.loads);
         for (same, quantity) in [
-            (self.dofs == own.dofs, "number of degrees of freedom"),
-            (close(&self.steps, &own.steps, 0.0), "time step or scheme"),
-            (close(&self.elements, &own.elements, span), "list of contact elements"),
-            (self.energy_balance == own.energy_balance, "energy balance"),
-            (self.probes == own.probes, "list of probes"),
-            (self.laws == own.laws, "state variables of the interface laws"),
-            (close(&self.structure, &own.structure, 0.0), "structure"),
-            (close(&self.ground, &own.ground, 0.0), "ground"),
-            (unless(Change::GravityStage, close(&begin(self), &begin(own), 0.0)), "gravity stage"),
-            (close(&self.static_contact, &own.static_contact, 0.0), "static state"),
+            (self.dofs == scene.dofs, "number of degrees of freedom"),
+            (close(&self.steps, &scene.steps, 0.0), "time step or scheme"),
+            (close(&self.elements, &scene.elements, span), "list of contact elements"),
+            (self.energy_balance == scene.energy_balance, "energy balance"),
+            (self.probes == scene.probes, "list of probes"),
+            (self.laws == scene.laws, "state variables of the interface laws"),
+            (close(&self.structure, &scene.structure, 0.0), "structure"),
+            (close(&self.ground, &scene.ground, 0.0), "ground"),
             (
-                unless(Change::InitialMotion, close(&moved_by(self), &moved_by(own), 0.0)),
+                unless(
+                    Change::GravityStage,
+                    close(self.gravity_stage(), scene.gravity_stage(), 0.0),
+                ),
+                "gravity stage",
+            ),
+            (close(&self.static_contact, &scene.static_contact, 0.0), "static state"),
+            (
+                unless(
+                    Change::InitialMotion,
+                    close(self.initial_motion(), scene.initial_motion(), 0.0),
+                ),
                 "initial motion",
             ),
             (
-                unless(Change::InterfaceLaw, close(&self.law_numbers, &own.law_numbers, 0.0)),
+                unless(Change::InterfaceLaw, close(&self.law_numbers, &scene.law_numbers, 0.0)),
                 "interface law",
             ),
             (
-                unless(Change::GroundMotion, close(&self.free_field, &own.free_field, moved)),
+                unless(
+                    Change::GroundMotion,
+                    close(&self.free_field, &scene.free_field, largest_motion),
+                ),
                 "ground motion",
             ),
-            (unless(Change::Load, close(&self.loads, &own.loads, loaded)), "load"),
+            (unless(Change::Load, close(&self.loads, &scene.loads, largest_load)), "load"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -183,7 +213,6 @@ impl Simulation {
     /// Numbers that are equal for simulations of the same scene, with samples of these first `steps`.
     pub(crate) fn identity(&self, steps: usize) -> Result<Identity> {
         let Self { scene, state, .. } = self;
-        let sum = |values: &[f64]| -> f64 { values.iter().map(|value| value.abs()).sum() };
         let model = &scene.model;
         // Modes may have either sign. A nonlinear structure has no modes, and its columns change.
         let columns = self.solver.operators().columns.iter().enumerate().filter(|_| model.linear);
@@ -197,9 +226,9 @@ impl Simulation {
         let elements = elements.flat_map(ContactElement::ends).flatten().collect();
         let (free_field, loads) = self.samples(steps)?;
         let structure = vec![
-            sum(model.mass.values()),
-            sum(model.damping.values()),
-            sum(model.stiffness.values()),
+            sum_of_magnitudes(model.mass.values()),
+            sum_of_magnitudes(model.damping.values()),
+            sum_of_magnitudes(model.stiffness.values()),
             signed,
         ];
         Ok(Identity {
@@ -210,10 +239,10 @@ impl Simulation {
             steps: scheme,
             elements,
             structure,
-            ground: vec![sum(&scene.soil)],
+            ground: vec![sum_of_magnitudes(&scene.soil)],
             // A weight that acts as a load is not part of the static state.
             static_contact: [&scene.static_state.traction, &scene.weight]
-                .map(|values| sum(values))
+                .map(|values| sum_of_magnitudes(values))
                 .to_vec(),
             start: scene.start.to_vec(),
             law_numbers: law_numbers(scene),
@@ -222,66 +251,68 @@ impl Simulation {
         })
     }
 
-    /// Sums over the free field and over all loads in [`SAMPLES`] parts of the first `steps`.
+    /// Sums over the free field and over all loads in [`SAMPLED_PARTS`] parts of the first `steps`.
     ///
     /// A pulse may be as short as a step: external loads and the motion of one element count at every step of a usual
     /// run.
     fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
         let Self { scene, structure, ground, motion, .. } = self;
-        let count = steps.max(SAMPLES);
-        let (mut moved, mut loaded) = (vec![0.0; SAMPLES], vec![0.0; SAMPLES]);
+        let count = steps.max(SAMPLED_PARTS);
+        let mut motion_sums = vec![0.0; SAMPLED_PARTS];
+        let mut load_sums = vec![0.0; SAMPLED_PARTS];
         let elements = scene.base.elements();
         let mut displacement = vec![0.0; scene.layout().len()];
         let mut impulse = displacement.clone();
-        for (sample, moved) in moved.iter_mut().enumerate() {
-            let step = (sample + 1) as f64 * (count as f64 / SAMPLES as f64);
+        for (sample, sum) in motion_sums.iter_mut().enumerate() {
+            let step = (sample + 1) as f64 * (count as f64 / SAMPLED_PARTS as f64);
             let time = step.round() * scene.time_step;
             let values = [&mut displacement[..], &mut impulse];
             free_field(ground.as_ref(), motion.as_ref(), elements, time, values);
-            *moved = mixed(&impulse) + mixed(&displacement);
+            *sum = mixed(&impulse) + mixed(&displacement);
         }
         let rows = scene.loads.iter().enumerate();
         let rows: Vec<f64> = rows.map(|(k, load)| mixing_weight(k) * load.mixed_row()).collect();
         let mut force = vec![0.0; scene.model.dofs];
-        let instants = count.min(MOST_INSTANTS);
-        let stride = instants.div_ceil((LOAD_ENTRIES / force.len().max(1)).max(SAMPLES));
+        let instants = count.min(MAX_COMPARED_STEPS);
+        let stride = instants.div_ceil((MAX_LOAD_ENTRIES / force.len().max(1)).max(SAMPLED_PARTS));
         let [x, y, _] = scene.base.elements()[0].center();
         for instant in 0..instants {
-            let (part, weight) = (instant * SAMPLES / instants, mixing_weight(instant));
+            let part = instant * SAMPLED_PARTS / instants;
+            let weight = mixing_weight(instant);
             let step = (instant as f64 * (count as f64 / instants as f64)).round();
             let end = (step + 1.0) * scene.time_step;
-            moved[part] += weight * mixed(&motion.displacement_at([x, y], end));
+            motion_sums[part] += weight * mixed(&motion.displacement_at([x, y], end));
             let time = (step + scene.coefficients.load_fraction) * scene.time_step;
             let external = scene.loads.iter().zip(&rows);
             let external = external.map(|(load, row)| row * load.own_value(time));
-            loaded[part] += weight * external.sum::<f64>();
+            load_sums[part] += weight * external.sum::<f64>();
             if instant % stride == 0 {
                 force.fill(0.0);
                 structure.load(time, &mut force)?;
-                loaded[part] += weight * mixed(&force);
+                load_sums[part] += weight * mixed(&force);
             }
         }
-        Ok((moved, loaded))
+        Ok((motion_sums, load_sums))
     }
 }
 
 /// Numbers that the laws return for sample states, as weighted means over the elements.
 fn law_numbers(scene: &Scene) -> Vec<f64> {
-    let (count, plan) = (scene.count(), scene.layout().is_plan());
+    let count = scene.count();
+    let plan = scene.layout().is_plan();
     let pressures = &scene.static_state.traction[..count];
     let mean = pressures.iter().sum::<f64>() / count as f64;
-    let pressure = if mean > 0.0 { mean } else { UNPRESSED };
+    let pressure = if mean > 0.0 { mean } else { SAMPLE_PRESSURE };
     let mut all: Vec<f64> = Vec::new();
-    let single = scene.laws.len() == 1;
-    let elements = if single { 1 } else { count };
+    let elements = if scene.laws.len() == 1 { 1 } else { count };
     let sum: f64 = (0..elements).map(mixing_weight).sum();
     for element in 0..elements {
-        let own = numbers_of(scene.law(element), pressure, scene.time_step, plan);
-        all.resize(all.len().max(own.len()), 0.0);
-        for (all, own) in all.iter_mut().zip(own) {
+        let numbers = numbers_of(scene.law(element), pressure, scene.time_step, plan);
+        all.resize(all.len().max(numbers.len()), 0.0);
+        for (mean, number) in all.iter_mut().zip(numbers) {
             // Numbers that are not finite would hide the others.
-            let own = if own.is_finite() { own } else { NOT_FINITE };
-            *all += mixing_weight(element) / sum * own;
+            let number = if number.is_finite() { number } else { NOT_FINITE_SUBSTITUTE };
+            *mean += mixing_weight(element) / sum * number;
         }
     }
     all
@@ -289,19 +320,20 @@ fn law_numbers(scene: &Scene) -> Vec<f64> {
 
 /// Numbers that a law returns under this pressure, Pa.
 ///
-/// At rest, and at each of [`RATES`] after [`SLIP`], with the first state variables: a law of a user's own may refuse
+/// At rest, and at each of [`SAMPLE_SLIP_RATES`] after [`SAMPLE_SLIP`], with the first state variables: a user's law may refuse
 /// other ones.
 fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
-    let state = |slip: f64| ContactState { slip, pressure, ..ContactState::default() };
-    let at_rest = PreviousContact::new(state(0.0), law.modes()[0], time_step);
+    let rest = ContactState { pressure, ..ContactState::default() };
+    let slipped = ContactState { slip: SAMPLE_SLIP, ..rest };
+    let at_rest = PreviousContact::new(rest, law.modes()[0], time_step);
     let variables = at_rest.first_state_variables(law);
     let mut all = vec![law.state_variables() as f64, law.friction_coefficient().unwrap_or(-1.0)];
     all.extend(&variables);
     add_numbers(law, &at_rest.with_state_variables(&variables), pressure, plan, &mut all);
-    let slips = law.modes().iter().copied().find(|mode| mode.is_slip());
-    let mut slid = PreviousContact::new(state(SLIP), slips.unwrap_or(law.modes()[0]), time_step);
+    let slip_mode = law.modes().iter().copied().find(|mode| mode.is_slip());
+    let mut slid = PreviousContact::new(slipped, slip_mode.unwrap_or(law.modes()[0]), time_step);
     slid.static_pressure = pressure;
-    for rate in RATES {
+    for rate in SAMPLE_SLIP_RATES {
         slid.slip_rate = rate;
         add_numbers(law, &slid.with_state_variables(&variables), pressure, plan, &mut all);
     }

@@ -121,20 +121,41 @@ pub fn interaction(
         let builder = scene()?;
         let Some(structure) = builder.structure.as_deref() else { continue };
         let Some(fixed) = FixedBaseMode::dominant(structure, axis)? else { continue };
-        let (fixed_period, fixed_damping) = (fixed.period, fixed.damping);
         let [period, damping] = free_vibration(builder, &fixed)?;
-        let axis = axis_name(on_ground.in_plan, axis);
-        modes.push(SystemMode { axis, fixed_period, fixed_damping, period, damping });
+        modes.push(SystemMode {
+            axis: axis_name(on_ground.in_plan, axis),
+            fixed_period: fixed.period,
+            fixed_damping: fixed.damping,
+            period,
+            damping,
+        });
     }
     Ok(Interaction { on_ground, on_fixed_base, modes })
 }
 
 /// Ratio of responses above which the one on the fixed base is rounding, and the ratio says nothing.
-const LARGEST_RATIO: f64 = 1e6;
+const MAX_PRINTED_RATIO: f64 = 1e6;
 
 /// Ratio of largest magnitudes; NaN if both are zero.
-fn ratio([on_ground, fixed]: [&Extremes; 2]) -> f64 {
-    on_ground.magnitude() / fixed.magnitude()
+fn ratio(on_ground: &Extremes, on_fixed_base: &Extremes) -> f64 {
+    on_ground.magnitude() / on_fixed_base.magnitude()
+}
+
+/// Name, unit, largest magnitudes on the ground and on the fixed base, and their ratio.
+fn comparison_row(
+    name: &str,
+    (factor, unit): (f64, &str),
+    on_ground: &Extremes,
+    on_fixed_base: &Extremes,
+) -> Vec<String> {
+    let ratio = ratio(on_ground, on_fixed_base);
+    vec![
+        name.to_owned(),
+        unit.to_owned(),
+        number(factor * on_ground.magnitude()),
+        number(factor * on_fixed_base.magnitude()),
+        if ratio < MAX_PRINTED_RATIO { format!("{ratio:.3}") } else { "–".to_owned() },
+    ]
 }
 
 impl Interaction {
@@ -142,8 +163,9 @@ impl Interaction {
     ///
     /// NaN if both are zero.
     pub fn ratio(&self, quantity: Quantity) -> f64 {
-        let of = |run: &Run| run.whole.extremes(quantity);
-        ratio([&of(&self.on_ground), &of(&self.on_fixed_base)])
+        let on_ground = self.on_ground.whole.extremes(quantity);
+        let on_fixed_base = self.on_fixed_base.whole.extremes(quantity);
+        ratio(&on_ground, &on_fixed_base)
     }
 
     /// Largest magnitude of a probe on the ground over its value on the fixed base.
@@ -151,29 +173,22 @@ impl Interaction {
     /// # Errors
     /// [`Error::Name`](crate::Error::Name) if no probe is called `name`.
     pub fn probe_ratio(&self, name: &str) -> Result<f64> {
-        Ok(ratio([&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?]))
+        Ok(ratio(&self.on_ground.probe(name)?, &self.on_fixed_base.probe(name)?))
     }
 
     /// Rows of forces and of probes: name, unit, largest value on the ground and on the fixed base, ratio.
     fn table(&self) -> Table {
         let Self { on_ground, on_fixed_base, .. } = self;
         let in_plan = on_ground.in_plan;
-        let row = |name: &str, (factor, unit): (f64, &str), pair: [&Extremes; 2]| {
-            let value = |own: &Extremes| number(factor * own.magnitude());
-            let ratio = ratio(pair);
-            let ratio =
-                if ratio < LARGEST_RATIO { format!("{ratio:.3}") } else { "–".to_owned() };
-            vec![name.to_owned(), unit.to_owned(), value(pair[0]), value(pair[1]), ratio]
-        };
-        let forces = Quantity::shown(ShownIn::ComparisonTime, in_plan).map(|quantity| {
-            let [ground, fixed] =
-                [on_ground, on_fixed_base].map(|run| run.whole.extremes(quantity));
-            row(quantity.name(), quantity.printed(in_plan), [&ground, &fixed])
-        });
-        let mut rows: Vec<_> = forces.collect();
+        let mut rows = Vec::new();
+        for quantity in Quantity::shown(ShownIn::ComparisonTime, in_plan) {
+            let ground = on_ground.whole.extremes(quantity);
+            let fixed = on_fixed_base.whole.extremes(quantity);
+            rows.push(comparison_row(quantity.name(), quantity.printed(in_plan), &ground, &fixed));
+        }
         for (ground, fixed) in on_ground.probes.iter().zip(&on_fixed_base.probes) {
-            let unit = of_body(&ground.unit, in_plan);
-            rows.push(row(&ground.name, printed(unit), [&ground.extremes, &fixed.extremes]));
+            let unit = printed(of_body(&ground.unit, in_plan));
+            rows.push(comparison_row(&ground.name, unit, &ground.extremes, &fixed.extremes));
         }
         let heading = ["Largest", "unit", "on the ground", "fixed base", "ratio"];
         Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }

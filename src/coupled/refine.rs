@@ -8,10 +8,10 @@ use crate::error::{Result, all_finite, at_least, positive, same_length};
 use crate::text::table::Table;
 
 /// Orders of convergence for extrapolation; a convergent method has no others.
-const ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
+const CONVERGENCE_ORDERS: std::ops::RangeInclusive<f64> = 0.5..=4.0;
 
 /// Mesh and step of each run, as numbers of halvings of element length and time step.
-const RUNS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
+const SETTING_HALVINGS: [[u32; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 0], [2, 0], [1, 1]];
 
 /// Setting of a [`Refinement`].
 #[derive(Debug, Clone, PartialEq)]
@@ -134,8 +134,8 @@ pub(crate) fn settings(
     const NAME: &str = "list of a scene's results";
     positive("number of elements", elements as f64)?;
     positive("time step", time_step)?;
-    let mut settings: Vec<Setting> = Vec::with_capacity(RUNS.len());
-    for [mesh, step] in RUNS {
+    let mut settings: Vec<Setting> = Vec::with_capacity(SETTING_HALVINGS.len());
+    for [mesh, step] in SETTING_HALVINGS {
         let elements = elements.saturating_mul(1 << mesh);
         let time_step = time_step / f64::from(1 << step);
         let begin = clock();
@@ -156,7 +156,11 @@ fn errors(results: [&[f64]; 3]) -> ([Vec<f64>; 3], f64) {
     let [first, second, third] = results;
     let order = (distance(first, second) / distance(second, third)).log2();
     // The error of the finest result is the change by infinitely many halvings with this order.
-    let used = if order.is_nan() { 1.0 } else { order.clamp(*ORDERS.start(), *ORDERS.end()) };
+    let used = if order.is_nan() {
+        1.0
+    } else {
+        order.clamp(*CONVERGENCE_ORDERS.start(), *CONVERGENCE_ORDERS.end())
+    };
     let factor = (used.exp2() - 1.0).recip();
     let error = |values: &[f64]| {
         let pairs = values.iter().zip(second.iter().zip(third));
@@ -184,7 +188,7 @@ impl Refinement {
             of(0).iter().zip(coarse).map(|(value, (mesh, step))| value - mesh - step).collect();
         let size = norm(extrapolated.iter().copied());
         let relative = |distance: f64| if distance == 0.0 { 0.0 } else { distance / size };
-        let found: Vec<f64> = RUNS
+        let found: Vec<f64> = SETTING_HALVINGS
             .iter()
             .map(|&[mesh, step]| {
                 let both = meshes[mesh as usize].iter().zip(&steps[step as usize]);
@@ -205,7 +209,7 @@ impl Refinement {
     /// Both orders must be between a half and four (or the results independent), and the coarsest error above the
     /// mismatch.
     pub fn is_regular(&self) -> bool {
-        let regular = |order: f64| order.is_nan() || ORDERS.contains(&order);
+        let regular = |order: f64| order.is_nan() || CONVERGENCE_ORDERS.contains(&order);
         let coarsest = self.settings.first().map_or(0.0, |setting| setting.error);
         regular(self.mesh_order) && regular(self.step_order) && self.mismatch <= coarsest
     }

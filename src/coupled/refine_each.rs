@@ -66,7 +66,7 @@ impl Names {
 ///         .motion(RickerDisplacement::new(0.01, 0.2, 1.0)?)
 ///         .build()?;
 ///     let run = simulation.run(simulation.steps_for(4.0), |_| {})?;
-///     let peaks = [&run.whole.base_shear, &run.whole.base_moment].map(|own| own.magnitude());
+///     let peaks = [&run.whole.base_shear, &run.whole.base_moment].map(|extremes| extremes.magnitude());
 ///     Ok(vec![("shear, N/m", peaks[0]), ("moment, N·m/m", peaks[1])])
 /// })?;
 /// println!("{refinements}");
@@ -92,7 +92,7 @@ pub fn refine_each<N: Into<String>>(
 impl Refinements {
     /// Splits a refinement into its results.
     ///
-    /// Each gets one of the `names` and an error of its own.
+    /// Each gets one of the `names` and a separate error.
     ///
     /// # Errors
     /// [`Error::Size`] unless there are as many names as results.
@@ -102,11 +102,15 @@ impl Refinements {
     }
 
     fn each(names: Vec<String>, settings: &[Setting]) -> Self {
-        let of = |k: usize| {
-            let only = |own: &Setting| Setting { results: vec![own.results[k]], ..own.clone() };
-            Refinement::from_settings(settings.iter().map(only).collect())
-        };
-        Self { peaks: names.into_iter().enumerate().map(|(k, name)| (name, of(k))).collect() }
+        let mut peaks = Vec::with_capacity(names.len());
+        for (k, name) in names.into_iter().enumerate() {
+            let mut settings = settings.to_vec();
+            for setting in &mut settings {
+                setting.results = vec![setting.results[k]];
+            }
+            peaks.push((name, Refinement::from_settings(settings)));
+        }
+        Self { peaks }
     }
 
     /// The refinement of a peak, by its name.
@@ -114,17 +118,19 @@ impl Refinements {
     /// # Errors
     /// [`Error::Name`] if no peak has this name.
     pub fn peak(&self, name: &str) -> Result<&Refinement> {
-        let found = self.peaks.iter().find(|(own, _)| own == name);
-        let unknown = || Error::no_name("peak", name, self.peaks.iter().map(|(own, _)| own));
-        found.map(|(_, refinement)| refinement).ok_or_else(unknown)
+        match self.peaks.iter().find(|(peak, _)| peak == name) {
+            Some((_, refinement)) => Ok(refinement),
+            None => Err(Error::no_name("peak", name, self.peaks.iter().map(|(peak, _)| peak))),
+        }
     }
 }
 
 impl fmt::Display for Refinements {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let all: Vec<_> = self.peaks.iter().map(|(name, own)| (name.as_str(), own)).collect();
+        let all: Vec<_> =
+            self.peaks.iter().map(|(name, refinement)| (name.as_str(), refinement)).collect();
         f.write_str(&table(&all))?;
-        all.iter().try_for_each(|(name, own)| write!(f, "\n{name}: {}", own.notes()))
+        all.iter().try_for_each(|(name, refinement)| write!(f, "\n{name}: {}", refinement.notes()))
     }
 }
 
@@ -146,11 +152,12 @@ mod tests {
         for k in 0..2 {
             let alone =
                 super::super::refine(10, 0.1, |elements, step| Ok(vec![value(k, elements, step)]));
-            let (mut own, mut alone) = (found.peaks[k].1.clone(), alone.unwrap());
-            for setting in own.settings.iter_mut().chain(&mut alone.settings) {
+            let mut together = found.peaks[k].1.clone();
+            let mut alone = alone.unwrap();
+            for setting in together.settings.iter_mut().chain(&mut alone.settings) {
                 setting.wall = std::time::Duration::ZERO;
             }
-            assert_eq!(own, alone);
+            assert_eq!(together, alone);
         }
         let page = found.to_string();
         for text in ["peak 0", "peak 1", "extrapolated", "peak 1: order of convergence: 1.0"] {

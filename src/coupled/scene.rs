@@ -22,7 +22,7 @@ use crate::structure::probe::Probe;
 
 /// Structure, base, laws and static state for steps; read-only once built.
 ///
-/// Structure, ground and motion have a state of their own and are separate.
+/// Structure, ground and motion change during a run and are separate.
 pub(crate) struct Scene {
     pub(crate) time_step: f64,
     pub(crate) coefficients: SchemeCoefficients,
@@ -34,7 +34,7 @@ pub(crate) struct Scene {
     /// Limits of serviceability, against which runs are checked.
     pub(crate) serviceability: Serviceability,
     pub(crate) static_state: StaticState,
-    /// External loads in addition to the structure's own.
+    /// External loads in addition to the load of the structure.
     pub(crate) loads: Vec<SteppedLoad>,
     /// Weight as a load, in stepping coordinates, if the run begins without a static state; otherwise empty.
     pub(crate) weight: Vec<f64>,
@@ -80,7 +80,8 @@ impl Scene {
         joined: Vec<bool>,
     ) -> Self {
         let Parts { given, coefficients, .. } = parts;
-        let (time_step, coefficients) = (given.time_step, *coefficients);
+        let time_step = given.time_step;
+        let coefficients = *coefficients;
         let is_static = given.is_static();
         let loads = std::mem::take(&mut given.loads).into_iter();
         let loads = loads.map(|load| SteppedLoad::new(load, &model.transformation, is_static));
@@ -90,10 +91,11 @@ impl Scene {
             let up = model.influence.of(UP, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
-        let (elements, origin) = (&parts.elements, parts.moment_center);
+        let elements = &parts.elements;
+        let origin = parts.moment_center;
         let shapes = base.foundations().zip(base.outlines());
         let footings =
-            shapes.map(|((_, own), outline)| Footing::new(elements, own, outline, origin));
+            shapes.map(|((_, range), outline)| Footing::new(elements, range, outline, origin));
         let probe_rows = given.probes.iter().map(|probe| ProbeRows::new(probe, &model)).collect();
         let context = Context {
             probes: std::mem::take(&mut given.probes),
@@ -173,8 +175,10 @@ impl Scene {
         let first = parts().zip(translations.clone()).find(|((_, joined), _)| **joined);
         let first = first.map(|((part, _), y)| (mean(part), y));
         let shifts = parts().zip(translations).map(|((part, joined), y)| match first {
-            Some((own, reference)) if *joined => [0, 1, 2].map(|k| (y[k] - reference[k]) - own[k]),
-            _ => mean(part).map(|own| -own),
+            Some((mean, reference)) if *joined => {
+                [0, 1, 2].map(|k| (y[k] - reference[k]) - mean[k])
+            }
+            _ => mean(part).map(|component| -component),
         });
         influence.translate(1.0, shifts, displacement);
         for (seen, at_rest) in displacement.iter_mut().zip(&self.static_state.displacement) {

@@ -7,9 +7,9 @@ use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
 /// Time step of the first twin, relative to the run's time step.
-const SHORTER: f64 = 0.99;
+const TWIN_STEP_FACTOR: f64 = 0.99;
 /// Largest number of digits that twins may confirm.
-const MOST_DIGITS: u32 = 6;
+const MAX_CONFIRMED_DIGITS: u32 = 6;
 
 /// Value of a peak in a run and in its twins.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,7 +33,7 @@ impl PeakTwins {
     /// Largest difference between a twin and the run, in the unit of the peak.
     pub fn spread(&self) -> f64 {
         let twins = [self.shorter_step, self.three_quarters, self.half];
-        twins.into_iter().fold(0.0, |most, twin| f64::max(most, (twin - self.value).abs()))
+        twins.into_iter().fold(0.0, |spread, twin| f64::max(spread, (twin - self.value).abs()))
     }
 
     /// Number of significant digits that hold, six at most.
@@ -42,13 +42,13 @@ impl PeakTwins {
     pub fn digits(&self) -> u32 {
         let spread = self.spread();
         if spread == 0.0 {
-            return MOST_DIGITS;
+            return MAX_CONFIRMED_DIGITS;
         }
         // Power of ten of the first digit.
         let first = self.value.abs().log10().floor();
         let digits = (first + 1.0 - (2.0 * spread).log10()).floor();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let digits = digits.clamp(0.0, f64::from(MOST_DIGITS)) as u32;
+        let digits = digits.clamp(0.0, f64::from(MAX_CONFIRMED_DIGITS)) as u32;
         digits
     }
 
@@ -125,17 +125,20 @@ pub fn sensitivity<N: Into<String>>(
         Ok(values)
     };
     let value = run(elements, time_step)?;
-    let shorter_step = run(elements, SHORTER * time_step)?;
+    let shorter_step = run(elements, TWIN_STEP_FACTOR * time_step)?;
     let three_quarters = run(elements - elements / 4, time_step)?;
     let half = run(elements.div_ceil(2), time_step)?;
-    let of = |(k, name)| PeakTwins {
-        name,
-        value: value[k],
-        shorter_step: shorter_step[k],
-        three_quarters: three_quarters[k],
-        half: half[k],
-    };
-    Ok(Sensitivity { peaks: names.0.into_iter().enumerate().map(of).collect() })
+    let mut peaks = Vec::with_capacity(value.len());
+    for (k, name) in names.0.into_iter().enumerate() {
+        peaks.push(PeakTwins {
+            name,
+            value: value[k],
+            shorter_step: shorter_step[k],
+            three_quarters: three_quarters[k],
+            half: half[k],
+        });
+    }
+    Ok(Sensitivity { peaks })
 }
 
 impl Sensitivity {
@@ -144,8 +147,8 @@ impl Sensitivity {
     /// # Errors
     /// [`Error::Name`] if no peak has this name.
     pub fn peak(&self, name: &str) -> Result<&PeakTwins> {
-        let found = self.peaks.iter().find(|own| own.name == name);
-        found.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|own| &own.name)))
+        let found = self.peaks.iter().find(|peak| peak.name == name);
+        found.ok_or_else(|| Error::no_name("peak", name, self.peaks.iter().map(|peak| &peak.name)))
     }
 }
 
@@ -153,16 +156,16 @@ impl fmt::Display for Sensitivity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let heading =
             ["Peak", "run", "step − 1 %", "¾ elements", "½ elements", "digits", "to quote"];
-        let row = |own: &PeakTwins| {
-            let PeakTwins { value, shorter_step, three_quarters, half, .. } = own;
+        let heading = heading.map(str::to_owned).to_vec();
+        let mut rows = Vec::with_capacity(self.peaks.len());
+        for peak in &self.peaks {
+            let PeakTwins { value, shorter_step, three_quarters, half, .. } = peak;
             let values = [value, shorter_step, three_quarters, half];
-            let mut cells = vec![own.name.clone()];
+            let mut cells = vec![peak.name.clone()];
             cells.extend(values.map(|value| format!("{value:.4e}")));
-            cells.extend([own.digits().to_string(), own.quoted()]);
-            cells
-        };
-        let (heading, rows) =
-            (heading.map(str::to_owned).to_vec(), self.peaks.iter().map(row).collect());
+            cells.extend([peak.digits().to_string(), peak.quoted()]);
+            rows.push(cells);
+        }
         f.write_str(&Table { heading, repeated: 1, rows }.text())
     }
 }
@@ -202,8 +205,8 @@ mod tests {
         let elements: Vec<usize> = runs.iter().map(|run| run.0).collect();
         assert_eq!(elements, [9, 9, 7, 5]);
         assert_eq!((runs[0].1, runs[1].1, runs[2].1), (0.1, 0.99 * 0.1, 0.1));
-        let own = found.peak("sum").unwrap();
-        assert_eq!((own.value, own.three_quarters, own.half, own.digits()), (9.1, 7.1, 5.1, 0));
+        let sum = found.peak("sum").unwrap();
+        assert_eq!((sum.value, sum.three_quarters, sum.half, sum.digits()), (9.1, 7.1, 5.1, 0));
         assert!(found.to_string().contains("½ elements") && found.peak("none").is_err());
         for bad in [(1, 0.1), (4, 0.0), (4, f64::NAN)] {
             assert!(sensitivity(bad.0, bad.1, |_, _| Ok(vec![("a", 1.0)])).is_err());

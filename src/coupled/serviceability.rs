@@ -49,19 +49,27 @@ impl Criterion {
 
     /// The value furthest from zero among all foundations or elements of a state.
     pub(crate) fn largest_value(self, state: &State) -> f64 {
-        let furthest = |far: f64, value: f64| if value.abs() > far.abs() { value } else { far };
         let foundations = state.foundations.iter();
         match self {
             Self::Slip => foundations
-                .map(|own| resultant(own.mean_slip, own.mean_slip_across))
-                .fold(0.0, furthest),
-            Self::Gap => state.contact.iter().fold(0.0, |far, own| own.gap.max(far)),
-            Self::UpliftedFraction => foundations.map(|f| f.uplifted_fraction).fold(0.0, furthest),
+                .map(|foundation| resultant(foundation.mean_slip, foundation.mean_slip_across))
+                .fold(0.0, larger_magnitude),
+            Self::Gap => {
+                state.contact.iter().fold(0.0, |largest, contact| contact.gap.max(largest))
+            }
+            Self::UpliftedFraction => foundations
+                .map(|foundation| foundation.uplifted_fraction)
+                .fold(0.0, larger_magnitude),
             Self::Rotation => foundations
-                .map(|own| resultant(own.base_rotation, own.rotation_across))
-                .fold(0.0, furthest),
+                .map(|foundation| resultant(foundation.base_rotation, foundation.rotation_across))
+                .fold(0.0, larger_magnitude),
         }
     }
+}
+
+/// The value of larger magnitude, with its sign.
+fn larger_magnitude(largest: f64, value: f64) -> f64 {
+    if value.abs() > largest.abs() { value } else { largest }
 }
 
 /// Serviceability limits of a base's motion.
@@ -138,7 +146,8 @@ impl Serviceability {
             limit.map_or(Ok(0.0), |limit| positive(quantity, limit))?;
         }
         if let Some(value) = self.uplifted_fraction {
-            let (is_fraction, needed) = (value > 0.0 && value <= 1.0, "above zero, at most one");
+            let is_fraction = value > 0.0 && value <= 1.0;
+            let needed = "above zero, at most one";
             require("allowable uplifted fraction", value, is_fraction, needed)?;
         }
         Ok(self)

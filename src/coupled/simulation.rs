@@ -72,13 +72,13 @@ impl Simulation {
         self.solve(time).map_err(|source| Error::Step { step, time, source })?;
         // From here on no error can occur.
         let Self { scene, structure, ground, forcing, increment, state, warnings, .. } = self;
-        if let Some(taken) = increment.stand_in {
-            Warning::count_friction(warnings, taken);
+        if let Some(friction) = increment.stand_in {
+            Warning::count_friction(warnings, friction);
         }
-        if let Some(books) = &mut self.books {
+        if let Some(energies) = &mut self.books {
             let data = StepData { scene, structure: structure.as_ref(), state, forcing };
-            books.book(data, ground.as_ref(), increment);
-            state.energy_balance = books.energy_balance;
+            energies.book(data, ground.as_ref(), increment);
+            state.energy_balance = energies.energy_balance;
         }
         state.advance(scene, forcing, increment);
         increment.spread.copy_from_slice(&increment.traction);
@@ -218,13 +218,13 @@ impl Simulation {
     /// ```
     ///
     /// A checkpoint contains the value. [`resume_changed`](Simulation::resume_changed) with
-    /// [`Change::Load`](crate::coupled::Change::Load) restores every load's own function.
+    /// [`Change::Load`](crate::coupled::Change::Load) restores the function of every load.
     ///
     /// # Errors
     /// [`Error::Index`] for a load that does not exist, [`Error::NotFinite`] for a value that is not finite.
     pub fn set_load(&mut self, index: usize, value: impl Into<Option<f64>>) -> Result<()> {
-        let (bound, value) = (self.scene.loads.len(), value.into());
-        in_bounds("load", index, bound)?;
+        let value = value.into();
+        in_bounds("load", index, self.scene.loads.len())?;
         if let Some(value) = value.filter(|value| !value.is_finite()) {
             return Err(Error::NotFinite { quantity: "external load", index, value });
         }
@@ -246,12 +246,10 @@ impl Simulation {
     }
 
     /// Number of steps for `duration` (s), rounded up; zero for a negative duration or NaN.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     pub fn steps_for(&self, duration: f64) -> usize {
         // Rounding must not add a step to a duration of a whole number of steps.
-        let steps = (duration / self.scene.time_step * (1.0 - 1e-12)).ceil();
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-        let steps = steps as usize;
-        steps
+        (duration / self.scene.time_step * (1.0 - 1e-12)).ceil() as usize
     }
 
     /// Makes up to `steps` steps, calling `observe` after each with the new state.
@@ -321,19 +319,24 @@ impl Simulation {
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn begin_run(&self) -> Run {
-        let (speed, state) = (self.ground.description().shear_wave_speed, &self.state);
-        let resolution = Resolution::new(self.scene.time_step, speed, state);
-        Run::start(state, &self.scene.serviceability, resolution)
+        let shear_wave_speed = self.ground.description().shear_wave_speed;
+        let resolution = Resolution::new(self.scene.time_step, shear_wave_speed, &self.state);
+        Run::start(&self.state, &self.scene.serviceability, resolution)
     }
 
     /// Closes a run of this simulation: adds its warnings and wall time.
     pub fn end_run(&self, mut run: Run) -> Run {
-        // A held base may be in tension.
-        let held = holds(self.ground.as_ref());
-        let opens = |element| held || self.scene.law(element).modes().contains(&Mode::Open);
-        let (ground, motion) = (self.ground.as_ref(), self.motion.as_ref());
-        let limits = [self.drag, self.rotation_limit];
-        run.finish(ground, motion, opens, &self.warnings, &self.pressures_above, limits);
+        // A fixed base may be in tension.
+        let is_fixed = holds(self.ground.as_ref());
+        run.finish(
+            self.ground.as_ref(),
+            self.motion.as_ref(),
+            |element| is_fixed || self.scene.law(element).modes().contains(&Mode::Open),
+            &self.warnings,
+            &self.pressures_above,
+            self.drag,
+            self.rotation_limit,
+        );
         run
     }
 
@@ -374,7 +377,7 @@ pub trait Observed {
     /// Whether the run continues.
     ///
     /// # Errors
-    /// The observer's own.
+    /// Any error of the observer.
     fn flow(self) -> Result<ControlFlow<()>>;
 }
 

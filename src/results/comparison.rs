@@ -73,7 +73,7 @@ const DERIVED_RESULTS: [DerivedResult; 9] = [
         run.largest_pressure().map(|(_, peak)| peak.value)
     }),
     ("serviceability, margin", "%", "serviceability_margin", 100.0, |run| {
-        run.least_serviceable().map(ServiceCheck::margin)
+        run.check_with_smallest_margin().map(ServiceCheck::margin)
     }),
     ("  first excess at", "s", "serviceability_first_excess_s", 1.0, |run| {
         run.serviceability.iter().filter_map(|check| check.first_excess).reduce(f64::min)

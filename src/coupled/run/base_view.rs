@@ -11,48 +11,67 @@ use crate::interface::{ContactState, Mode};
 #[derive(Clone, Copy)]
 pub(crate) struct BaseView<'a> {
     pub(crate) state: &'a State,
+    /// Number of the foundation, from 0; `None` for the whole base.
     pub(crate) foundation: Option<usize>,
 }
 
 impl<'a> BaseView<'a> {
-    fn own(&self) -> Option<&'a Foundation> {
+    fn single_foundation(&self) -> Option<&'a Foundation> {
         self.foundation.map(|k| &self.state.foundations[k])
     }
 
-    /// Value of the whole base, or of the foundation.
-    pub(crate) fn pick(&self, whole: f64, own: fn(&Foundation) -> f64) -> f64 {
-        self.own().map_or(whole, own)
+    /// The number of the whole base, or `value` of the single foundation.
+    pub(crate) fn whole_or(&self, whole: f64, value: fn(&Foundation) -> f64) -> f64 {
+        self.single_foundation().map_or(whole, value)
     }
 
-    /// Sum over all foundations, or the foundation's own value.
+    /// Sum over all foundations, or the value of the single foundation.
     ///
     /// `value` receives a foundation and its middle relative to the point of the base moment; for a single
     /// foundation zeros.
     pub(crate) fn sum(&self, value: impl Fn(&Foundation, [f64; 2]) -> f64) -> f64 {
-        let each = || self.state.foundations.iter().zip(&self.state.context.footings);
-        match self.own() {
-            Some(own) => value(own, [0.0; 2]),
-            None => each().fold(0.0, |sum, (own, footing)| sum + value(own, footing.center)),
+        if let Some(foundation) = self.single_foundation() {
+            return value(foundation, [0.0; 2]);
         }
+        let mut sum = 0.0;
+        for (foundation, footing) in self.state.foundations.iter().zip(&self.state.context.footings)
+        {
+            sum += value(foundation, footing.center);
+        }
+        sum
     }
 
-    /// The value of largest magnitude among all foundations, or the foundation's own.
+    /// The value of largest magnitude among all foundations, or the value of the single foundation.
     pub(crate) fn largest(&self, value: fn(&Foundation) -> f64) -> f64 {
-        let larger = |far: f64, own: f64| if own.abs() > far.abs() { own } else { far };
-        let all = || self.state.foundations.iter().map(value).fold(0.0, larger);
-        self.own().map_or_else(all, value)
+        if let Some(foundation) = self.single_foundation() {
+            return value(foundation);
+        }
+        let mut largest: f64 = 0.0;
+        for candidate in self.state.foundations.iter().map(value) {
+            if candidate.abs() > largest.abs() {
+                largest = candidate;
+            }
+        }
+        largest
     }
 
     /// Mean over the area; zero if a state has no such numbers.
     pub(crate) fn mean(&self, value: fn(&ContactState) -> f64) -> f64 {
-        let each = self.areas().iter().zip(self.contact());
-        let sums =
-            each.fold([0.0; 2], |[sum, all], (area, own)| [sum + area * value(own), all + area]);
-        if sums[0] == 0.0 { 0.0 } else { sums[0] / sums[1] }
+        let mut integral = 0.0;
+        let mut total_area = 0.0;
+        for (area, contact) in self.areas().iter().zip(self.contact()) {
+            integral += area * value(contact);
+            total_area += area;
+        }
+        if integral == 0.0 { 0.0 } else { integral / total_area }
     }
 
+    /// Indices of its elements.
     pub(crate) fn elements(&self) -> Range<usize> {
-        self.own().map_or(0..self.state.contact.len(), |own| own.elements.clone())
+        match self.single_foundation() {
+            Some(foundation) => foundation.elements.clone(),
+            None => 0..self.state.contact.len(),
+        }
     }
 
     /// Contact states of its elements.
@@ -62,6 +81,7 @@ impl<'a> BaseView<'a> {
         self.state.contact.get(self.elements()).unwrap_or_default()
     }
 
+    /// Contact modes of its elements.
     pub(crate) fn modes(&self) -> &'a [Mode] {
         self.state.modes.get(self.elements()).unwrap_or_default()
     }
@@ -73,15 +93,18 @@ impl<'a> BaseView<'a> {
     /// Left and right, front and back end: of the elements in the plane, of the outline in plan.
     pub(crate) fn ends(&self) -> [[f64; 2]; 2] {
         let footings = &self.state.context.footings;
-        let own = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
-        let own = footings.get(own).unwrap_or_default();
-        [0, 1].map(|axis| far_ends(own.iter().map(|own| own.ends[axis])))
+        let numbers = self.foundation.map_or(0..footings.len(), |k| k..k + 1);
+        let footings = footings.get(numbers).unwrap_or_default();
+        [0, 1].map(|axis| far_ends(footings.iter().map(|footing| footing.ends[axis])))
     }
 
     /// The smallest factor of safety of its foundations; NaN if none is known.
-    pub(crate) fn least(&self, factor: fn(&Derived) -> f64) -> f64 {
-        let all = || self.state.foundations.iter().map(|own| factor(&own.derived));
-        self.own().map_or_else(|| all().fold(f64::NAN, f64::min), |own| factor(&own.derived))
+    pub(crate) fn smallest_safety(&self, factor: fn(&Derived) -> f64) -> f64 {
+        if let Some(foundation) = self.single_foundation() {
+            return factor(&foundation.derived);
+        }
+        let factors = self.state.foundations.iter().map(|foundation| factor(&foundation.derived));
+        factors.fold(f64::NAN, f64::min)
     }
 }
 

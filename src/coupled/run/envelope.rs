@@ -35,6 +35,28 @@ pub struct ElementEnvelope {
     pub slip_across: Peak,
 }
 
+impl ElementEnvelope {
+    fn start(element: &ContactElement, contact: &ContactState, time: f64) -> Self {
+        Self {
+            element: *element,
+            static_pressure: contact.pressure,
+            pressure: Extremes::single(contact.pressure, time),
+            shear: Peak { value: contact.shear, time },
+            gap: Peak { value: contact.gap, time },
+            slip: Peak { value: contact.slip, time },
+            open: 0.0,
+            shear_across: Peak { value: contact.shear_across, time },
+            slip_across: Peak { value: contact.slip_across, time },
+        }
+    }
+
+    /// Length of the shortest side of the element, m.
+    pub(crate) fn shortest_side(&self) -> f64 {
+        let sides = self.element.sides().into_iter().take(self.element.directions().len() - 1);
+        sides.fold(f64::INFINITY, f64::min)
+    }
+}
+
 /// Warning of the largest tension under elements that cannot open.
 ///
 /// `None` if it is below the limit, or without static pressures.
@@ -45,46 +67,36 @@ pub(crate) fn tension(
 ) -> Option<Warning> {
     let pressures = envelope.iter().map(|element| element.static_pressure);
     let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
-    let held = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
-    let least = |own: &ElementEnvelope| own.pressure.lowest.value;
-    let (_, own) = held.min_by(|(_, a), (_, b)| least(a).total_cmp(&least(b)))?;
-    let (tension, time) = (-least(own), own.pressure.lowest.time);
-    let [x, y, z] = own.element.center();
+    let closed_elements = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
+    let (_, pulled) = closed_elements
+        .min_by(|(_, a), (_, b)| a.pressure.lowest.value.total_cmp(&b.pressure.lowest.value))?;
+    let tension = -pulled.pressure.lowest.value;
+    let time = pulled.pressure.lowest.time;
+    let [x, y, z] = pulled.element.center();
     let y = in_plan.then_some(y);
-    let walls = ContactElement::any_wall(envelope.iter().map(|own| &own.element));
-    let z = walls.then_some(z);
+    let has_walls = ContactElement::any_wall(envelope.iter().map(|element| &element.element));
+    let z = has_walls.then_some(z);
     (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, z, time })
 }
 
 /// Envelopes of all elements at the start of a run.
 pub(crate) fn start(elements: &Patch, state: &State) -> Vec<ElementEnvelope> {
-    let envelope = |(element, contact): (&ContactElement, &ContactState)| {
-        let peak = |value| Peak { value, time: state.time };
-        ElementEnvelope {
-            element: *element,
-            static_pressure: contact.pressure,
-            pressure: Extremes::single(contact.pressure, state.time),
-            shear: peak(contact.shear),
-            gap: peak(contact.gap),
-            slip: peak(contact.slip),
-            open: 0.0,
-            shear_across: peak(contact.shear_across),
-            slip_across: peak(contact.slip_across),
-        }
-    };
-    elements.iter().zip(&state.contact).map(envelope).collect()
+    let contacts = elements.iter().zip(&state.contact);
+    contacts
+        .map(|(element, contact)| ElementEnvelope::start(element, contact, state.time))
+        .collect()
 }
 
 /// Extends the envelopes by a step of duration `step`.
-pub(crate) fn see(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
+pub(crate) fn update(envelopes: &mut [ElementEnvelope], state: &State, step: f64) {
     let modes = state.modes.iter();
     for ((envelope, contact), mode) in envelopes.iter_mut().zip(&state.contact).zip(modes) {
-        envelope.pressure.see(contact.pressure, state.time);
-        envelope.shear.see(contact.shear, state.time);
-        envelope.gap.see(contact.gap, state.time);
-        envelope.slip.see(contact.slip, state.time);
-        envelope.shear_across.see(contact.shear_across, state.time);
-        envelope.slip_across.see(contact.slip_across, state.time);
+        envelope.pressure.update(contact.pressure, state.time);
+        envelope.shear.update(contact.shear, state.time);
+        envelope.gap.update(contact.gap, state.time);
+        envelope.slip.update(contact.slip, state.time);
+        envelope.shear_across.update(contact.shear_across, state.time);
+        envelope.slip_across.update(contact.slip_across, state.time);
         if !mode.is_closed() {
             envelope.open += step;
         }

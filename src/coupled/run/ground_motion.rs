@@ -26,26 +26,39 @@ pub struct GroundMotion {
 }
 
 impl GroundMotion {
-    /// The motion of a run that ended at `end` (s); `seen`: largest acceleration at its steps (m/s²).
-    pub(crate) fn new(motion: &dyn FreeField, end: f64, seen: f64) -> Self {
+    /// The motion of a run that ended at `end` (s); `at_steps`: largest acceleration at its steps (m/s²).
+    pub(crate) fn new(motion: &dyn FreeField, end: f64, at_steps: f64) -> Self {
         let records = motion.records();
-        let largest = |of: fn(&Record) -> f64| records.iter().map(|own| of(own)).reduce(f64::max);
-        let intensity = |own: &Record| own.accelerations().iter().map(|a| a * a).sum::<f64>();
-        let strongest = records.iter().max_by(|a, b| intensity(a).total_cmp(&intensity(b)));
-        let passed = strongest.and_then(|own| {
-            let samples = own.accelerations().iter().enumerate();
-            let before = samples.filter(|(k, _)| *k as f64 * own.time_step() <= end);
-            let before: f64 = before.map(|(_, a)| a * a).sum();
-            Some(before / intensity(own)).filter(|passed| passed.is_finite())
-        });
+        let strongest = records.iter().max_by(|a, b| squared_sum(a).total_cmp(&squared_sum(b)));
         Self {
-            peak: largest(|own| own.accelerations().iter().fold(0.0, |m: f64, a| m.max(a.abs())))
-                .unwrap_or(seen),
-            duration: largest(Record::duration),
-            time_step: largest(Record::time_step),
-            passed,
+            peak: records
+                .iter()
+                .map(|record| peak_acceleration(record))
+                .reduce(f64::max)
+                .unwrap_or(at_steps),
+            duration: records.iter().map(|record| record.duration()).reduce(f64::max),
+            time_step: records.iter().map(|record| record.time_step()).reduce(f64::max),
+            passed: strongest.and_then(|record| passed_intensity(record, end)),
         }
     }
+}
+
+/// Largest acceleration of a record, m/s².
+fn peak_acceleration(record: &Record) -> f64 {
+    record.accelerations().iter().fold(0.0, |peak: f64, a| peak.max(a.abs()))
+}
+
+/// Sum of the squared accelerations of a record, which is proportional to its Arias intensity.
+fn squared_sum(record: &Record) -> f64 {
+    record.accelerations().iter().map(|a| a * a).sum()
+}
+
+/// Fraction of a record's Arias intensity until the time `end`, s; `None` for a record of zeros.
+fn passed_intensity(record: &Record, end: f64) -> Option<f64> {
+    let samples = record.accelerations().iter().enumerate();
+    let before = samples.filter(|(k, _)| *k as f64 * record.time_step() <= end);
+    let before: f64 = before.map(|(_, a)| a * a).sum();
+    Some(before / squared_sum(record)).filter(|passed| passed.is_finite())
 }
 
 /// Writes one line: peak in m/s² and in g, duration and time step of its records.
@@ -54,11 +67,13 @@ impl fmt::Display for GroundMotion {
         if self.peak == 0.0 {
             return write!(f, "Ground motion: none");
         }
-        let (peak, of_gravity) = (number(self.peak), number(self.peak / STANDARD_GRAVITY));
+        let peak = number(self.peak);
+        let of_gravity = number(self.peak / STANDARD_GRAVITY);
         write!(f, "Ground motion: peak {peak} m/s² ({of_gravity} g)")?;
         match (self.duration, self.time_step) {
             (Some(duration), Some(time_step)) => {
-                let [duration, time_step] = [duration, time_step].map(seconds);
+                let duration = seconds(duration);
+                let time_step = seconds(time_step);
                 write!(f, ", record of {duration} s in steps of {time_step} s")
             }
             _ => write!(f, " at the steps of the run, no record"),

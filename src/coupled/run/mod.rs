@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 mod base_view;
 mod envelope;
+mod foundation_axis;
 mod ground_motion;
 pub(crate) mod mistake;
 pub(crate) mod page;
@@ -37,7 +38,7 @@ use crate::contact::SearchMethod;
 use crate::coupled::serviceability::Serviceability;
 use crate::coupled::state::Context;
 use crate::coupled::state::sequence::Sequence;
-use crate::coupled::{EnergyBalance, Mistake, Probe, State, Warning};
+use crate::coupled::{EnergyBalance, Mistake, State, Warning};
 use crate::error::Result;
 use crate::motion::FreeField;
 use crate::structure::probe::probe_index;
@@ -150,7 +151,7 @@ pub struct Run {
     settlements: Vec<f64>,
     /// Smallest algorithmic energy of the energy balance at any time.
     #[cfg_attr(feature = "serde", serde(skip))]
-    least_algorithmic: f64,
+    smallest_algorithmic_energy: f64,
     #[cfg_attr(feature = "serde", serde(skip))]
     begin: Option<Instant>,
 }
@@ -164,12 +165,15 @@ impl Run {
     /// Run before its first step, at `state`; `limits`: its limits of serviceability.
     pub(crate) fn start(state: &State, limits: &Serviceability, resolution: Resolution) -> Self {
         let time = state.time;
-        let probe = |(probe, &value): (&Probe, &f64)| ProbeExtremes {
-            name: probe.name.clone(),
-            unit: probe.unit.clone(),
-            extremes: Extremes::single(value, time),
-        };
         let Context { elements, probes, .. } = state.context.as_ref();
+        let mut probe_extremes = Vec::with_capacity(probes.len());
+        for (probe, value) in probes.iter().zip(&state.probes) {
+            probe_extremes.push(ProbeExtremes {
+                name: probe.name.clone(),
+                unit: probe.unit.clone(),
+                extremes: Extremes::single(*value, time),
+            });
+        }
         Self {
             steps: 0,
             start: time,
@@ -178,7 +182,7 @@ impl Run {
             time_step: resolution.time_step,
             is_overturned: false,
             whole: Summary::start(state, None),
-            probes: probes.iter().zip(&state.probes).map(probe).collect(),
+            probes: probe_extremes,
             foundations: (0..state.foundations.len())
                 .map(|k| Summary::start(state, Some(k)))
                 .collect(),
@@ -197,10 +201,14 @@ impl Run {
             elements: elements.to_vec(),
             sequence: Sequence::new(state),
             ends_by_steps: false,
-            last_responses: [Warning::RESPONSES.map(|quantity| state.value(quantity)); 2],
+            last_responses: [Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)); 2],
             resolution,
-            settlements: state.foundations.iter().map(|own| own.derived.settlement).collect(),
-            least_algorithmic: state.energy_balance.algorithmic,
+            settlements: state
+                .foundations
+                .iter()
+                .map(|foundation| foundation.derived.settlement)
+                .collect(),
+            smallest_algorithmic_energy: state.energy_balance.algorithmic,
             begin: clock(),
         }
     }
@@ -212,29 +220,33 @@ impl Run {
         if !self.sequence.takes(state) {
             return;
         }
-        let (begin, time) = (self.end, state.time);
+        let begin = self.end;
+        let time = state.time;
         self.steps += 1;
         self.end = time;
-        self.last_responses =
-            [Warning::RESPONSES.map(|quantity| state.value(quantity)), self.last_responses[0]];
-        self.resolution.see(state);
-        self.whole.see(state, begin, None);
-        for (k, own) in self.foundations.iter_mut().enumerate() {
-            own.see(state, begin, Some(k));
+        self.last_responses = [
+            Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)),
+            self.last_responses[0],
+        ];
+        self.resolution.update(state);
+        self.whole.update(state, begin, None);
+        for (k, summary) in self.foundations.iter_mut().enumerate() {
+            summary.update(state, begin, Some(k));
         }
-        for (most, own) in self.settlements.iter_mut().zip(&state.foundations) {
-            *most = most.max(own.derived.settlement);
+        for (largest, foundation) in self.settlements.iter_mut().zip(&state.foundations) {
+            *largest = largest.max(foundation.derived.settlement);
         }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
-            probe.extremes.see(*value, time);
+            probe.extremes.update(*value, time);
         }
-        self.serviceability.iter_mut().for_each(|check| check.see(state));
-        envelope::see(&mut self.envelope, state, time - begin);
+        self.serviceability.iter_mut().for_each(|check| check.update(state));
+        envelope::update(&mut self.envelope, state, time - begin);
         self.mode_changes += state.transitions.len();
         self.debondings += state.transitions.iter().filter(|t| t.is_debonding()).count();
         self.rebondings += state.transitions.iter().filter(|t| t.is_rebonding()).count();
         self.energy_balance = state.energy_balance;
-        self.least_algorithmic = self.least_algorithmic.min(state.energy_balance.algorithmic);
+        self.smallest_algorithmic_energy =
+            self.smallest_algorithmic_energy.min(state.energy_balance.algorithmic);
         let residual = state.energy_balance.residual();
         if residual.is_nan() || residual > self.energy_error {
             self.energy_error = residual;
@@ -261,7 +273,8 @@ impl Run {
         opens: impl Fn(usize) -> bool,
         of_scene: &[Warning],
         pressures_above: &[f64],
-        [drag, rotation_limit]: [f64; 2],
+        drag: f64,
+        rotation_limit: f64,
     ) {
         // A run that was read from a file is closed.
         if self.elements.is_empty() {
@@ -269,11 +282,7 @@ impl Run {
         }
         self.wall = self.begin.map_or(Duration::ZERO, |begin| begin.elapsed());
         self.resolution.resolve_ground(ground, motion, self.start..self.end);
-        let length = |own: &ElementEnvelope| {
-            let sides = own.element.sides().into_iter().take(own.element.directions().len() - 1);
-            sides.fold(f64::INFINITY, f64::min)
-        };
-        let lengths: f64 = self.envelope.iter().map(length).sum();
+        let lengths: f64 = self.envelope.iter().map(ElementEnvelope::shortest_side).sum();
         let Summary { base_rotation, rotation_across, twist, .. } = &self.whole;
         let rotations = [base_rotation, rotation_across, twist].map(Extremes::magnitude);
         self.warnings = Warning::all(
@@ -281,11 +290,12 @@ impl Run {
             lengths / self.envelope.len() as f64,
             rotations.into_iter().fold(0.0, f64::max),
             &self.energy_balance,
-            self.least_algorithmic,
+            self.smallest_algorithmic_energy,
         );
-        for (k, (own, settlement)) in self.foundations.iter().zip(&self.settlements).enumerate() {
-            let widths = self.axes().map(|axis| [own.ends, own.depth][axis]);
-            let width = widths.fold(f64::INFINITY, |least, [low, high]| least.min(high - low));
+        for (k, summary) in self.foundations.iter().enumerate() {
+            let settlement = &self.settlements[k];
+            let ends = self.axes().map(|axis| [summary.ends, summary.depth][axis]);
+            let width = ends.fold(f64::INFINITY, |width, [low, high]| width.min(high - low));
             self.warnings.extend(Warning::of_settlement(k, *settlement, width));
         }
         self.warnings.extend(envelope::tension(&self.envelope, self.in_plan, opens));
@@ -298,8 +308,11 @@ impl Run {
         let of_motion = Warning::of_motion(acceleration, &self.ground_motion, motion);
         self.warnings.extend(of_motion.into_iter().filter(|_| is_to_scale));
         self.warnings.extend(Warning::of_end(self, acceleration, rotation_limit));
-        let slides = self.foundations.iter().chain([&self.whole]).map(|own| own.sliding.longest());
-        self.warnings.extend(Warning::of_drag(drag, slides.fold(0.0, f64::max)));
+        let mut longest_slip_event: f64 = 0.0;
+        for summary in self.foundations.iter().chain([&self.whole]) {
+            longest_slip_event = longest_slip_event.max(summary.sliding.longest());
+        }
+        self.warnings.extend(Warning::of_drag(drag, longest_slip_event));
         self.resolution.warn(&mut self.warnings);
         Warning::drop_expected(&mut self.warnings);
     }
@@ -319,7 +332,7 @@ impl Run {
 
     /// Whether elements of the base are of walls.
     pub(crate) fn has_walls(&self) -> bool {
-        ContactElement::any_wall(self.envelope.iter().map(|own| &own.element))
+        ContactElement::any_wall(self.envelope.iter().map(|envelope| &envelope.element))
     }
 
     /// Largest horizontal force on the base over the weight; `None` without weight.
@@ -330,13 +343,14 @@ impl Run {
 
     /// Growth of a response in the last step, relative to its value.
     pub(crate) fn last_growth(&self, response: usize) -> f64 {
-        let [last, before] = self.last_responses.map(|values| values[response].abs());
+        let last = self.last_responses[0][response].abs();
+        let before = self.last_responses[1][response].abs();
         1.0 - before / last
     }
 
     /// Number of slip events of all foundations.
     pub(crate) fn slip_events(&self) -> usize {
-        self.foundations.iter().map(|own| own.sliding.events.len()).sum()
+        self.foundations.iter().map(|summary| summary.sliding.events.len()).sum()
     }
 
     /// Whether all limits of serviceability are met; `None` without limits.
@@ -346,7 +360,7 @@ impl Run {
     }
 
     /// The criterion with the smallest margin; `None` without limits.
-    pub(crate) fn least_serviceable(&self) -> Option<&ServiceCheck> {
+    pub(crate) fn check_with_smallest_margin(&self) -> Option<&ServiceCheck> {
         self.serviceability.iter().min_by(|a, b| a.margin().total_cmp(&b.margin()))
     }
 

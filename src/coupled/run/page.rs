@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::coupled::run::ground_motion::seconds;
-use crate::coupled::run::peak::Peak;
 use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::geometry::{axis_name, middle, resultant, span};
@@ -11,9 +10,9 @@ use crate::text::readable_number::{number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
 /// Number of elements above which the pressure envelope is shortened.
-const MOST_ROWS: usize = 12;
+const MAX_PRESSURE_ROWS: usize = 12;
 /// Lever of the outermost elements, over half the width, above which no advice is printed.
-const ENOUGH: f64 = 0.93;
+const ACCURATE_LEVER: f64 = 0.93;
 /// Fraction of open base above which small changes of a scene may change its peaks.
 const MOSTLY_OPEN: f64 = 0.5;
 
@@ -48,8 +47,10 @@ impl fmt::Display for Run {
         }
         self.uplift_and_sliding(f)?;
         let shown = self.pressures();
-        let (all, some) = (self.envelope.len(), shown.rows.len());
-        let part = if some < all { format!(", {some} of {all} elements") } else { String::new() };
+        let all = self.envelope.len();
+        let printed = shown.rows.len();
+        let part =
+            if printed < all { format!(", {printed} of {all} elements") } else { String::new() };
         let faces = if self.has_walls() { "on base and walls" } else { "under the base" };
         writeln!(f, "\nPressure {faces}{part}\n{}", shown.text())?;
         self.energies(f)?;
@@ -64,61 +65,64 @@ impl fmt::Display for Run {
 impl Run {
     fn peaks(&self) -> Table {
         let heading = ["Peaks", "unit", "smallest", "at s", "largest", "at s"];
-        let row = |name: &str, unit: &str, factor: f64, extremes: &Extremes| {
-            let cell = |peak: Peak| [number(factor * peak.value), format!("{:.3}", peak.time)];
-            let [low, low_time] = cell(extremes.lowest);
-            let [high, high_time] = cell(extremes.highest);
-            vec![name.to_owned(), unit.to_owned(), low, low_time, high, high_time]
-        };
-        let whole = Quantity::shown(ShownIn::Page, self.in_plan).map(|quantity| {
-            let (factor, unit) = quantity.printed(self.in_plan);
-            row(quantity.name(), unit, factor, &self.whole.extremes(quantity))
-        });
-        let mut rows: Vec<_> = whole.collect();
-        rows.extend(self.probes.iter().map(|probe| {
-            let (factor, unit) = printed(&probe.unit);
-            row(&probe.name, unit, factor, &probe.extremes)
-        }));
+        let mut rows = Vec::new();
+        for quantity in Quantity::shown(ShownIn::Page, self.in_plan) {
+            let extremes = self.whole.extremes(quantity);
+            rows.push(peak_row(quantity.name(), quantity.printed(self.in_plan), &extremes));
+        }
+        for probe in &self.probes {
+            rows.push(peak_row(&probe.name, printed(&probe.unit), &probe.extremes));
+        }
         Table { heading: heading.map(str::to_owned).to_vec(), repeated: 1, rows }
     }
 
     /// Largest magnitudes, one line for each foundation.
     fn each_foundation(&self) -> Table {
         let shown: Vec<_> = Quantity::shown(ShownIn::Foundations, self.in_plan).collect();
-        let printed = |quantity: &Quantity| quantity.printed(self.in_plan);
-        let heading = |quantity: &Quantity| {
-            let unit = if quantity.limit().is_some() { "" } else { printed(quantity).1 };
-            format!("{} {unit}", quantity.short_name()).trim_end().to_owned()
-        };
         let mut headings = vec!["Foundation, m".to_owned()];
-        headings.extend(shown.iter().map(heading));
+        for quantity in &shown {
+            let has_limit = quantity.limit().is_some();
+            let unit = if has_limit { "" } else { quantity.printed(self.in_plan).1 };
+            headings.push(format!("{} {unit}", quantity.short_name()).trim_end().to_owned());
+        }
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
-        let row = |own: &Summary| {
-            let ends = |[low, high]: [f64; 2]| format!("{low:.2} to {high:.2}");
-            let place = self.axes().map(|axis| {
-                let name = axis_name(self.in_plan, axis);
-                let ends = ends([own.ends, own.depth][axis]);
-                name.map_or_else(|| ends.clone(), |name| format!("{name} {ends}"))
+        let rows = self.foundations.iter().map(|summary| self.foundation_row(summary, &shown));
+        Table { heading: headings, repeated: 1, rows: rows.collect() }
+    }
+
+    /// Place of a foundation, its largest magnitudes, and its sliding.
+    fn foundation_row(&self, summary: &Summary, shown: &[Quantity]) -> Vec<String> {
+        let mut places = Vec::new();
+        for axis in self.axes() {
+            let [low, high] = [summary.ends, summary.depth][axis];
+            places.push(match axis_name(self.in_plan, axis) {
+                Some(name) => format!("{name} {low:.2} to {high:.2}"),
+                None => format!("{low:.2} to {high:.2}"),
             });
-            let place = place.collect::<Vec<_>>().join(", ");
-            let value = |quantity: &Quantity| match own.peak(*quantity).value {
-                safety if quantity.limit().is_some() => factor(safety),
-                value => number(printed(quantity).0 * value),
-            };
-            let mut cells = vec![place];
-            cells.extend(shown.iter().map(value));
-            cells.extend([own.sliding.events.len().to_string(), number(1e3 * own.sliding.path)]);
-            cells
-        };
-        Table { heading: headings, repeated: 1, rows: self.foundations.iter().map(row).collect() }
+        }
+        let mut cells = vec![places.join(", ")];
+        for quantity in shown {
+            let value = summary.peak(*quantity).value;
+            cells.push(if quantity.limit().is_some() {
+                factor(value)
+            } else {
+                number(quantity.printed(self.in_plan).0 * value)
+            });
+        }
+        cells.push(summary.sliding.events.len().to_string());
+        cells.push(number(1e3 * summary.sliding.path));
+        cells
     }
 
     fn safety(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = |own: &Quantity| own.limit().is_some() && !self.whole.peak(*own).value.is_nan();
-        for quantity in Quantity::recorded(self.in_plan).filter(known) {
+        for quantity in Quantity::recorded(self.in_plan) {
             let peak = self.whole.peak(quantity);
-            let (name, least) = (quantity.name(), factor(peak.value));
-            write!(f, "Least {name}: {least} at {:.3} s", peak.time)?;
+            if quantity.limit().is_none() || peak.value.is_nan() {
+                continue;
+            }
+            let name = quantity.name();
+            let smallest = factor(peak.value);
+            write!(f, "Least {name}: {smallest} at {:.3} s", peak.time)?;
             match quantity {
                 Quantity::OverturningSafety => writeln!(f, ", over the left or the right edge")?,
                 Quantity::OverturningSafetyAcross => {
@@ -127,13 +131,13 @@ impl Run {
                 _ => writeln!(f)?,
             }
         }
-        let near = self.axes().map(|axis| self.lever(axis)).fold(1.0, f64::min);
-        if near < ENOUGH {
+        let lever = self.axes().map(|axis| self.lever(axis)).fold(1.0, f64::min);
+        if lever < ACCURATE_LEVER {
             writeln!(
                 f,
-                "  pressure acts in the middle of elements, {near:.2} of the half width from the middle of the base at \
+                "  pressure acts in the middle of elements, {lever:.2} of the half width from the middle of the base at \
                  most:\n  a base on its edge has a factor of {:.2}, not 1 (1.07 or less with 16 elements a side)",
-                1.0 / near
+                1.0 / lever
             )?;
         }
         Ok(())
@@ -144,18 +148,21 @@ impl Run {
     ///
     /// Along an axis; the smallest of all foundations and both sides.
     fn lever(&self, axis: usize) -> f64 {
-        let of = |own: &Summary| {
-            let ends = [own.ends, own.depth][axis];
-            let elements = self.envelope.get(own.elements.clone()).unwrap_or_default();
-            let of_element = |own: &ElementEnvelope| own.element.center()[axis];
-            let ([first, last], center) = (span(elements.iter().map(of_element)), middle(ends));
-            (center - first).min(last - center) / (0.5 * (ends[1] - ends[0]))
-        };
-        self.foundations.iter().map(of).fold(f64::INFINITY, f64::min)
+        let mut smallest = f64::INFINITY;
+        for summary in &self.foundations {
+            let ends = [summary.ends, summary.depth][axis];
+            let elements = self.envelope.get(summary.elements.clone()).unwrap_or_default();
+            let [first, last] = span(elements.iter().map(|element| element.element.center()[axis]));
+            let center = middle(ends);
+            let lever = (center - first).min(last - center) / (0.5 * (ends[1] - ends[0]));
+            smallest = smallest.min(lever);
+        }
+        smallest
     }
 
     fn uplift_and_sliding(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (uplift, uplifted) = (&self.whole.uplift, self.whole.uplifted_fraction.highest);
+        let uplift = &self.whole.uplift;
+        let uplifted = self.whole.uplifted_fraction.highest;
         writeln!(f, "\nUplift")?;
         writeln!(
             f,
@@ -181,7 +188,8 @@ impl Run {
             let mean = [&self.whole.mean_slip, &self.whole.mean_slip_across][axis].largest();
             let end = [self.whole.residual_slip, self.whole.residual_slip_across][axis];
             let name = ["mean slip", "mean slip across"][axis];
-            let [value, end] = [mean.value, end].map(|slip| number(1e3 * slip));
+            let value = number(1e3 * mean.value);
+            let end = number(1e3 * end);
             write!(f, "  {name} up to {value} mm at {:.3} s, {end} mm at the end", mean.time)?;
             if axis == 0 {
                 let largest = self.whole.largest_slip.highest.value;
@@ -214,31 +222,25 @@ impl Run {
         let places = axes.iter().map(|&axis| ["x, m", "y, m", "z, m"][axis]);
         let numbers = ["static kPa", "least kPa", "largest kPa", "at s", "open s"];
         let heading: Vec<_> = places.chain(numbers).map(str::to_owned).collect();
-        let every = self.envelope.len().div_ceil(MOST_ROWS).max(1);
+        let every = self.envelope.len().div_ceil(MAX_PRESSURE_ROWS).max(1);
         let last = self.envelope.len().saturating_sub(1);
-        let row = |envelope: &ElementEnvelope| {
-            let center = envelope.element.center();
-            let mut cells: Vec<_> = axes.iter().map(|&axis| thousandths(center[axis])).collect();
-            cells.extend([
-                number(1e-3 * envelope.static_pressure),
-                number(1e-3 * envelope.pressure.lowest.value),
-                number(1e-3 * envelope.pressure.highest.value),
-                format!("{:.3}", envelope.pressure.highest.time),
-                format!("{:.3}", envelope.open),
-            ]);
-            cells
-        };
         // The line with the largest pressure is always printed.
-        let place = |k: &usize| self.envelope[*k].pressure.highest.value;
-        let largest = (0..self.envelope.len()).max_by(|a, b| place(a).total_cmp(&place(b)));
-        let kept = |k: &usize| k.is_multiple_of(every) || *k == last || Some(*k) == largest;
-        let shown = self.envelope.iter().enumerate().filter(|(k, _)| kept(k));
+        let pressures = self.envelope.iter().map(|envelope| envelope.pressure.highest.value);
+        let largest = pressures.enumerate().max_by(|(_, a), (_, b)| a.total_cmp(b));
+        let largest = largest.map(|(k, _)| k);
+        let mut rows = Vec::new();
+        for (k, envelope) in self.envelope.iter().enumerate() {
+            if k.is_multiple_of(every) || k == last || Some(k) == largest {
+                rows.push(pressure_row(envelope, &axes));
+            }
+        }
         let repeated = heading.len() - 5;
-        Table { heading, repeated, rows: shown.map(|(_, envelope)| row(envelope)).collect() }
+        Table { heading, repeated, rows }
     }
 
     fn effort(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (steps, wall) = (self.steps.max(1) as f64, self.wall.as_secs_f64());
+        let steps = self.steps.max(1) as f64;
+        let wall = self.wall.as_secs_f64();
         let Fallbacks { gauss_seidel, path, newton, proximal } = self.fallbacks;
         write!(
             f,
@@ -264,7 +266,8 @@ impl Run {
         if self.energy_balance.is_left_out() {
             return write!(f, "\n{}", self.energy_balance);
         }
-        let (input, unit) = (1e-3 * self.energy_balance.input, of_body("kJ/m", self.in_plan));
+        let input = 1e-3 * self.energy_balance.input;
+        let unit = of_body("kJ/m", self.in_plan);
         let fractions = self.energy_balance.fractions();
         let ending = if fractions.is_some() { ", of which" } else { "" };
         writeln!(f, "\nEnergy: input {input:.4} {unit}{ending}")?;
@@ -286,6 +289,30 @@ impl Run {
         }
         Ok(())
     }
+}
+
+/// Name, unit, and extremes with their times.
+fn peak_row(name: &str, (factor, unit): (f64, &str), extremes: &Extremes) -> Vec<String> {
+    let mut cells = vec![name.to_owned(), unit.to_owned()];
+    for peak in [extremes.lowest, extremes.highest] {
+        cells.push(number(factor * peak.value));
+        cells.push(format!("{:.3}", peak.time));
+    }
+    cells
+}
+
+/// Place of an element along these axes, its pressures, and the time open.
+fn pressure_row(envelope: &ElementEnvelope, axes: &[usize]) -> Vec<String> {
+    let center = envelope.element.center();
+    let mut cells: Vec<_> = axes.iter().map(|&axis| thousandths(center[axis])).collect();
+    cells.extend([
+        number(1e-3 * envelope.static_pressure),
+        number(1e-3 * envelope.pressure.lowest.value),
+        number(1e-3 * envelope.pressure.highest.value),
+        format!("{:.3}", envelope.pressure.highest.time),
+        format!("{:.3}", envelope.open),
+    ]);
+    cells
 }
 
 /// A factor of safety.

@@ -19,7 +19,8 @@ impl Peak {
         self.value.abs()
     }
 
-    pub(crate) fn see(&mut self, value: f64, time: f64) {
+    /// Keeps a value of larger magnitude, with its time.
+    pub(crate) fn update(&mut self, value: f64, time: f64) {
         if value.abs() > self.value.abs() {
             *self = Self { value, time };
         }
@@ -46,7 +47,8 @@ impl Extremes {
         Self { lowest: peak, highest: peak }
     }
 
-    pub(crate) fn see(&mut self, value: f64, time: f64) {
+    /// Extends the extremes by a value, with its time.
+    pub(crate) fn update(&mut self, value: f64, time: f64) {
         if value < self.lowest.value || self.lowest.value.is_nan() {
             self.lowest = Peak { value, time };
         }

@@ -64,7 +64,7 @@ macro_rules! quantities {
             $($(#[$doc])* $variant,)+
         }
 
-        const TABLE: &[Row] = &[$(Row {
+        const QUANTITY_TABLE: &[Row] = &[$(Row {
             word: stringify!($field),
             name: $name,
             unit: $unit,
@@ -73,19 +73,19 @@ macro_rules! quantities {
             value: $value,
         },)+];
 
-        const WORDS: &[&str] = &[$(stringify!($field)),+];
+        const QUANTITY_WORDS: &[&str] = &[$(stringify!($field)),+];
 
         impl Quantity {
             /// All quantities, in the order of columns.
             ///
             /// Quantities in plan only are the last: [`Quantity::recorded`] leaves them out in the plane.
-            pub const ALL: [Self; WORDS.len()] = [$(Self::$variant),+];
+            pub const ALL: [Self; QUANTITY_WORDS.len()] = [$(Self::$variant),+];
         }
 
         /// Summary of the whole base or of one foundation: extremes with their times, uplift, sliding.
         ///
         /// Quantities are named and signed as in [`State`]. Moments of a foundation are about the middle of its
-        /// own elements, in plan of its outline, so each of several structures has moments of its own.
+        /// elements, in plan of its outline. So the moments of one structure do not depend on the others.
         #[derive(Debug, Clone, PartialEq)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -119,8 +119,8 @@ macro_rules! quantities {
             pub(crate) fn append_values(&self, lists: &mut [Vec<f64>]) {
                 let base = self.base(None);
                 $(if let Some(list) = lists.get_mut(Quantity::$variant as usize) {
-                    const VALUE: fn(&BaseView) -> f64 = $value;
-                    list.push(VALUE(&base));
+                    const VALUE_OF_BASE: fn(&BaseView) -> f64 = $value;
+                    list.push(VALUE_OF_BASE(&base));
                 })+
             }
         }
@@ -129,18 +129,17 @@ macro_rules! quantities {
             /// Summary at the start of a run, of the whole base or of one foundation.
             pub(crate) fn start(state: &State, foundation: Option<usize>) -> Self {
                 let base = state.base(foundation);
-                let extremes = |value: fn(&BaseView) -> f64| Extremes::single(value(&base), state.time);
                 let [ends, depth] = base.ends();
                 Self {
                     elements: base.elements(),
                     ends,
                     depth,
-                    static_normal_force: (TABLE[Quantity::NormalForce as usize].value)(&base),
-                    $($field: extremes($value),)+
-                    residual_slip: (TABLE[Quantity::MeanSlip as usize].value)(&base),
-                    residual_slip_across: (TABLE[Quantity::MeanSlipAcross as usize].value)(&base),
+                    static_normal_force: (QUANTITY_TABLE[Quantity::NormalForce as usize].value)(&base),
+                    $($field: first_extremes(&base, $value),)+
+                    residual_slip: (QUANTITY_TABLE[Quantity::MeanSlip as usize].value)(&base),
+                    residual_slip_across: (QUANTITY_TABLE[Quantity::MeanSlipAcross as usize].value)(&base),
                     uplift: Uplift::default(),
-                    sliding: Sliding::with_capacity(EVENTS),
+                    sliding: Sliding::with_capacity(RESERVED_SLIP_EVENTS),
                 }
             }
 
@@ -148,10 +147,10 @@ macro_rules! quantities {
             ///
             /// Each value is called directly: at every step, calls through the table would cost more than the
             /// values.
-            fn see_values(&mut self, base: &BaseView, count: usize, time: f64) {
+            fn update_values(&mut self, base: &BaseView, count: usize, time: f64) {
                 $(if (Quantity::$variant as usize) < count {
-                    const VALUE: fn(&BaseView) -> f64 = $value;
-                    self.$field.see(VALUE(base), time);
+                    const VALUE_OF_BASE: fn(&BaseView) -> f64 = $value;
+                    self.$field.update(VALUE_OF_BASE(base), time);
                 })+
             }
 
@@ -168,28 +167,28 @@ macro_rules! quantities {
 quantities! {
     /// Horizontal force on the soil, positive to the right, N/m.
     BaseShear base_shear, "base shear", "N/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
-        |base| base.pick(base.state.base_shear, |own| own.base_shear);
+        |base| base.whole_or(base.state.base_shear, |foundation| foundation.base_shear);
     /// Moment on the soil, counter-clockwise, static part included, N·m/m; in plan about the axis along y, by the
     /// right-hand rule.
     BaseMoment base_moment, "base moment", "N·m/m", Scale::Unit, [Page, Foundations, Comparison, ComparisonTime],
-        |base| base.pick(base.state.base_moment, |own| own.base_moment);
+        |base| base.whole_or(base.state.base_moment, |foundation| foundation.base_moment);
     /// Pressure on the soil, summed, N/m.
     NormalForce normal_force, "normal force", "N/m", Scale::Unit, [Page],
-        |base| base.pick(base.state.normal_force, |own| own.normal_force);
+        |base| base.whole_or(base.state.normal_force, |foundation| foundation.normal_force);
     /// Length of open elements over the length of the base.
     UpliftedFraction uplifted_fraction, "uplifted fraction", "", Scale::Percent, [Foundations, Comparison],
-        |base| base.pick(base.state.uplifted_fraction, |own| own.uplifted_fraction);
+        |base| base.whole_or(base.state.uplifted_fraction, |foundation| foundation.uplifted_fraction);
     /// Slip averaged over the base, m; tangential motion of open elements counts.
     MeanSlip mean_slip, "mean slip", "m", Scale::Unit, [Foundations, Comparison],
-        |base| base.pick(base.state.mean_slip, |own| own.mean_slip);
+        |base| base.whole_or(base.state.mean_slip, |foundation| foundation.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.largest(|own| own.derived.largest_slip);
+        |base| base.largest(|foundation| foundation.derived.largest_slip);
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     ///
     /// In plan about the axis along y, by the right-hand rule.
     BaseRotation base_rotation, "base rotation", "rad", Scale::Unit, [Page, Foundations, Comparison],
-        |base| base.pick(base.state.base_rotation, |own| own.base_rotation);
+        |base| base.whole_or(base.state.base_rotation, |foundation| foundation.base_rotation);
     /// Mean horizontal displacement of the free field under the base, m.
     FreeFieldHorizontal free_field_horizontal, "free field, horizontal", "m", Scale::Unit, [],
         |base| base.state.free_field[0];
@@ -203,7 +202,7 @@ quantities! {
     /// the actual tractions: on a base that may slide it reaches one during sliding, and never falls below. On a
     /// bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
-        |base| base.least(|own| own.sliding);
+        |base| base.smallest_safety(|derived| derived.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
     /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with
@@ -216,53 +215,60 @@ quantities! {
     /// for 16 cells or graded unions.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
-        |base| base.least(|own| own.overturning[0]);
+        |base| base.smallest_safety(|derived| derived.overturning[0]);
     /// In plan: resultant of the horizontal forces on the soil along x and y, N.
     HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
-        |base| base.sum(|own, _| own.base_shear).hypot(base.sum(|own, _| own.shear_across));
+        |base| base.sum(|foundation, _| foundation.base_shear).hypot(base.sum(|foundation, _| foundation.shear_across));
     /// In plan: area of open elements inside the outline of the base, m².
     UpliftedArea uplifted_area, "uplifted area", "m²", Scale::Unit, [Plan, Page],
         open_area;
     /// In plan: horizontal force on the soil along y, N.
     ShearAcross shear_across, "base shear across", "N/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
-        |base| base.sum(|own, _| own.shear_across);
+        |base| base.sum(|foundation, _| foundation.shear_across);
     /// In plan: moment on the soil about the axis along x, by the right-hand rule, static part included, N·m.
     MomentAcross moment_across, "base moment across", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
-        |base| base.sum(|own, [_, y]| own.moment_across - own.normal_force * y);
+        |base| base.sum(|foundation, [_, y]| foundation.moment_across - foundation.normal_force * y);
     /// In plan: moment on the soil about the vertical axis, counter-clockwise from above, N·m.
     Torque torque, "torque", "N·m/m", Scale::Unit, [Plan, Page, Foundations, Comparison, ComparisonTime],
-        |base| base.sum(|own, [x, y]| own.torque + x * own.shear_across - y * own.base_shear);
+        |base| base.sum(|foundation, [x, y]| {
+            foundation.torque + x * foundation.shear_across - y * foundation.base_shear
+        });
     /// In plan: slip along y averaged over the base, m.
     MeanSlipAcross mean_slip_across, "mean slip across", "m", Scale::Unit, [Plan, Foundations, Comparison],
-        |base| base.mean(|own| own.slip_across);
+        |base| base.mean(|contact| contact.slip_across);
     /// In plan: rotation of the base about the axis along x, rad; of several foundations the largest.
     ///
     /// By the right-hand rule.
     RotationAcross rotation_across, "base rotation across", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
-        |base| base.largest(|own| own.rotation_across);
+        |base| base.largest(|foundation| foundation.rotation_across);
     /// In plan: rotation of the base about the vertical, rad; of several foundations the largest.
     ///
     /// Counter-clockwise from above.
     Twist twist, "base twist", "rad", Scale::Unit, [Plan, Page, Foundations, Comparison],
-        |base| base.largest(|own| own.twist);
+        |base| base.largest(|foundation| foundation.twist);
     /// In plan: mean displacement of the free field under the base along y, m.
     FreeFieldAcross free_field_across, "free field, across", "m", Scale::Unit, [Plan],
         |base| base.state.free_field_across;
     /// In plan: safety against overturning over the front or the back edge, otherwise as over left and right.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
-        |base| base.least(|own| own.overturning[1]);
+        |base| base.smallest_safety(|derived| derived.overturning[1]);
 }
 
 /// In the plane this quantity and the following ones keep their first value.
-const ACROSS: usize = Quantity::ShearAcross as usize;
+const FIRST_QUANTITY_OF_PLAN: usize = Quantity::ShearAcross as usize;
 
 /// Largest number of slip events of a base that memory is reserved for.
-const EVENTS: usize = 1000;
+const RESERVED_SLIP_EVENTS: usize = 1000;
+
+/// Extremes at the start of a run: the present value.
+fn first_extremes(base: &BaseView<'_>, value: fn(&BaseView) -> f64) -> Extremes {
+    Extremes::single(value(base), base.state.time)
+}
 
 impl Quantity {
     fn row(self) -> &'static Row {
-        &TABLE[self as usize]
+        &QUANTITY_TABLE[self as usize]
     }
 
     /// Name of the quantity, for tables and axes.
@@ -277,7 +283,7 @@ impl Quantity {
 
     /// The quantities of a ground in plan, or of a ground in the plane.
     pub fn recorded(in_plan: bool) -> impl Iterator<Item = Self> + Clone {
-        Self::ALL.into_iter().filter(move |own| in_plan || !own.is_shown(ShownIn::Plan))
+        Self::ALL.into_iter().filter(move |quantity| in_plan || !quantity.is_shown(ShownIn::Plan))
     }
 
     /// SI unit of its values; empty for a ratio.
@@ -296,11 +302,13 @@ impl Quantity {
 
     /// Factor and unit for printing.
     pub(crate) fn printed(self, in_plan: bool) -> (f64, &'static str) {
-        let (factor, unit) = match self.row().scale {
-            Scale::Percent => (1e2, "%"),
-            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
-        };
-        (factor, of_body(unit, in_plan))
+        match self.row().scale {
+            Scale::Percent => (1e2, of_body("%", in_plan)),
+            Scale::Unit | Scale::Safety(_) => {
+                let (factor, unit) = printed(self.row().unit);
+                (factor, of_body(unit, in_plan))
+            }
+        }
     }
 
     /// The label of the limit one, for a factor of safety.
@@ -313,7 +321,7 @@ impl Quantity {
 
     /// The quantities that are shown at `place`.
     pub(crate) fn shown(place: ShownIn, in_plan: bool) -> impl Iterator<Item = Self> {
-        Self::recorded(in_plan).filter(move |own| own.is_shown(place))
+        Self::recorded(in_plan).filter(move |quantity| quantity.is_shown(place))
     }
 
     /// Whether the quantity is shown at `place`.
@@ -333,8 +341,8 @@ impl FromStr for Quantity {
     type Err = Error;
 
     fn from_str(text: &str) -> Result<Self> {
-        let found = Self::ALL.into_iter().find(|own| own.row().word == text);
-        found.ok_or_else(|| unknown("quantity", text, WORDS))
+        let found = Self::ALL.into_iter().find(|quantity| quantity.row().word == text);
+        found.ok_or_else(|| unknown("quantity", text, QUANTITY_WORDS))
     }
 }
 
@@ -351,17 +359,23 @@ impl State {
 
 impl Summary {
     /// Records a step that began at `begin`; `foundation` as at the start.
-    pub(crate) fn see(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
-        let (base, time) = (state.base(foundation), state.time);
-        let seen = if state.context.elements.is_plan() { WORDS.len() } else { ACROSS };
-        self.see_values(&base, seen, time);
+    pub(crate) fn update(&mut self, state: &State, begin: f64, foundation: Option<usize>) {
+        let base = state.base(foundation);
+        let time = state.time;
+        let count = if state.context.elements.is_plan() {
+            QUANTITY_WORDS.len()
+        } else {
+            FIRST_QUANTITY_OF_PLAN
+        };
+        self.update_values(&base, count, time);
         let slip = (Quantity::MeanSlip.row().value)(&base);
         let across = (Quantity::MeanSlipAcross.row().value)(&base);
         let uplifted = (Quantity::UpliftedFraction.row().value)(&base);
-        self.uplift.see(uplifted, base.modes(), time - begin);
+        self.uplift.update(uplifted, base.modes(), time - begin);
         let change = [slip - self.residual_slip, across - self.residual_slip_across];
-        self.sliding.see(base.modes(), change, [begin, time]);
-        (self.residual_slip, self.residual_slip_across) = (slip, across);
+        self.sliding.update(base.modes(), change, [begin, time]);
+        self.residual_slip = slip;
+        self.residual_slip_across = across;
     }
 
     /// The governing extreme of `quantity`: the smallest factor of safety, or the value furthest from zero.

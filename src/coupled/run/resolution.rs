@@ -12,7 +12,7 @@
 //!
 //! | base shear | because | needs |
 //! |---|---|---|
-//! | varies more slowly than the ground's acceleration | the structure vibrates with a period of its own, which the step lengthens | r ≤ 0.25: 12 steps per period |
+//! | varies more slowly than the ground's acceleration | the structure vibrates freely, and the step lengthens its period | r ≤ 0.25: 12 steps per period |
 //! | follows the ground's acceleration | peaks fall between steps | r ≤ 0.6: 5 steps per period |
 //!
 //! A base shear that varies more than twice as fast as a resolved ground motion contains vibrations of the contact
@@ -40,52 +40,49 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::bem::Ground;
-use crate::coupled::run::variation::{OWN, Sampler, Variation};
+use crate::coupled::run::foundation_axis::{
+    FoundationAxis, MIN_FOUNDATION_ELEMENTS, axes_of, cell_side, longest_side,
+};
+use crate::coupled::run::variation::{MAX_FREE_VIBRATION_RATIO, Sampler, Variation};
 use crate::coupled::run::warning::Warning;
 use crate::coupled::state::State;
-use crate::geometry::{COMPONENTS_IN_SPACE, axis_name, far_ends, in_a_row};
+use crate::geometry::{COMPONENTS_IN_SPACE, axis_name};
 use crate::motion::FreeField;
 
 /// Largest r if the base shear follows the ground.
-const FOLLOWING: f64 = 0.6;
+const MAX_FOLLOWING_RATIO: f64 = 0.6;
 /// Fraction of the ground's r below which the base shear does not follow it.
-const SLOWER: f64 = 0.85;
+const FREE_VIBRATION_FRACTION: f64 = 0.85;
 /// Multiple of the ground's r above which vibrations of the contact prevail.
-const RINGING: f64 = 2.0;
-/// Steps per period that a warning recommends, in the two cases.
-const OWN_STEPS: f64 = 30.0;
+const CONTACT_VIBRATION_FACTOR: f64 = 2.0;
+/// Steps per period that a warning recommends for a free vibration.
+const FREE_VIBRATION_STEPS: f64 = 30.0;
+/// Steps per period that a warning recommends for a base shear that follows the ground.
 const FOLLOWING_STEPS: f64 = 15.0;
-/// Estimated error of the largest base shear, divided by r² of the ground: if the shear varies as the ground does, and
-/// otherwise.
-///
-/// It varies so if its r is within the two multiples of the ground's r.
-const ERROR_FOLLOWING: f64 = 0.3;
-const AS_THE_GROUND: [f64; 2] = [0.95, 1.1];
-const ERROR: f64 = 0.9;
-/// Estimated error above which runs warn, and the error at the recommended step.
-const ERRORS: [f64; 2] = [0.05, 0.03];
+/// Estimated error of the largest base shear, divided by r² of the ground, if the shear varies as the ground does.
+const FOLLOWING_ERROR_FACTOR: f64 = 0.3;
+/// The same factor for any other base shear.
+const OTHER_ERROR_FACTOR: f64 = 0.9;
+/// Multiples of the ground's r between which the base shear varies as the ground does.
+const FOLLOWING_RATIO_RANGE: [f64; 2] = [0.95, 1.1];
+/// Estimated error above which runs warn.
+const WARNED_ERROR: f64 = 0.05;
+/// Estimated error at the recommended time step.
+const RECOMMENDED_ERROR: f64 = 0.03;
 /// Smallest number of steps for an estimate of a frequency.
-const LEAST_STEPS: usize = 8;
+const MIN_STEPS: usize = 8;
 /// Time step above which steps may miss the whole motion of an earthquake, s.
-const LONG_STEP: f64 = 0.1;
+const LONG_TIME_STEP: f64 = 0.1;
 /// Base shear, relative to the normal force, that counts as rounding.
-const ROUNDING: f64 = 1e-9;
+const SHEAR_ROUNDING: f64 = 1e-9;
 /// Second difference of the free field that counts as rounding, relative to the largest free field so far.
-const AT_REST: f64 = 16.0 * f64::EPSILON;
-/// Fineness of strips, and of cells in plan.
-const STRIPS: Fineness =
+const FREE_FIELD_ROUNDING: f64 = 16.0 * f64::EPSILON;
+/// Fineness of strips.
+const STRIP_FINENESS: Fineness =
     Fineness { per_wavelength: [4.0, 8.0], without_running: false, crossing_steps: [0.0; 2] };
-const CELLS: Fineness =
+/// Fineness of cells in plan.
+const CELL_FINENESS: Fineness =
     Fineness { per_wavelength: [12.0, 12.0], without_running: true, crossing_steps: [4.0, 8.0] };
-/// Ratio of base moment to base shear times width, above which a foundation needs this number of elements.
-///
-/// Below the last limit rocking does not matter.
-const ELEMENTS: [(f64, usize); 2] = [(0.5, 4), (0.1, 3)];
-/// Smallest number of elements of any foundation: a single element resists no moment and does not rock.
-const TWO: usize = 2;
-/// Distance of a ratio of sides from a whole number that counts as rounding.
-const WHOLE: f64 = 1e-6;
-
 /// Numbers of elements and steps that resolve waves: the smallest, and the recommended ones.
 #[derive(Debug, Clone, Copy, Default)]
 struct Fineness {
@@ -111,7 +108,7 @@ pub(crate) struct Resolution {
     /// Number of the foundation with the fewest elements, from 0.
     foundation: usize,
     /// Elements, shear and moment of the foundation along x, and in plan along y.
-    axes: [Axis; 2],
+    axes: [FoundationAxis; 2],
     steps: usize,
     last_step: usize,
     last_shear: [f64; 2],
@@ -122,7 +119,7 @@ pub(crate) struct Resolution {
     peak: f64,
     /// Largest |free field| so far.
     largest: [f64; COMPONENTS_IN_SPACE],
-    /// Number of consecutive steps seen.
+    /// Number of consecutive steps so far.
     in_a_row: usize,
     base_shear: Variation,
     ground: Variation,
@@ -130,37 +127,6 @@ pub(crate) struct Resolution {
     samples: GroundSamples,
     /// Whether the ground's motion between the steps decides, whatever it is at the steps.
     is_judged_by_ground: bool,
-}
-
-/// A foundation along one axis.
-#[derive(Debug, Clone, Copy, Default)]
-struct Axis {
-    elements: usize,
-    width: f64,
-    static_moment: f64,
-    /// Largest shear and change of moment.
-    shear: f64,
-    moment: f64,
-}
-
-impl Axis {
-    /// Axis of elements with these `ends` along it.
-    fn new(ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
-        let [least, most] = far_ends(ends.iter().copied());
-        Self { elements: in_a_row(ends), width: most - least, static_moment, ..Self::default() }
-    }
-
-    fn see(&mut self, shear: f64, moment: f64) {
-        self.shear = self.shear.max(shear.abs());
-        self.moment = self.moment.max((moment - self.static_moment).abs());
-    }
-
-    /// Smallest number of elements that the foundation's rocking needs.
-    fn needed(&self) -> usize {
-        let arm = self.moment / (self.shear * self.width);
-        let rocking = ELEMENTS.iter().find(|(least, _)| self.elements < TWO || arm > *least);
-        rocking.map_or(TWO, |(_, needed)| *needed)
-    }
 }
 
 /// Mean free field along x, upwards and along y.
@@ -182,34 +148,16 @@ impl Resolution {
     pub(crate) fn new(time_step: f64, shear_wave_speed: Option<f64>, state: &State) -> Self {
         let elements = &state.context.elements;
         let in_plan = elements.is_plan();
-        let sides = |axis: usize| elements.iter().map(move |own| own.sides()[axis]);
-        let widest = |axis: usize| sides(axis).fold(0.0, f64::max);
-        // The narrowest of unions is a cell, and so is the widest where others are parts of a cell.
-        let cell = |axis: usize| {
-            let narrowest = sides(axis).fold(f64::INFINITY, f64::min);
-            let is_whole =
-                |side: f64| ((side / narrowest).round() - side / narrowest).abs() < WHOLE;
-            if sides(axis).all(is_whole) { narrowest } else { widest(axis) }
+        let longest = if in_plan {
+            cell_side(elements, 0).max(cell_side(elements, 1))
+        } else {
+            longest_side(elements, 0)
         };
-        let (longest, fineness) =
-            if in_plan { (cell(0).max(cell(1)), CELLS) } else { (widest(0), STRIPS) };
-        let foundations = state.foundations.iter().map(|own| {
-            let floor = elements.floor();
-            let last = own.elements.end.min(floor.end);
-            let first = own.elements.start.max(floor.start).min(last);
-            let ends =
-                |axis: usize| elements[first..last].iter().map(|own| own.ends()[axis]).collect();
-            let unlimited = Axis { elements: usize::MAX, ..Axis::default() };
-            let mut axes = [unlimited; 2];
-            for (axis, moment) in elements.layout().axes().zip([own.base_moment, own.moment_across])
-            {
-                axes[axis] = Axis::new(ends(axis), moment);
-            }
-            axes
-        });
-        let count = |axes: &[Axis; 2]| axes[0].elements.min(axes[1].elements);
-        let fewest = foundations.enumerate().min_by_key(|(_, axes)| count(axes));
-        let (foundation, axes) = fewest.unwrap_or_default();
+        let fineness = if in_plan { CELL_FINENESS } else { STRIP_FINENESS };
+        let foundations = state.foundations.iter().map(|shape| axes_of(shape, elements));
+        let coarsest =
+            foundations.enumerate().min_by_key(|(_, axes)| axes[0].elements.min(axes[1].elements));
+        let (foundation, axes) = coarsest.unwrap_or_default();
         Self {
             time_step,
             in_plan,
@@ -235,31 +183,33 @@ impl Resolution {
     }
 
     /// Adds the next step to the statistics.
-    pub(crate) fn see(&mut self, state: &State) {
+    pub(crate) fn update(&mut self, state: &State) {
         self.in_a_row = if state.step == self.last_step + 1 { self.in_a_row + 1 } else { 0 };
         self.last_step = state.step;
         self.steps += 1;
         self.normal_force = self.normal_force.max(state.normal_force.abs());
         if let Some(foundation) = state.foundations.get(self.foundation) {
             let [along, across] = &mut self.axes;
-            along.see(foundation.base_shear, foundation.base_moment);
-            across.see(foundation.shear_across, foundation.moment_across);
+            along.update(foundation.base_shear, foundation.base_moment);
+            across.update(foundation.shear_across, foundation.moment_across);
         }
         let across = state.foundations.iter().map(|foundation| foundation.shear_across).sum();
         let shear = [state.base_shear, across];
         if self.in_a_row > 1 {
-            let pairs = self.last_shear.into_iter().zip(shear);
-            pairs.for_each(|(before, after)| self.base_shear.see(before, after));
+            for (before, after) in self.last_shear.into_iter().zip(shear) {
+                self.base_shear.update(before, after);
+            }
         }
-        let (now, [before, last]) = (free_field(state), self.free_field);
+        let now = free_field(state);
+        let [before, last] = self.free_field;
         for k in 0..COMPONENTS_IN_SPACE {
             let mut acceleration = now[k] - 2.0 * last[k] + before[k];
             self.largest[k] = self.largest[k].max(now[k].abs());
-            if acceleration.abs() <= AT_REST * self.largest[k] {
+            if acceleration.abs() <= FREE_FIELD_ROUNDING * self.largest[k] {
                 acceleration = 0.0;
             }
             if self.in_a_row > 2 {
-                self.ground.see(self.acceleration[k], acceleration);
+                self.ground.update(self.acceleration[k], acceleration);
                 self.peak = self.peak.max(acceleration.abs());
             }
             self.acceleration[k] = acceleration;
@@ -275,33 +225,34 @@ impl Resolution {
 
     /// Whether the base shear is more than rounding, in enough steps.
     fn has_response(&self) -> bool {
-        let rounding = ROUNDING * self.normal_force;
-        self.steps >= LEAST_STEPS
+        let rounding = SHEAR_ROUNDING * self.normal_force;
+        self.steps >= MIN_STEPS
             && self.base_shear.sums + self.base_shear.changes
                 > self.steps as f64 * rounding * rounding
     }
 
     /// Whether the base shear varies more slowly than the ground.
-    fn is_own_vibration(&self) -> bool {
-        self.base_shear.ratio() < SLOWER * self.ground.ratio()
+    fn is_free_vibration(&self) -> bool {
+        self.base_shear.ratio() < FREE_VIBRATION_FRACTION * self.ground.ratio()
     }
 
     /// Whether the time step may not resolve the base shear.
     fn is_coarse(&self) -> bool {
-        let limit = if self.is_own_vibration() { OWN } else { FOLLOWING };
+        let limit =
+            if self.is_free_vibration() { MAX_FREE_VIBRATION_RATIO } else { MAX_FOLLOWING_RATIO };
         self.has_response() && self.base_shear.ratio() > limit
     }
 
     /// Whether the base shear varies as the ground does.
     fn follows(&self) -> bool {
-        let [response, ground] = [self.base_shear, self.ground].map(Variation::ratio);
-        let [low, high] = AS_THE_GROUND.map(|share| share * ground);
-        (low..high).contains(&response)
+        let ground = self.ground.ratio();
+        let [low, high] = FOLLOWING_RATIO_RANGE.map(|multiple| multiple * ground);
+        (low..high).contains(&self.base_shear.ratio())
     }
 
     /// Estimated relative error of the largest base shear due to the time step, one at most.
     fn error(&self) -> f64 {
-        let factor = if self.follows() { ERROR_FOLLOWING } else { ERROR };
+        let factor = if self.follows() { FOLLOWING_ERROR_FACTOR } else { OTHER_ERROR_FACTOR };
         let ground = self.ground.ratio();
         (factor * ground * ground).min(1.0)
     }
@@ -312,7 +263,7 @@ impl Resolution {
     fn wavelength(&self) -> Option<f64> {
         let ratio = self.base_shear.ratio().min(self.ground.ratio());
         let wavelength = self.shear_wave_speed? * PI * self.time_step / ratio;
-        (self.has_response() && ratio <= FOLLOWING).then_some(wavelength)
+        (self.has_response() && ratio <= MAX_FOLLOWING_RATIO).then_some(wavelength)
     }
 
     /// Wavelength of the base shear if elements are too long for it, m.
@@ -327,7 +278,7 @@ impl Resolution {
         if self.is_judged_by_ground
             && !self.is_coarse()
             && let Some(frequency) = self.samples.frequency
-            && PI * frequency * time_step > FOLLOWING
+            && PI * frequency * time_step > MAX_FOLLOWING_RATIO
         {
             let needed = 1.0 / (FOLLOWING_STEPS * frequency);
             warnings.push(Warning::UnresolvedMotion { frequency, time_step, needed, error: 1.0 });
@@ -335,18 +286,20 @@ impl Resolution {
         if !self.has_response() {
             return;
         }
-        let (is_coarse, error) = (self.is_coarse(), self.error());
-        if is_coarse || error > ERRORS[0] {
-            let [response, ground] = [self.base_shear, self.ground].map(Variation::ratio);
+        let is_coarse = self.is_coarse();
+        let error = self.error();
+        if is_coarse || error > WARNED_ERROR {
+            let response = self.base_shear.ratio();
+            let ground = self.ground.ratio();
             let frequency = self.samples.frequency.unwrap_or(ground / (PI * time_step));
-            let misses_motion = is_coarse && PI * frequency * time_step > FOLLOWING;
-            let is_own = self.is_own_vibration();
-            if is_own || !misses_motion && response < RINGING * ground {
+            let misses_motion = is_coarse && PI * frequency * time_step > MAX_FOLLOWING_RATIO;
+            let is_free = self.is_free_vibration();
+            if is_free || !misses_motion && response < CONTACT_VIBRATION_FACTOR * ground {
                 let period = PI * time_step / response;
-                let needed = match (is_coarse, is_own) {
-                    (true, true) => period / OWN_STEPS,
+                let needed = match (is_coarse, is_free) {
+                    (true, true) => period / FREE_VIBRATION_STEPS,
                     (true, false) => period / FOLLOWING_STEPS,
-                    (false, _) => time_step * (ERRORS[1] / error).sqrt(),
+                    (false, _) => time_step * (RECOMMENDED_ERROR / error).sqrt(),
                 };
                 warnings.push(Warning::UnresolvedPeriod { period, time_step, needed, error });
             }
@@ -363,17 +316,24 @@ impl Resolution {
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
         // A foundation on springs needs two elements at most.
-        let least = |axis: &Axis| if self.shear_wave_speed.is_some() { axis.needed() } else { TWO };
-        if let Some(found) = self.axes.iter().position(|axis| axis.elements < least(axis)) {
-            let Axis { elements, .. } = self.axes[found];
-            let (foundation, needed) = (self.foundation, least(&self.axes[found]));
-            let axis = axis_name(self.in_plan, found);
-            warnings.push(Warning::FewElements { foundation, elements, needed, axis });
+        let is_on_springs = self.shear_wave_speed.is_none();
+        for (number, axis) in self.axes.iter().enumerate() {
+            let needed =
+                if is_on_springs { MIN_FOUNDATION_ELEMENTS } else { axis.needed_elements() };
+            if axis.elements < needed {
+                warnings.push(Warning::FewElements {
+                    foundation: self.foundation,
+                    elements: axis.elements,
+                    needed,
+                    axis: axis_name(self.in_plan, number),
+                });
+                break;
+            }
         }
-        let counts = self.fineness.without_running || self.samples.running;
-        if let Some(wavelength) = self.short_waves().filter(|_| counts) {
-            let (element_length, needed) =
-                (self.longest, wavelength / self.fineness.per_wavelength[1]);
+        let wavelength_counts = self.fineness.without_running || self.samples.running;
+        if let Some(wavelength) = self.short_waves().filter(|_| wavelength_counts) {
+            let element_length = self.longest;
+            let needed = wavelength / self.fineness.per_wavelength[1];
             warnings.push(Warning::LongElements { element_length, wavelength, needed });
         }
     }
@@ -387,12 +347,13 @@ impl Resolution {
         motion: &dyn FreeField,
         times: Range<f64>,
     ) {
-        let unseen = times.start == 0.0 && self.steps < LEAST_STEPS && motion.records().is_empty();
-        self.is_judged_by_ground = unseen || self.time_step > LONG_STEP;
+        let is_short_run =
+            times.start == 0.0 && self.steps < MIN_STEPS && motion.records().is_empty();
+        self.is_judged_by_ground = is_short_run || self.time_step > LONG_TIME_STEP;
         if self.is_judged_by_ground || self.is_coarse() || self.short_waves().is_some() {
             let sampler = Sampler { ground, motion, times, time_step: self.time_step };
-            let (frequency, running) = (sampler.frequency(), sampler.is_running());
-            self.samples = GroundSamples { frequency, running };
+            self.samples =
+                GroundSamples { frequency: sampler.frequency(), running: sampler.is_running() };
         }
     }
 }

@@ -31,23 +31,29 @@ impl ServiceCheck {
             (Criterion::UpliftedFraction, limits.uplifted_fraction),
             (Criterion::Rotation, limits.rotation),
         ];
-        let given = limits.into_iter().filter_map(|(criterion, limit)| Some((criterion, limit?)));
-        given.map(|(criterion, limit)| Self::start(criterion, limit, state)).collect()
+        let mut checks = Vec::new();
+        for (criterion, limit) in limits {
+            if let Some(limit) = limit {
+                checks.push(Self::start(criterion, limit, state));
+            }
+        }
+        checks
     }
 
     fn start(criterion: Criterion, limit: f64, state: &State) -> Self {
         let largest = Peak { value: 0.0, time: state.time };
         let mut check = Self { criterion, limit, largest, first_excess: None };
-        check.see(state);
+        check.update(state);
         check
     }
 
-    pub(crate) fn see(&mut self, state: &State) {
-        self.take(self.criterion.largest_value(state), state.time);
+    /// Records the response of a state.
+    pub(crate) fn update(&mut self, state: &State) {
+        self.add_value(self.criterion.largest_value(state), state.time);
     }
 
-    fn take(&mut self, value: f64, time: f64) {
-        self.largest.see(value, time);
+    fn add_value(&mut self, value: f64, time: f64) {
+        self.largest.update(value, time);
         if self.first_excess.is_none() && value.abs() > self.limit {
             self.first_excess = Some(time);
         }
@@ -100,7 +106,7 @@ mod tests {
             ServiceCheck { criterion: Criterion::Slip, limit: 2.0, largest, first_excess: None };
         for (k, value) in [0.5, -2.0, -3.0, 2.5, -5.0, 1.0].into_iter().enumerate() {
             assert_eq!(check.is_met(), k <= 2, "{k}");
-            check.take(value, k as f64);
+            check.add_value(value, k as f64);
         }
         assert_eq!(check.first_excess, Some(2.0));
         assert_eq!(check.largest, Peak { value: -5.0, time: 4.0 });

@@ -52,7 +52,7 @@ impl Sliding {
     /// Records a step between two `times`.
     ///
     /// `modes`: of the base's elements at its end. `slip`: change of the mean slip, along x and y.
-    pub(crate) fn see(&mut self, modes: &[Mode], slip: [f64; 2], times: [f64; 2]) {
+    pub(crate) fn update(&mut self, modes: &[Mode], slip: [f64; 2], times: [f64; 2]) {
         let slides = modes.iter().any(|mode| mode.is_slip())
             && modes.iter().all(|mode| mode.is_slip() || !mode.is_closed());
         self.advance(slides, slip, times);
@@ -88,8 +88,7 @@ impl Sliding {
 
     /// The event with the largest |slip|.
     pub(crate) fn largest_event(&self) -> Option<SlipEvent> {
-        let larger = |a: &SlipEvent, b: &SlipEvent| a.size().total_cmp(&b.size());
-        self.events.iter().copied().max_by(larger)
+        self.events.iter().copied().max_by(|a, b| a.size().total_cmp(&b.size()))
     }
 }
 
@@ -113,11 +112,11 @@ mod tests {
         for (k, (slides, slip)) in steps.into_iter().enumerate() {
             sliding.advance(slides, [slip, 0.0], [k as f64, (k + 1) as f64]);
         }
-        let event = |start, end, slip| SlipEvent { start, end, slip, slip_across: 0.0 };
-        let known = [event(1.0, 3.0, 3.0), event(3.0, 5.0, -5.0), event(6.0, 7.0, -3.0)];
-        assert_eq!(sliding.events, known);
+        let by_hand = [(1.0, 3.0, 3.0), (3.0, 5.0, -5.0), (6.0, 7.0, -3.0)]
+            .map(|(start, end, slip)| SlipEvent { start, end, slip, slip_across: 0.0 });
+        assert_eq!(sliding.events, by_hand);
         assert_eq!((sliding.path, sliding.duration), (11.0, 5.0));
-        assert_eq!(sliding.largest_event(), Some(known[1]));
+        assert_eq!(sliding.largest_event(), Some(by_hand[1]));
         assert_eq!(Sliding::default().largest_event(), None);
         // In plan: 3 to the right and 4 away, then back at an angle of more than 90°.
         let mut sliding = Sliding::default();

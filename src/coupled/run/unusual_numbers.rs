@@ -84,7 +84,9 @@ impl Weight {
 /// Mean period of a record's acceleration (root mean square of its frequency), s.
 fn mean_period(record: &Record) -> f64 {
     let mut variation = Variation::default();
-    record.accelerations().windows(2).for_each(|pair| variation.see(pair[0], pair[1]));
+    for pair in record.accelerations().windows(2) {
+        variation.update(pair[0], pair[1]);
+    }
     TAU * record.time_step() / (2.0 * variation.ratio().atan())
 }
 

@@ -23,9 +23,9 @@ pub struct Uplift {
 }
 
 impl Uplift {
-    /// Records a step that began at `begin`.
-    pub(crate) fn see(&mut self, uplifted: f64, modes: &[Mode], step: f64) {
-        self.advance(uplifted, step, modes.iter().any(|mode| mode.is_closed()));
+    /// Records a step of this duration; `fraction`: uplifted part of the area.
+    pub(crate) fn update(&mut self, fraction: f64, modes: &[Mode], step: f64) {
+        self.advance(fraction, step, modes.iter().any(|mode| mode.is_closed()));
     }
 
     /// Records a step of duration `step`, and whether any element is closed at its end.
@@ -57,9 +57,10 @@ mod tests {
             uplift.advance(fraction, 0.1, fraction < 1.0);
         }
         assert_eq!(uplift.count, 2);
-        for (found, known) in [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
+        for (computed, by_hand) in
+            [(uplift.duration, 0.5), (uplift.flight, 0.2), (uplift.longest, 0.3)]
         {
-            assert!((found - known).abs() < 1e-15);
+            assert!((computed - by_hand).abs() < 1e-15);
         }
     }
 }

@@ -11,7 +11,7 @@ impl State {
     /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
-        let [right, away, down] = quantities.map(|own| self.value(own));
+        let [right, away, down] = quantities.map(|quantity| self.value(quantity));
         in_axes(self.is_plan(), [right, away, -down])
     }
 
@@ -64,7 +64,7 @@ impl State {
     /// ```
     pub fn moment_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::MomentAcross, Quantity::BaseMoment, Quantity::Torque];
-        in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
+        in_axes(self.is_plan(), quantities.map(|quantity| self.value(quantity)))
     }
 
     /// Rotation of the base as a vector by the right-hand rule, rad.
@@ -73,6 +73,6 @@ impl State {
     /// [`force_vector`](State::force_vector).
     pub fn rotation_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
         let quantities = [Quantity::RotationAcross, Quantity::BaseRotation, Quantity::Twist];
-        in_axes(self.is_plan(), quantities.map(|own| self.value(own)))
+        in_axes(self.is_plan(), quantities.map(|quantity| self.value(quantity)))
     }
 }

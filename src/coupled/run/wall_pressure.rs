@@ -9,7 +9,7 @@ use crate::interface::LawForm;
 
 /// Passive over vertical pressure of soil with a friction angle of 45°: tan²(67.5°).
 const STRONG_SOIL_RATIO: f64 = 5.828_427_124_746_19;
-/// Share of a wall's thrust beyond the passive limit above which a run warns.
+/// Part of a wall's thrust beyond the passive limit above which a run warns.
 const EXCESS_LIMIT: f64 = 0.1;
 
 /// Pressure of the soil above the middle of each element, Pa; empty without walls or weight.
@@ -21,16 +21,16 @@ pub(crate) fn pressures_above(scene: &Scene, masses: &[f64], gravity: f64) -> Ve
     if masses.len() != elements.len() || gravity == 0.0 || !elements.has_walls() {
         return Vec::new();
     }
-    let pressure = |(element, mass): (usize, &f64)| {
+    let mut pressures = Vec::with_capacity(masses.len());
+    for (element, mass) in masses.iter().enumerate() {
         let law = scene.law(element);
-        let has_limit = || {
-            let strength = Strength::at_pressure(law, gravity * mass, LawForm::Modes, false);
-            strength.bearing_pressure.is_finite()
-        };
-        let is_base = elements[element].faces_down();
-        if is_base || has_limit() { f64::INFINITY } else { gravity * mass }
-    };
-    masses.iter().enumerate().map(pressure).collect()
+        let is_unlimited_wall = !elements[element].faces_down()
+            && !Strength::at_pressure(law, gravity * mass, LawForm::Modes, false)
+                .bearing_pressure
+                .is_finite();
+        pressures.push(if is_unlimited_wall { gravity * mass } else { f64::INFINITY });
+    }
+    pressures
 }
 
 /// Warning of the wall whose largest pressures exceed the passive ones of strong soil by the largest part of its thrust.
@@ -38,29 +38,37 @@ pub(crate) fn warning(envelope: &[ElementEnvelope], pressures_above: &[f64]) -> 
     if pressures_above.is_empty() {
         return None;
     }
-    let elements: Vec<ContactElement> = envelope.iter().map(|own| own.element).collect();
+    let elements: Vec<ContactElement> = envelope.iter().map(|envelope| envelope.element).collect();
     let [left, _, right] = ContactElement::faces(&elements);
     let mut found = None;
-    let mut largest = EXCESS_LIMIT;
+    let mut largest_excess = EXCESS_LIMIT;
     for wall in [left, right] {
-        let [mut excess, mut thrust, mut worst] = [0.0; 3];
+        let mut excess = 0.0;
+        let mut thrust = 0.0;
+        let mut largest_force = 0.0;
         let mut element = wall.start;
         for e in wall {
-            let (pressure, area) = (envelope[e].pressure.highest.value, elements[e].area());
+            let pressure = envelope[e].pressure.highest.value;
+            let area = elements[e].area();
             let force = area * (pressure - STRONG_SOIL_RATIO * pressures_above[e]).max(0.0);
             excess += force;
             thrust += area * pressure;
-            if force > worst {
-                (worst, element) = (force, e);
+            if force > largest_force {
+                largest_force = force;
+                element = e;
             }
         }
-        if excess > largest * thrust {
-            largest = excess / thrust;
+        if excess > largest_excess * thrust {
+            largest_excess = excess / thrust;
             let [x, _, z] = elements[element].center();
             let peak = envelope[element].pressure.highest;
-            let above = pressures_above[element];
-            let (pressure, time) = (peak.value, peak.time);
-            found = Some(Warning::WallPressure { pressure, above, x, z, time });
+            found = Some(Warning::WallPressure {
+                pressure: peak.value,
+                above: pressures_above[element],
+                x,
+                z,
+                time: peak.time,
+            });
         }
     }
     found

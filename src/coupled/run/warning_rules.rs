@@ -27,20 +27,20 @@ impl Warning {
     pub(crate) const TENSION_LIMIT: f64 = 0.01;
 
     /// Smallest fraction of a record's intensity that a run should cover.
-    const PASSED: f64 = 2.0 / 3.0;
+    const MIN_PASSED_INTENSITY: f64 = 2.0 / 3.0;
     /// Reduction of a slip event by damping above which a run warns.
-    const BRAKED: f64 = 0.1;
+    const SLIP_LOSS_LIMIT: f64 = 0.1;
     /// Ground acceleration of a run, over its records' peak, above which the run counts as shaken.
-    const SHAKING: f64 = 0.01;
+    const SHAKEN_FRACTION: f64 = 0.01;
     /// Slip (m), rotation (rad), and shear or moment over the normal force (moments by 1 m) that count as
     /// rounding.
-    const ROUNDING: f64 = 1e-9;
+    const RESPONSE_ROUNDING: f64 = 1e-9;
     /// Relative growth of a response in the last step up to which the response counts as constant.
-    const GROWTH: f64 = 1e-4;
+    const CONSTANT_RESPONSE_GROWTH: f64 = 1e-4;
     /// Smallest number of steps after which a peak in the last step counts.
-    const LEAST_STEPS: usize = 8;
+    const MIN_JUDGED_STEPS: usize = 8;
     /// Responses that should not be largest at the end of a run.
-    pub(crate) const RESPONSES: [Quantity; 4] =
+    pub(crate) const JUDGED_RESPONSES: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
     /// Error of the rocking stiffness by an oblique outline above which a run warns.
@@ -63,24 +63,21 @@ impl Warning {
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
             warnings.push(Self::Mistake(Mistake::LongPeriod { period }));
         }
-        let uncovered = scene.base.uncovered().into_iter();
-        warnings.extend(uncovered.map(|(foundation, axis, reach)| Self::UncoveredBase {
-            foundation,
-            reach,
-            axis,
-        }));
+        for (foundation, axis, reach) in scene.base.uncovered() {
+            warnings.push(Self::UncoveredBase { foundation, reach, axis });
+        }
         warnings.extend(Self::of_time_step(scene.time_step, motion, period));
         if scene.layout().is_plan() {
             warnings.extend(Self::of_friction(scene));
         } else if motion.moves_across() {
             warnings.push(Self::MotionAcross);
         }
-        if let Some(taken) = scene.static_state.stand_in {
-            Self::count_friction(&mut warnings, taken);
+        if let Some(substituted) = scene.static_state.stand_in {
+            Self::count_friction(&mut warnings, substituted);
         }
-        let sample =
-            sampled_cells.map(|[checked, cells]| Self::SampledPassivity { checked, cells });
-        warnings.extend(sample);
+        if let Some([checked, cells]) = sampled_cells {
+            warnings.push(Self::SampledPassivity { checked, cells });
+        }
         if outline_error > Self::OUTLINE_ERROR {
             let factor = outline_error / Self::OUTLINE_ERROR;
             warnings.push(Self::ObliqueOutline { error: outline_error, factor });
@@ -90,10 +87,11 @@ impl Warning {
 
     /// Warnings of the end of a run: an early end, a peak at the end, or an overturned base.
     ///
-    /// `seen`: largest ground acceleration of the run, m/s². A run that an observer or the caller's own loop ended
+    /// `acceleration`: largest ground acceleration of the run, m/s². A run that an observer or the caller's own loop ended
     /// does not warn of an early end.
-    pub(crate) fn of_end(run: &Run, seen: f64, rotation_limit: f64) -> Vec<Self> {
-        let (end, motion) = (run.end, &run.ground_motion);
+    pub(crate) fn of_end(run: &Run, acceleration: f64, rotation_limit: f64) -> Vec<Self> {
+        let end = run.end;
+        let motion = &run.ground_motion;
         if run.is_overturned {
             return vec![Self::Overturned { limit: rotation_limit, time: end }];
         }
@@ -102,20 +100,25 @@ impl Warning {
             return warnings;
         }
         if let (Some(duration), Some(passed)) = (motion.duration, motion.passed)
-            && passed < Self::PASSED
+            && passed < Self::MIN_PASSED_INTENSITY
         {
             warnings.push(Self::EndsEarly { end, duration, passed });
         }
-        let moves = seen > Self::SHAKING * motion.peak && run.steps >= Self::LEAST_STEPS;
-        let last = |(number, quantity): &(usize, Quantity)| {
-            let peak = run.whole.peak(*quantity);
+        let is_shaken = acceleration > Self::SHAKEN_FRACTION * motion.peak;
+        if !is_shaken || run.steps < Self::MIN_JUDGED_STEPS {
+            return warnings;
+        }
+        for (number, quantity) in Self::JUDGED_RESPONSES.into_iter().enumerate() {
+            let peak = run.whole.peak(quantity);
             let is_force = matches!(quantity, Quantity::BaseShear | Quantity::BaseMoment);
             let scale = if is_force { run.whole.static_normal_force } else { 1.0 };
-            let grows = peak.magnitude() > Self::ROUNDING * scale;
-            peak.time == end && grows && run.last_growth(*number) > Self::GROWTH
-        };
-        let at_end = Self::RESPONSES.into_iter().enumerate().find(last).filter(|_| moves);
-        warnings.extend(at_end.map(|(_, quantity)| Self::PeakAtEnd { quantity, end }));
+            let is_response = peak.magnitude() > Self::RESPONSE_ROUNDING * scale;
+            let is_growing = run.last_growth(number) > Self::CONSTANT_RESPONSE_GROWTH;
+            if peak.time == end && is_response && is_growing {
+                warnings.push(Self::PeakAtEnd { quantity, end });
+                break;
+            }
+        }
         warnings
     }
 
@@ -127,7 +130,7 @@ impl Warning {
         let x = (rate * longest).exp_m1();
         // The formula cancels where x is small; its series starts with 2x/3.
         let loss = if x < 1e-3 { 2.0 / 3.0 * x } else { 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x };
-        (loss > Self::BRAKED).then_some(Self::DampedSliding { rate, loss })
+        (loss > Self::SLIP_LOSS_LIMIT).then_some(Self::DampedSliding { rate, loss })
     }
 
     /// Warning of triangles with a mean side above the longest, m.
@@ -148,22 +151,25 @@ impl Warning {
 
     /// Warning of friction for which steps in plan may have several solutions.
     fn of_friction(scene: &Scene) -> Option<Self> {
-        let slides = |mode: &Mode| *mode != Mode::Stick;
-        let laws = scene.laws.iter().filter(|law| law.modes().iter().any(slides));
-        let greatest =
-            laws.map(|law| friction_at_rest(law.as_ref(), LawForm::Limits)).fold(0.0, f64::max);
-        (greatest >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction: greatest })
+        let mut friction: f64 = 0.0;
+        for law in &scene.laws {
+            if law.modes().iter().any(|mode| *mode != Mode::Stick) {
+                friction = friction.max(friction_at_rest(law.as_ref(), LawForm::Limits));
+            }
+        }
+        (friction >= Self::HIGH_FRICTION).then_some(Self::HighFriction { friction })
     }
 
-    /// Counts a step that was solved with the friction `taken` instead of a larger one.
-    pub(crate) fn count_friction(warnings: &mut Vec<Self>, taken: f64) {
+    /// Counts a step that was solved with `substituted` friction instead of a larger one.
+    pub(crate) fn count_friction(warnings: &mut Vec<Self>, substituted: f64) {
         for warning in &mut *warnings {
             if let Self::LessFriction { steps, friction } = warning {
-                (*steps, *friction) = (*steps + 1, friction.min(taken));
+                *steps += 1;
+                *friction = friction.min(substituted);
                 return;
             }
         }
-        warnings.push(Self::LessFriction { steps: 1, friction: taken });
+        warnings.push(Self::LessFriction { steps: 1, friction: substituted });
     }
 
     /// Warning of foundation number `foundation`, of this `width`, if its `settlement` exceeds the limit.
@@ -180,9 +186,10 @@ impl Warning {
         element_length: f64,
         rotation: f64,
         energy_balance: &EnergyBalance,
-        least_algorithmic: f64,
+        smallest_algorithmic_energy: f64,
     ) -> Vec<Self> {
-        let (slip, rotation) = (slip.abs(), rotation.abs());
+        let slip = slip.abs();
+        let rotation = rotation.abs();
         let mut warnings = Vec::new();
         if slip > element_length {
             warnings.push(Self::LargeSlip { slip, element_length });
@@ -196,7 +203,7 @@ impl Warning {
         {
             warnings.push(Self::EnergyBalance { residual });
         }
-        let made = -least_algorithmic / energy_balance.scale();
+        let made = -smallest_algorithmic_energy / energy_balance.scale();
         if made > Self::ALGORITHMIC_LIMIT {
             warnings.push(Self::AlgorithmicEnergy { made });
         }

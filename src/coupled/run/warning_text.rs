@@ -19,8 +19,10 @@ pub(crate) fn places(count: usize) -> String {
 
 /// Change of the static shape with twice the elements, where it is known.
 pub(crate) fn with_twice_as_many(difference: Option<f64>) -> String {
-    let text = |own: f64| format!(" (twice as many: {:.1} % of its static shape)", 100.0 * own);
-    difference.map_or(String::new(), text)
+    match difference {
+        Some(change) => format!(" (twice as many: {:.1} % of its static shape)", 100.0 * change),
+        None => String::new(),
+    }
 }
 
 /// Unit in which a ground acceleration would be usual.
@@ -33,8 +35,8 @@ pub(crate) fn unit_of_motion(acceleration: f64) -> &'static str {
 }
 
 /// Whether `value` lies between two bounds.
-pub(crate) fn within([least, most]: [f64; 2], value: f64) -> bool {
-    (least..=most).contains(&value)
+pub(crate) fn within([low, high]: [f64; 2], value: f64) -> bool {
+    (low..=high).contains(&value)
 }
 
 /// Units in which the numbers of a soil would be usual.

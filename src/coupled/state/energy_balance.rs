@@ -28,11 +28,11 @@ macro_rules! energies {
             $($(#[$doc])* $variant,)+
         }
 
-        const ROWS: &[(&str, Side, &str)] = &[$((stringify!($field), Side::$side, $name)),+];
+        const ENERGY_TERM_ROWS: &[(&str, Side, &str)] = &[$((stringify!($field), Side::$side, $name)),+];
 
         impl EnergyTerm {
             /// All terms, in the order of columns.
-            pub const ALL: [Self; ROWS.len()] = [$(Self::$variant),+];
+            pub const ALL: [Self; ENERGY_TERM_ROWS.len()] = [$(Self::$variant),+];
         }
 
         /// Energies since the start, J, in the plane J per metre of thickness.
@@ -62,12 +62,12 @@ macro_rules! energies {
             pub(crate) const LEFT_OUT: Self = Self { $($field: f64::NAN),+ };
 
             /// All terms, in the order of [`EnergyTerm::ALL`].
-            pub(crate) fn terms(&self) -> [f64; ROWS.len()] {
+            pub(crate) fn terms(&self) -> [f64; ENERGY_TERM_ROWS.len()] {
                 [$(self.$field),+]
             }
 
             /// Mutable access to all terms, in the order of [`EnergyTerm::ALL`].
-            pub(crate) fn terms_mut(&mut self) -> [&mut f64; ROWS.len()] {
+            pub(crate) fn terms_mut(&mut self) -> [&mut f64; ENERGY_TERM_ROWS.len()] {
                 [$(&mut self.$field),+]
             }
         }
@@ -129,12 +129,12 @@ energies! {
 impl EnergyTerm {
     /// Name of the term in tables and pictures; terms with one name are shown as their sum.
     pub(crate) fn name(self) -> &'static str {
-        ROWS[self as usize].2
+        ENERGY_TERM_ROWS[self as usize].2
     }
 
     /// Column of the term in files: `soil_energy_j_per_m`, in plan `soil_energy_j`.
     pub(crate) fn column(self, in_plan: bool) -> String {
-        let word = ROWS[self as usize].0;
+        let word = ENERGY_TERM_ROWS[self as usize].0;
         let name = if word.contains("bound") { word.to_owned() } else { format!("{word} energy") };
         column(&name, of_body("J/m", in_plan))
     }
@@ -145,14 +145,14 @@ impl EnergyTerm {
     }
 
     fn side(self) -> Side {
-        ROWS[self as usize].1
+        ENERGY_TERM_ROWS[self as usize].1
     }
 }
 
 /// Prints the word of its field, `soil`.
 impl fmt::Display for EnergyTerm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(ROWS[*self as usize].0)
+        f.pad(ENERGY_TERM_ROWS[*self as usize].0)
     }
 }
 

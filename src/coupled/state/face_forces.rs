@@ -80,13 +80,18 @@ impl FaceForces {
     ) -> Self {
         let faces = ContactElement::faces(elements);
         let floor = &elements[faces[Face::Base as usize].clone()];
-        let bottom = floor.first().map_or(0.0, |own| own.center()[2]);
+        let bottom = floor.first().map_or(0.0, |element| element.center()[2]);
         let ends =
             [floor.first().map(ContactElement::left), floor.last().map(ContactElement::right)];
         let middle = middle(ends.map(Option::unwrap_or_default));
-        let [mut thrust, mut shear, mut moment, mut open, mut length] = [0.0; 5];
+        let mut thrust = 0.0;
+        let mut shear = 0.0;
+        let mut moment = 0.0;
+        let mut open = 0.0;
+        let mut length = 0.0;
         for e in faces[face as usize].clone() {
-            let (element, state) = (&elements[e], &contact[e]);
+            let element = &elements[e];
+            let state = &contact[e];
             let area = element.area();
             let [x, _, z] = element.center();
             let below_middle = pressure_depths.get(e).copied().unwrap_or(0.0);

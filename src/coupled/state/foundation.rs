@@ -126,12 +126,20 @@ impl Foundation {
         contact: &[ContactState],
         modes: &[Mode],
     ) -> Sums {
-        let own = self.elements.clone();
-        let friction = if friction.len() > 1 { &friction[own.clone()] } else { friction };
-        let (mut sums, mut resistance, mut largest_slip) = (Sums::default(), 0.0, 0.0_f64);
-        let ([mut normal, mut shear, mut across, mut torque], mut moment) = ([0.0; 4], [0.0; 2]);
-        for (k, (e, &[x, y, z])) in own.zip(&footing.arms).enumerate() {
-            let (element, area, state) = (&patch[e], patch.areas()[e], &contact[e]);
+        let elements = self.elements.clone();
+        let friction = if friction.len() > 1 { &friction[elements.clone()] } else { friction };
+        let mut sums = Sums::default();
+        let mut resistance = 0.0;
+        let mut largest_slip = 0.0_f64;
+        let mut normal = 0.0;
+        let mut shear = 0.0;
+        let mut across = 0.0;
+        let mut torque = 0.0;
+        let mut moment = [0.0; 2];
+        for (k, (e, &[x, y, z])) in elements.zip(&footing.arms).enumerate() {
+            let element = &patch[e];
+            let area = patch.areas()[e];
+            let state = &contact[e];
             let pressing = area * state.pressure;
             let coefficient = friction.get(k).or(friction.first()).copied().unwrap_or(f64::NAN);
             // Infinity times zero counts as no resistance.
@@ -159,9 +167,12 @@ impl Foundation {
             }
         }
         self.in_plan = patch.is_plan();
-        (self.base_shear, self.shear_across, self.normal_force) = (shear, across, normal);
+        self.base_shear = shear;
+        self.shear_across = across;
+        self.normal_force = normal;
         // Zero in the plane, without the sign of minus zero.
-        (self.moment_across, self.torque) = (0.0 - moment[1], torque);
+        self.moment_across = 0.0 - moment[1];
+        self.torque = torque;
         self.base_moment = footing.turn * moment[0];
         let area = sums.area.max(f64::MIN_POSITIVE);
         self.uplifted_fraction = sums.open / area;
@@ -172,8 +183,11 @@ impl Foundation {
         let walls = patch.has_walls();
         let unknown = walls || friction.is_empty();
         let sliding = if unknown { f64::NAN } else { ratio(normal, resistance, demand) };
-        let factor = |axis| against_overturning(footing, normal, moment, axis);
-        let overturning = if walls { [f64::NAN; 2] } else { [0, 1].map(factor) };
+        let overturning = if walls {
+            [f64::NAN; 2]
+        } else {
+            [0, 1].map(|axis| overturning_safety(footing, normal, moment, axis))
+        };
         self.derived = Derived { largest_slip, sliding, overturning, settlement: 0.0 };
         sums
     }
@@ -193,7 +207,7 @@ pub(crate) fn in_axes(
 ///
 /// In plan the smallest over the edges that face along `axis` (x 0, y 1), at their distances b from the middle of
 /// the outline; infinite along y in the plane.
-fn against_overturning(footing: &Footing, normal: f64, moment: [f64; 2], axis: usize) -> f64 {
+fn overturning_safety(footing: &Footing, normal: f64, moment: [f64; 2], axis: usize) -> f64 {
     let factor =
         |(edge, reach): &(Edge, f64)| ratio(normal, normal * reach, edge.outward(moment).max(0.0));
     footing.edges[axis].iter().map(factor).reduce(f64::min).unwrap_or(f64::INFINITY)
@@ -275,7 +289,7 @@ mod tests {
         let diamond = [[-1.0, 1.5], [0.5, 0.0], [2.0, 1.5], [0.5, 3.0]];
         for (outline, factor) in [(square, 1.5), (diamond, 0.75)] {
             let found = safety(&patch, &outline, &[], &contact([0.0, 10.0], [0.0; 2]));
-            assert!(found.overturning.iter().all(|own| (own - factor).abs() < 1e-14));
+            assert!(found.overturning.iter().all(|safety| (safety - factor).abs() < 1e-14));
         }
     }
 
@@ -283,7 +297,8 @@ mod tests {
     fn limits() {
         let patch = patch();
         let of = |friction: f64, state: &[ContactState; 2]| safety(&patch, &[], &[friction], state);
-        let (flight, pressed) = (contact([0.0; 2], [0.0; 2]), contact([1.0; 2], [0.0; 2]));
+        let flight = contact([0.0; 2], [0.0; 2]);
+        let pressed = contact([1.0; 2], [0.0; 2]);
         for friction in [0.0, 0.4, f64::INFINITY] {
             let found = of(friction, &flight);
             assert!(found.sliding.is_nan() && found.overturning[0].is_nan());

@@ -197,7 +197,9 @@ impl State {
     /// Largest rotation of a foundation about a horizontal axis, rad.
     pub(crate) fn tilt(&self) -> f64 {
         let tilts = self.foundations.iter();
-        let tilts = tilts.map(|own| resultant(own.base_rotation, own.rotation_across).abs());
+        let tilts = tilts.map(|foundation| {
+            resultant(foundation.base_rotation, foundation.rotation_across).abs()
+        });
         tilts.fold(0.0, f64::max)
     }
 

@@ -21,7 +21,11 @@ impl Sequence {
             origin: state.origin,
             elements: state.contact.len(),
             probes: state.probes.len(),
-            foundations: state.foundations.iter().map(|own| own.elements.clone()).collect(),
+            foundations: state
+                .foundations
+                .iter()
+                .map(|foundation| foundation.elements.clone())
+                .collect(),
             end: state.time,
         }
     }
@@ -35,7 +39,9 @@ impl Sequence {
     /// Sequence that accepts no state; its last state was at `end`, s.
     #[cfg(feature = "serde")]
     pub(crate) fn ended(end: f64) -> Self {
-        let (elements, probes, foundations) = (0, 0, Vec::new());
+        let elements = 0;
+        let probes = 0;
+        let foundations = Vec::new();
         Self { origin: Origin::new(), elements, probes, foundations, end }
     }
 
@@ -55,7 +61,7 @@ impl Sequence {
             && state.contact.len() == self.elements
             && state.modes.len() == self.elements
             && state.probes.len() == self.probes
-            && state.foundations.iter().map(|own| &own.elements).eq(&self.foundations)
+            && state.foundations.iter().map(|foundation| &foundation.elements).eq(&self.foundations)
             && state.time > self.end
     }
 

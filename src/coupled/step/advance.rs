@@ -15,7 +15,8 @@ use crate::interface::{ContactState, PreviousContact, PreviousContacts};
 impl State {
     /// The static state.
     pub(crate) fn at_rest(scene: &Scene) -> Result<Self> {
-        let (model, count) = (&scene.model, scene.count());
+        let model = &scene.model;
+        let count = scene.count();
         let at = &scene.static_state;
         let contact: Vec<_> = (0..count)
             .map(|e| {
@@ -76,10 +77,12 @@ impl State {
         kinematics.translations.copy_from_slice(&forcing.translations);
         kinematics.changed();
         let [right, up, away] = scene.base.mean(&forcing.free_field);
-        (self.free_field, self.free_field_across) = ([right, up], away);
+        self.free_field = [right, up];
+        self.free_field_across = away;
         self.contact.copy_from_slice(&increment.contact);
         self.transitions.clear();
-        let (step, time) = (self.step, self.time);
+        let step = self.step;
+        let time = self.time;
         for (element, (from, &to)) in self.modes.iter_mut().zip(&increment.modes).enumerate() {
             if *from != to {
                 self.transitions.push(Transition { step, time, element, from: *from, to });
@@ -87,7 +90,8 @@ impl State {
             }
         }
         self.start.advance(&self.contact, &self.modes, &increment.state_variables);
-        (self.trials, self.method) = (increment.trials, increment.method);
+        self.trials = increment.trials;
+        self.method = increment.method;
         self.update_resultants(scene);
     }
 
@@ -95,26 +99,33 @@ impl State {
     pub(crate) fn update_resultants(&mut self, scene: &Scene) {
         let state = self;
         let Kinematics { displacement, velocity, acceleration, .. } = &state.kinematics;
-        let (mut total, mut sums) = ([0.0; 3], Sums::default());
+        let mut total = [0.0; 3];
+        let mut sums = Sums::default();
         state.base_rotation = 0.0;
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
             let Context { elements, friction, footings, .. } = &*state.context;
             let footing = &footings[k];
-            let own = foundation.update(footing, elements, friction, &state.contact, &state.modes);
-            sums.area += own.area;
-            sums.open += own.open;
-            sums.slip += own.slip;
+            let foundation_sums =
+                foundation.update(footing, elements, friction, &state.contact, &state.modes);
+            sums.area += foundation_sums.area;
+            sums.open += foundation_sums.open;
+            sums.slip += foundation_sums.slip;
             let lever = foundation.normal_force * footing.center[0];
             let moment = foundation.base_moment + footing.turn * lever;
             let forces = [foundation.base_shear, foundation.normal_force, moment];
-            total.iter_mut().zip(forces).for_each(|(sum, own)| *sum += own);
-            let own = [
+            for (sum, force) in total.iter_mut().zip(forces) {
+                *sum += force;
+            }
+            let components = [
                 &mut foundation.base_rotation,
                 &mut foundation.rotation_across,
                 &mut foundation.twist,
             ];
-            let rotations = scene.base.rotations(k, displacement);
-            own.into_iter().zip(rotations).for_each(|(own, rotation)| *own = rotation);
+            for (component, rotation) in
+                components.into_iter().zip(scene.base.rotations(k, displacement))
+            {
+                *component = rotation;
+            }
             foundation.derived.settlement = scene.base.settlement(k, displacement);
             if foundation.base_rotation.abs() > state.base_rotation.abs() {
                 state.base_rotation = foundation.base_rotation;

@@ -63,17 +63,21 @@ impl EnergyAccumulator {
         state: &State,
         compliant: bool,
     ) -> Result<Self, LawError> {
-        let (n, size) = (scene.model.coordinates, scene.layout().len());
+        let n = scene.model.coordinates;
+        let size = scene.layout().len();
         let mut jump = scene.static_state.gap.clone();
         jump.resize(size, 0.0);
         let mut means = vec![0.0; size];
         scene.base.means(&state.kinematics.displacement, &mut means);
-        jump.iter_mut().zip(&means).for_each(|(jump, moved)| *jump -= moved);
+        for (jump, displacement) in jump.iter_mut().zip(&means) {
+            *jump -= displacement;
+        }
         let compliance = |(e, &mode): (usize, &Mode)| scene.compliance(e, mode, &state.start);
         let compliant = if compliant { state.modes.as_slice() } else { &[] };
         let compliance = compliant.iter().enumerate().map(compliance).collect::<Result<_, _>>()?;
         let parts = scene.model.influence.parts();
-        let (mut inertia, mut mass) = (Vec::new(), Vec::new());
+        let mut inertia = Vec::new();
+        let mut mass = Vec::new();
         for part in parts {
             let products = part.vectors.each_ref().map(|vector| {
                 let vector = spread(vector, n);
@@ -86,7 +90,7 @@ impl EnergyAccumulator {
                 product.into_iter().enumerate().filter(|(_, m)| *m != 0.0).collect()
             }));
         }
-        let mut books = Self {
+        let mut accumulator = Self {
             energy_balance: EnergyBalance::default(),
             free_field: vec![0.0; size],
             soil_displacement: vec![0.0; size],
@@ -104,20 +108,22 @@ impl EnergyAccumulator {
                 lattice: scene.soil.scratch(),
             },
         };
-        books.begin(scene, structure, state);
-        Ok(books)
+        accumulator.begin(scene, structure, state);
+        Ok(accumulator)
     }
 
     /// Adds kinetic and strain energy of the motion at t = 0.
     fn begin(&mut self, scene: &Scene, structure: &dyn Structure, state: &State) {
         let Kinematics { displacement, velocity, .. } = &state.kinematics;
         let at_rest = self.static_energy(scene);
-        let (model, energy_balance) = (&scene.model, &mut self.energy_balance);
+        let model = &scene.model;
+        let energy_balance = &mut self.energy_balance;
         energy_balance.kinetic = 0.5 * model.mass.form(velocity, velocity);
         if !model.linear {
             let seen = scene.seen_at(&state.kinematics);
             if let Some((stored, dissipated)) = energies(scene, structure, &seen) {
-                (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
+                self.nonlinear_work = stored;
+                energy_balance.hysteresis = dissipated;
             }
         }
         let Scratch { vector, means, .. } = &mut self.scratch;
@@ -164,18 +170,18 @@ impl EnergyAccumulator {
             self.energy_balance.relative_input += dot(&forcing.load, &increment.displacement);
         }
         if !scene.model.linear {
-            self.book_nonlinear_force(data, increment);
+            self.add_nonlinear_force(data, increment);
         }
-        self.book_structure(data, increment);
-        self.book_relative_input(scene, forcing, increment);
-        self.book_contact(data, ground, increment);
-        self.see_largest(scene.time_step);
+        self.add_structure(data, increment);
+        self.add_relative_input(scene, forcing, increment);
+        self.add_contact(data, ground, increment);
+        self.update_largest(scene.time_step);
     }
 
     /// Updates the largest energy, including the energy of a structure that moves with the ground.
     ///
     /// The latter counts for a structure that the ground leaves behind, whose own energy is only rounding.
-    fn see_largest(&mut self, time_step: f64) {
+    fn update_largest(&mut self, time_step: f64) {
         let carried = self.mass.iter().zip(&self.translation).map(|(mass, increment)| {
             let energy = |k: usize| 0.5 * mass[k] * (increment[k] / time_step).powi(2);
             energy(0) + energy(1) + energy(2)
@@ -184,25 +190,29 @@ impl EnergyAccumulator {
     }
 
     /// Adds the energies of the nonlinear force: stored and dissipated, or its work if they are unknown.
-    fn book_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
+    fn add_nonlinear_force(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, structure, .. } = data;
-        let done = dot(&increment.force, &increment.total);
+        let work = dot(&increment.force, &increment.total);
         let Some((stored, dissipated)) = energies(scene, structure, &increment.seen) else {
-            self.nonlinear_work += done;
+            self.nonlinear_work += work;
             return;
         };
         let energy_balance = &mut self.energy_balance;
         energy_balance.algorithmic +=
-            done - (stored - self.nonlinear_work) - (dissipated - energy_balance.hysteresis);
-        (self.nonlinear_work, energy_balance.hysteresis) = (stored, dissipated);
+            work - (stored - self.nonlinear_work) - (dissipated - energy_balance.hysteresis);
+        self.nonlinear_work = stored;
+        energy_balance.hysteresis = dissipated;
     }
 
     /// Adds kinetic and strain energy, damping, and the dissipation of the time scheme.
-    fn book_structure(&mut self, data: StepData<'_>, increment: &Increment) {
+    fn add_structure(&mut self, data: StepData<'_>, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
-        let (c, model, dt) = (&scene.coefficients, &scene.model, scene.time_step);
+        let c = &scene.coefficients;
+        let model = &scene.model;
+        let dt = scene.time_step;
         let Kinematics { velocity: v0, acceleration: a0, .. } = &state.kinematics;
-        let (v1, energy_balance) = (&increment.velocity, &mut self.energy_balance);
+        let v1 = &increment.velocity;
+        let energy_balance = &mut self.energy_balance;
         let Scratch { vector, product, means, .. } = &mut self.scratch;
         let du = &increment.total;
         energy_balance.kinetic = 0.5 * model.mass.form(v1, v1);
@@ -223,7 +233,8 @@ impl EnergyAccumulator {
         }
         if !scene.conserves_energy {
             // Δu = Δt (v₀+v₁)/2 + r_d, a* = (v₁−v₀)/Δt + r_a, u* = (u₀+u₁)/2 + r_u
-            let (change, rest) = (&mut *vector, product);
+            let change = &mut *vector;
+            let rest = product;
             for i in 0..du.len() {
                 change[i] = (v1[i] - v0[i]) / dt;
                 rest[i] = du[i] - 0.5 * dt * (v0[i] + v1[i]);
@@ -249,7 +260,7 @@ impl EnergyAccumulator {
     /// Adds the work of −M R ÿ between the middles of the last two steps, and of the loads.
     ///
     /// ÿ = (Δy₁ − Δy₀)/Δt² at the time between the two steps.
-    fn book_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
+    fn add_relative_input(&mut self, scene: &Scene, forcing: &Forcing, increment: &Increment) {
         let square = scene.time_step * scene.time_step;
         for (k, inertia) in self.inertia.iter().enumerate() {
             let next = forcing.translations[k].increment;
@@ -269,14 +280,14 @@ impl EnergyAccumulator {
     ///
     /// The jump is taken from the contact problem: if the structure moved otherwise, its energies would not
     /// balance the work of the tractions.
-    fn book_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
+    fn add_contact(&mut self, data: StepData<'_>, ground: &dyn Ground, increment: &Increment) {
         let StepData { scene, state, forcing, .. } = data;
         let Scratch { means: soil, lattice, .. } = &mut self.scratch;
         let energy_balance = &mut self.energy_balance;
         soil.copy_from_slice(&forcing.history);
         scene.soil.multiply_add_with(lattice, &increment.traction, soil);
         let layout = scene.layout();
-        let doubt = ground.increment_error_bound();
+        let error_bound = ground.increment_error_bound();
         for i in 0..layout.len() {
             let [k, e] = layout.origin(i);
             let area = scene.base.area(i);
@@ -289,16 +300,17 @@ impl EnergyAccumulator {
             let free = forcing.free_traction.get(i).copied().unwrap_or(0.0);
             let moved = soil[i] - self.soil_displacement[i];
             energy_balance.soil += area * (change - free) * moved;
-            energy_balance.soil_error_bound += area * (change - free).abs() * doubt;
+            energy_balance.soil_error_bound += area * (change - free).abs() * error_bound;
             let mut elastic = 0.0;
             if !self.compliance.is_empty() {
-                let (c0, c1) = (self.compliance[e][k.min(1)], increment.compliance[e][k.min(1)]);
+                let c0 = self.compliance[e][k.min(1)];
+                let c1 = increment.compliance[e][k.min(1)];
                 let t0 = state.start.state(e).traction()[k];
                 let t1 = at_rest + change;
                 elastic = c0 * t0 - c1 * t1;
                 energy_balance.interface += 0.5 * area * (c1 * t1 * t1 - c0 * t0 * t0);
                 // The work −t₁ Δ(elastic jump) is Δ(½ c t²) plus this: the dissipation of the step for a spring
-                // that stays, the loss for a spring that goes.
+                // that stays, and the energy lost with a spring that is released.
                 let lag = 0.5 * area * (c0 * (t1 - t0).powi(2) + (c1 - c0) * t1 * t1);
                 if c0 == c1 {
                     energy_balance.algorithmic += lag;

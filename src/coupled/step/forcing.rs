@@ -43,20 +43,21 @@ pub(crate) struct Forcing {
 
 impl Forcing {
     pub(crate) fn new(scene: &Scene) -> Self {
-        let contact = || vec![0.0; scene.layout().len()];
-        let structure = || vec![0.0; scene.model.coordinates];
-        let walls = if scene.base.elements().has_walls() { contact() } else { Vec::new() };
+        let contact_zeros = vec![0.0; scene.layout().len()];
+        let structure_zeros = vec![0.0; scene.model.coordinates];
+        let walls =
+            if scene.base.elements().has_walls() { contact_zeros.clone() } else { Vec::new() };
         Self {
-            load: structure(),
+            load: structure_zeros.clone(),
             loaded: false,
-            free_field: contact(),
-            distortion: contact(),
-            history: contact(),
+            free_field: contact_zeros.clone(),
+            distortion: contact_zeros.clone(),
+            history: contact_zeros,
             free_traction: walls.clone(),
             impulse: walls,
             translations: vec![Translation::default(); scene.model.influence.parts().len()],
-            carried: structure(),
-            dragged: structure(),
+            carried: structure_zeros.clone(),
+            dragged: structure_zeros,
             dofs: vec![0.0; scene.model.dofs],
         }
     }
@@ -104,14 +105,14 @@ impl Forcing {
         }
         let within = state.time + scene.coefficients.load_fraction * scene.time_step;
         let at_start = &scene.static_state.load;
-        let own = scene
+        let has_structure_load = scene
             .model
             .load(structure, within, at_start, &mut self.dofs, &mut self.load)
             .map_err(StepError::part("load of the structure"))?;
-        if own {
+        if has_structure_load {
             StepError::check_finite("load of the structure", &self.dofs)?;
         }
-        self.loaded = own || scene.has_loads();
+        self.loaded = has_structure_load || scene.has_loads();
         match scene.add_loads(within, &mut self.load) {
             None => Ok(()),
             Some((index, value)) => {
@@ -124,8 +125,9 @@ impl Forcing {
 impl Forcing {
     /// Subtracts the effect of the free field's tractions in this step from the history.
     fn subtract_free_traction(&mut self, scene: &Scene) -> Result<(), StepError> {
-        let minus = self.impulse.iter_mut().zip(&self.free_traction);
-        minus.for_each(|(own, traction)| *own = -traction);
+        for (opposite, traction) in self.impulse.iter_mut().zip(&self.free_traction) {
+            *opposite = -traction;
+        }
         if !self.free_traction.is_empty() {
             StepError::check_finite("tractions of the free field", &self.free_traction)?;
             scene.soil.multiply_add(&self.impulse, &mut self.history);

@@ -73,17 +73,23 @@ impl Increment {
     /// Computes the displacement at the end of the step from Δu.
     pub(crate) fn reach(&mut self, state: &State) {
         let increments = state.kinematics.displacement.iter().zip(&self.displacement);
-        self.end.iter_mut().zip(increments).for_each(|(end, (u, du))| *end = u + du);
+        for (end, (u, du)) in self.end.iter_mut().zip(increments) {
+            *end = u + du;
+        }
     }
 
     /// Computes displacement, velocity and acceleration at the end, and the total Δu.
     pub(crate) fn follow(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
         self.reach(state);
         let increments = self.displacement.iter().zip(&forcing.carried);
-        self.total.iter_mut().zip(increments).for_each(|(total, (du, y))| *total = du + y);
+        for (total, (du, y)) in self.total.iter_mut().zip(increments) {
+            *total = du + y;
+        }
         let Kinematics { velocity, acceleration, .. } = &state.kinematics;
-        let (c, total) = (&scene.coefficients, &self.total);
-        let [new_velocity, new_acceleration] = [&mut self.velocity, &mut self.acceleration];
+        let c = &scene.coefficients;
+        let total = &self.total;
+        let new_velocity = &mut self.velocity;
+        let new_acceleration = &mut self.acceleration;
         SchemeCoefficients::combine(c.new_velocity, total, velocity, acceleration, new_velocity);
         let coefficients = c.new_acceleration;
         SchemeCoefficients::combine(coefficients, total, velocity, acceleration, new_acceleration);

@@ -8,7 +8,7 @@
 //! | B | element means of the base displacement |
 //! | R | influence vectors |
 
-use super::modal_loops::{answer, free};
+use super::modal_loops::{apply_tractions, free_increment};
 use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::Operators;
@@ -50,7 +50,8 @@ impl LinearStep {
     ///
     /// Loads, inertia and damping of a structure that moves with y, and its stiffness forces so far.
     pub(crate) fn predict(&mut self, StepData { scene, state, forcing, .. }: StepData<'_>) {
-        let (c, model) = (&scene.coefficients, &scene.model);
+        let c = &scene.coefficients;
+        let model = &scene.model;
         let Kinematics { displacement: u, velocity: v, acceleration: a, .. } = &state.kinematics;
         let carried = &forcing.carried;
         let Self { known, vector, means, .. } = self;
@@ -76,7 +77,8 @@ impl LinearStep {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
-        let (scheme, kinematics) = (&scene.coefficients, &state.kinematics);
+        let scheme = &scene.coefficients;
+        let kinematics = &state.kinematics;
         let Some(matrices) = scene.model.diagonals() else {
             self.predict(data);
             increment.displacement.copy_from_slice(&self.known);
@@ -84,13 +86,20 @@ impl LinearStep {
             increment.follow(data);
             return Ok(());
         };
-        free(scheme, matrices, self.operators.reciprocals(), kinematics, forcing, increment);
+        free_increment(
+            scheme,
+            matrices,
+            self.operators.reciprocals(),
+            kinematics,
+            forcing,
+            increment,
+        );
         self.solve_tractions(data, increment)?;
         let Self { operators, contact, vector, .. } = self;
         vector.fill(0.0);
         scene.base.add_forces(1.0, &contact.traction, vector);
         let inverse = operators.reciprocals();
-        answer(scheme, inverse, vector, kinematics, &forcing.carried, increment);
+        apply_tractions(scheme, inverse, vector, kinematics, &forcing.carried, increment);
         Ok(())
     }
 
@@ -103,8 +112,12 @@ impl LinearStep {
         self.operators.solve(&mut increment.displacement);
         increment.reach(data.state);
         self.solve_tractions(data, increment)?;
-        let (columns, traction) = (&self.operators.columns, &self.contact.traction);
-        transposed_multiply_add(columns, -1.0, traction, &mut increment.displacement);
+        transposed_multiply_add(
+            &self.operators.columns,
+            -1.0,
+            &self.contact.traction,
+            &mut increment.displacement,
+        );
         Ok(())
     }
 
@@ -119,7 +132,8 @@ impl LinearStep {
         scene.base.means(&increment.end, means);
         let mut length_scale = 0.0_f64;
         for (i, jump) in free_jump.iter_mut().enumerate() {
-            let (ground, base) = (forcing.distortion[i] + forcing.history[i], means[i]);
+            let ground = forcing.distortion[i] + forcing.history[i];
+            let base = means[i];
             *jump = ground - base;
             length_scale = length_scale.max(ground.abs()).max(base.abs());
         }
@@ -143,8 +157,8 @@ impl LinearStep {
             frictionless: false,
         };
         increment.modes.copy_from_slice(&state.modes);
-        let (trials, method) = search.solve(contact, &input, &mut increment.modes)?;
-        (increment.trials, increment.method) = (trials, method);
+        (increment.trials, increment.method) =
+            search.solve(contact, &input, &mut increment.modes)?;
         increment.stand_in = contact.stand_in;
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);

@@ -20,8 +20,8 @@ use crate::coupled::step::increment::Increment;
 use crate::linalg::matrix::Diagonals;
 use crate::linalg::{Simd, WithSimd, vectorized};
 
-/// Computes Δu and u₁ with the tractions held at their static values.
-pub(crate) fn free(
+/// Computes Δu and u₁ with the tractions fixed at their static values.
+pub(crate) fn free_increment(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
     inverse: &[f64],
@@ -29,12 +29,13 @@ pub(crate) fn free(
     forcing: &Forcing,
     increment: &mut Increment,
 ) {
-    let [out, end] = [&mut increment.displacement, &mut increment.end].map(Vec::as_mut_slice);
-    vectorized(Free { scheme, matrices, inverse, kinematics, forcing, out, end });
+    let out = increment.displacement.as_mut_slice();
+    let end = increment.end.as_mut_slice();
+    vectorized(FreeIncrement { scheme, matrices, inverse, kinematics, forcing, out, end });
 }
 
 /// Subtracts the response to the tractions' `force` from Δu, and computes the motion at the end.
-pub(crate) fn answer(
+pub(crate) fn apply_tractions(
     scheme: &SchemeCoefficients,
     inverse: &[f64],
     force: &[f64],
@@ -42,10 +43,10 @@ pub(crate) fn answer(
     carried: &[f64],
     increment: &mut Increment,
 ) {
-    vectorized(Answer { scheme, inverse, force, kinematics, carried, increment });
+    vectorized(ApplyTractions { scheme, inverse, force, kinematics, carried, increment });
 }
 
-struct Free<'a> {
+struct FreeIncrement<'a> {
     scheme: &'a SchemeCoefficients,
     matrices: Diagonals<'a>,
     inverse: &'a [f64],
@@ -55,20 +56,20 @@ struct Free<'a> {
     end: &'a mut [f64],
 }
 
-impl WithSimd for Free<'_> {
+impl WithSimd for FreeIncrement<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         let Self { scheme, matrices, inverse, kinematics, forcing, out, end } = self;
-        balance(scheme, matrices, kinematics, forcing, out);
-        release(inverse, &kinematics.displacement, out, end);
+        right_hand_side(scheme, matrices, kinematics, forcing, out);
+        divide_by_stiffness(inverse, &kinematics.displacement, out, end);
     }
 }
 
 /// Right-hand side of the equation of motion, as `LinearStep::predict` computes it in degrees of freedom.
 #[inline(always)]
-fn balance(
+fn right_hand_side(
     scheme: &SchemeCoefficients,
     matrices: Diagonals<'_>,
     kinematics: &Kinematics,
@@ -77,17 +78,21 @@ fn balance(
 ) {
     let n = out.len();
     let Diagonals { mass, damping, stiffness } = matrices;
-    let (m, k) = (&mass[..n], &stiffness[..n]);
-    let (u, v, a) =
-        (&kinematics.displacement[..n], &kinematics.velocity[..n], &kinematics.acceleration[..n]);
-    let (load, carried) = (&forcing.load[..n], &forcing.carried[..n]);
+    let m = &mass[..n];
+    let k = &stiffness[..n];
+    let u = &kinematics.displacement[..n];
+    let v = &kinematics.velocity[..n];
+    let a = &kinematics.acceleration[..n];
+    let load = &forcing.load[..n];
+    let carried = &forcing.carried[..n];
     for j in 0..n {
         let acceleration = SchemeCoefficients::apply(scheme.acceleration, carried[j], v[j], a[j]);
         let displacement = u[j] + SchemeCoefficients::apply(scheme.displacement, 0.0, v[j], a[j]);
         out[j] = load[j] - m[j] * acceleration - k[j] * displacement;
     }
     if let Some(d) = damping {
-        let (d, dragged) = (&d[..n], &forcing.dragged[..n]);
+        let d = &d[..n];
+        let dragged = &forcing.dragged[..n];
         for j in 0..n {
             let velocity = SchemeCoefficients::apply(scheme.velocity, carried[j], v[j], a[j]);
             out[j] -= d[j] * (velocity - dragged[j]);
@@ -97,16 +102,18 @@ fn balance(
 
 /// Computes Δu from the right-hand side, and u₁.
 #[inline(always)]
-fn release(inverse: &[f64], u: &[f64], out: &mut [f64], end: &mut [f64]) {
+fn divide_by_stiffness(inverse: &[f64], u: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();
-    let (inverse, u, end) = (&inverse[..n], &u[..n], &mut end[..n]);
+    let inverse = &inverse[..n];
+    let u = &u[..n];
+    let end = &mut end[..n];
     for j in 0..n {
         out[j] *= inverse[j];
         end[j] = u[j] + out[j];
     }
 }
 
-struct Answer<'a> {
+struct ApplyTractions<'a> {
     scheme: &'a SchemeCoefficients,
     inverse: &'a [f64],
     force: &'a [f64],
@@ -115,7 +122,7 @@ struct Answer<'a> {
     increment: &'a mut Increment,
 }
 
-impl WithSimd for Answer<'_> {
+impl WithSimd for ApplyTractions<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -123,7 +130,7 @@ impl WithSimd for Answer<'_> {
         let Self { scheme, inverse, force, kinematics, carried, increment } = self;
         let Increment { displacement, end, total, velocity, acceleration, .. } = increment;
         apply_force(inverse, force, displacement, end);
-        follow(scheme, kinematics, carried, displacement, total, [velocity, acceleration]);
+        follow(scheme, kinematics, carried, displacement, total, velocity, acceleration);
     }
 }
 
@@ -131,11 +138,13 @@ impl WithSimd for Answer<'_> {
 #[inline(always)]
 fn apply_force(inverse: &[f64], force: &[f64], out: &mut [f64], end: &mut [f64]) {
     let n = out.len();
-    let (inverse, force, end) = (&inverse[..n], &force[..n], &mut end[..n]);
+    let inverse = &inverse[..n];
+    let force = &force[..n];
+    let end = &mut end[..n];
     for j in 0..n {
-        let taken = inverse[j] * force[j];
-        out[j] -= taken;
-        end[j] -= taken;
+        let response = inverse[j] * force[j];
+        out[j] -= response;
+        end[j] -= response;
     }
 }
 
@@ -147,12 +156,16 @@ fn follow(
     carried: &[f64],
     out: &[f64],
     total: &mut [f64],
-    [velocity, acceleration]: [&mut [f64]; 2],
+    velocity: &mut [f64],
+    acceleration: &mut [f64],
 ) {
     let n = out.len();
-    let (v, a, carried) = (&kinematics.velocity[..n], &kinematics.acceleration[..n], &carried[..n]);
-    let (total, velocity, acceleration) =
-        (&mut total[..n], &mut velocity[..n], &mut acceleration[..n]);
+    let v = &kinematics.velocity[..n];
+    let a = &kinematics.acceleration[..n];
+    let carried = &carried[..n];
+    let total = &mut total[..n];
+    let velocity = &mut velocity[..n];
+    let acceleration = &mut acceleration[..n];
     for j in 0..n {
         let du = out[j] + carried[j];
         total[j] = du;

@@ -12,21 +12,22 @@ use crate::linalg::largest;
 use crate::structure::Tangent;
 
 /// Largest number of iterations of a step.
-const ITERATIONS: usize = 40;
+const MAX_NEWTON_ITERATIONS: usize = 40;
 /// Out-of-balance force at which the iteration ends, relative to the largest force.
-const TOLERANCE: f64 = 1e-12;
+const RESIDUAL_TOLERANCE: f64 = 1e-12;
 /// Out-of-balance force that is accepted if the iteration stagnates.
-const ENOUGH: f64 = 1e3 * TOLERANCE;
+const STAGNATION_TOLERANCE: f64 = 1e3 * RESIDUAL_TOLERANCE;
 /// Rounding errors of a displacement, in units of its last digit, that may cause a force.
-const ROUNDINGS: f64 = 32.0;
+const DISPLACEMENT_ROUNDINGS: f64 = 32.0;
 /// Number of iterations without a smaller out-of-balance force that counts as a cycle.
-const CYCLE: usize = 15;
+const MAX_STAGNANT_ITERATIONS: usize = 15;
 
-/// Largest number of iterations of a stage of the continuation, and of all its stages.
-const STAGE_ITERATIONS: usize = 8;
-const MOST_ITERATIONS: usize = 2000;
+/// Largest number of iterations of a stage of the continuation.
+const MAX_STAGE_ITERATIONS: usize = 8;
+/// Largest number of iterations of all stages of the continuation.
+const MAX_TOTAL_ITERATIONS: usize = 2000;
 /// Shortest stage, as a fraction of the initial out-of-balance force.
-const SHORTEST_STAGE: f64 = 1e-6;
+const MIN_STAGE_FRACTION: f64 = 1e-6;
 
 /// Scratch of the iteration.
 pub(crate) struct Newton {
@@ -50,14 +51,14 @@ pub(crate) struct Newton {
 
 impl Newton {
     pub(crate) fn new(dofs: usize) -> Self {
-        let zero = || vec![0.0; dofs];
+        let zeros = vec![0.0; dofs];
         Self {
             tangent: Tangent::new(dofs),
-            guess: zero(),
-            linearised: zero(),
-            seen: zero(),
-            reached: zero(),
-            open: zero(),
+            guess: zeros.clone(),
+            linearised: zeros.clone(),
+            seen: zeros.clone(),
+            reached: zeros.clone(),
+            open: zeros,
             scale: 0.0,
             iterations: 0,
             trials: 0,
@@ -80,21 +81,26 @@ impl Newton {
             *guess = v * scene.time_step - carried;
         }
         self.evaluate(linear, data, increment)?;
-        let (mut residual, mut least, mut waited) = (f64::INFINITY, f64::INFINITY, 0);
+        let mut residual = f64::INFINITY;
+        let mut smallest_residual = f64::INFINITY;
+        let mut stagnant_iterations = 0;
         self.iterations = 0;
-        for iteration in 0..ITERATIONS {
+        for iteration in 0..MAX_NEWTON_ITERATIONS {
             residual = self.iterate(linear, data, 0.0, increment)?;
             // The first solution only predicts: its tangent may belong to the previous step.
-            if residual <= TOLERANCE && (iteration > 0 || residual == 0.0) {
+            if residual <= RESIDUAL_TOLERANCE && (iteration > 0 || residual == 0.0) {
                 break;
             }
-            waited = if residual < least { 0 } else { waited + 1 };
-            least = least.min(residual);
-            if waited >= CYCLE && least > ENOUGH {
+            stagnant_iterations =
+                if residual < smallest_residual { 0 } else { stagnant_iterations + 1 };
+            smallest_residual = smallest_residual.min(residual);
+            if stagnant_iterations >= MAX_STAGNANT_ITERATIONS
+                && smallest_residual > STAGNATION_TOLERANCE
+            {
                 break;
             }
         }
-        if residual.is_nan() || residual > ENOUGH.max(self.rounding(linear)) {
+        if residual.is_nan() || residual > STAGNATION_TOLERANCE.max(self.rounding(linear)) {
             self.continuation(linear, data, residual, increment)?;
         }
         (increment.trials, increment.method) = (self.trials, self.method);
@@ -114,7 +120,10 @@ impl Newton {
     fn rounding(&self, linear: &LinearStep) -> f64 {
         let entries = linear.operators.tangent.entries();
         let forces = entries.map(|(_, j, stiffness)| stiffness * self.seen[j]);
-        ROUNDINGS * f64::EPSILON * forces.fold(0.0_f64, |most, f| most.max(f.abs())) / self.scale
+        DISPLACEMENT_ROUNDINGS
+            * f64::EPSILON
+            * forces.fold(0.0_f64, |largest, f| largest.max(f.abs()))
+            / self.scale
     }
 
     /// Follows the solution from the last iterate while its out-of-balance force is removed in stages.
@@ -134,27 +143,29 @@ impl Newton {
             *open = increment.force[i] - self.linearised[i];
         }
         self.reached.copy_from_slice(&self.guess);
-        let (mut left, mut stage) = (1.0, 0.5);
-        while left > 0.0 {
-            let aim = if stage < left { left - stage } else { 0.0 };
-            let wanted = if aim > 0.0 { ENOUGH } else { TOLERANCE };
+        let mut remaining = 1.0;
+        let mut stage = 0.5;
+        while remaining > 0.0 {
+            let aim = if stage < remaining { remaining - stage } else { 0.0 };
+            let tolerance = if aim > 0.0 { STAGNATION_TOLERANCE } else { RESIDUAL_TOLERANCE };
             let mut residual = f64::INFINITY;
-            for _ in 0..STAGE_ITERATIONS {
+            for _ in 0..MAX_STAGE_ITERATIONS {
                 residual = self.iterate(linear, data, aim, increment)?;
-                if residual <= wanted {
+                if residual <= tolerance {
                     break;
                 }
             }
-            if residual <= ENOUGH {
+            if residual <= STAGNATION_TOLERANCE {
                 self.reached.copy_from_slice(&self.guess);
-                (left, stage) = (aim, 2.0 * stage);
+                remaining = aim;
+                stage *= 2.0;
                 continue;
             }
-            stage = 0.5 * stage.min(left);
-            if stage < SHORTEST_STAGE || self.iterations > MOST_ITERATIONS {
+            stage = 0.5 * stage.min(remaining);
+            if stage < MIN_STAGE_FRACTION || self.iterations > MAX_TOTAL_ITERATIONS {
                 let modes = increment.modes.iter().map(|mode| mode.word()).collect();
                 let iterations = self.iterations;
-                return Err(StepError::Newton { iterations, residual: left * began, modes });
+                return Err(StepError::Newton { iterations, residual: remaining * began, modes });
             }
             self.guess.copy_from_slice(&self.reached);
             self.evaluate(linear, data, increment)?;
@@ -162,7 +173,7 @@ impl Newton {
         Ok(())
     }
 
-    /// Solves the step with the force linearised about the guess, and the fraction `left` of the open force.
+    /// Solves the step with the force linearised about the guess, and the fraction `remaining` of the open force.
     ///
     /// The open force acts as an external force. The increment becomes the next guess. Returns the out-of-balance
     /// force relative to the largest force.
@@ -170,7 +181,7 @@ impl Newton {
         &mut self,
         linear: &mut LinearStep,
         data: StepData<'_>,
-        left: f64,
+        remaining: f64,
         increment: &mut Increment,
     ) -> Result<f64, StepError> {
         let StepData { scene, structure, .. } = data;
@@ -181,7 +192,8 @@ impl Newton {
             .map_err(StepError::part("tangent of the structure"))?;
         let tangent = &self.tangent.matrix;
         if !tangent.entries().eq(linear.operators.tangent.entries()) {
-            let (model, base) = (&scene.model, &scene.base);
+            let model = &scene.model;
+            let base = &scene.base;
             let factor = Factor::of_dofs(model, &scene.coefficients, tangent)
                 .map_err(StepError::part("tangent of the structure"))?;
             let tangent = tangent.clone();
@@ -197,9 +209,13 @@ impl Newton {
         for (i, du) in increment.displacement.iter_mut().enumerate() {
             *du = linear.known[i] - self.linearised[i];
         }
-        if left > 0.0 {
+        if remaining > 0.0 {
             let open = self.open.iter();
-            increment.displacement.iter_mut().zip(open).for_each(|(du, open)| *du += left * open);
+            increment
+                .displacement
+                .iter_mut()
+                .zip(open)
+                .for_each(|(du, open)| *du += remaining * open);
         }
         linear.solve_contact(data, increment)?;
         self.trials += increment.trials;
@@ -236,8 +252,9 @@ impl Newton {
             .map(|y| [0, 1, 2].map(|k| y.displacement[k] - (1.0 - c[0]) * y.increment[k]));
         scene.seen_by_force(&mut self.seen, &mut linear.means, translations);
         increment.force.fill(0.0);
-        if let Some(own) = structure.nonlinear() {
-            own.force(&self.seen, &mut increment.force)
+        if let Some(nonlinear) = structure.nonlinear() {
+            nonlinear
+                .force(&self.seen, &mut increment.force)
                 .map_err(StepError::part("nonlinear force of the structure"))?;
         }
         for (force, at_rest) in increment.force.iter_mut().zip(&scene.static_state.force) {

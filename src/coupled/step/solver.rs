@@ -11,7 +11,7 @@ use crate::error::StepError;
 use crate::linalg::{largest, magnitude};
 
 /// Change of a degree of freedom in a step beyond which a run is lost, in any units.
-const RUNAWAY: f64 = 1e15;
+const MAX_STEP_CHANGE: f64 = 1e15;
 
 /// The linear step, and Newton's method around it for a nonlinear structure.
 pub(crate) struct Solver {
@@ -58,10 +58,10 @@ impl Solver {
 /// Error for an increment that is not finite or too large.
 fn check(increment: &[f64]) -> Result<(), StepError> {
     // A sum of magnitudes is not finite if one of them is not.
-    if magnitude(increment) <= RUNAWAY {
+    if magnitude(increment) <= MAX_STEP_CHANGE {
         return Ok(());
     }
     StepError::check_finite("displacement of the structure", increment)?;
     let change = largest(increment);
-    if change > RUNAWAY { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
+    if change > MAX_STEP_CHANGE { Err(StepError::Runaway { increment: change }) } else { Ok(()) }
 }
