@@ -105,7 +105,7 @@ impl Standing<'_> {
                 // Springs without force are no equilibrium yet if K u is only rounding.
                 let rest = imbalance(assembled, load, &state.traction);
                 if rest <= EQUILIBRIUM {
-                    state.stand_in = solver.stand_in.or(state.stand_in);
+                    state.stand_in = solver.substituted_friction.or(state.stand_in);
                     shared.replace(compliance.filter(is_first));
                     state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));

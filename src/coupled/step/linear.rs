@@ -145,7 +145,7 @@ impl LinearStep {
         increment.modes.copy_from_slice(&state.modes);
         let (trials, method) = search.solve(contact, &input, &mut increment.modes)?;
         (increment.trials, increment.method) = (trials, method);
-        increment.stand_in = contact.stand_in;
+        increment.stand_in = contact.substituted_friction;
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
         Ok(())
