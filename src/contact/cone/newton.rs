@@ -12,8 +12,6 @@ use super::system::System;
 
 /// Largest number of iterations.
 const MAX_NEWTON_ITERATIONS: usize = 15;
-/// Number of elements from which a factorization takes longer than several sweeps.
-pub(super) const MANY_ELEMENTS: usize = 64;
 /// With many elements: factor by which an iteration must reduce the residual, and the number of iterations that may not.
 const MIN_REDUCTION: f64 = 0.5;
 const MAX_SLOW_ITERATIONS: usize = 2;

@@ -21,13 +21,14 @@ use super::blocks::NearFieldBlocks;
 pub(super) use super::bounds::{Bounds, SUBSTITUTED_FRICTION};
 use super::group::{Group, LANE_COUNT};
 use super::low_rank::LowRank;
-use super::newton::MANY_ELEMENTS;
 use super::status::{Status, Tangential};
 use super::wide::DenseLattice;
 use crate::linalg::{Simd, WithSimd, dense_multiply_add, vectorized};
 
 /// Residual at which a solution is accepted, relative to the largest force.
 const RELATIVE_RESIDUAL_TOLERANCE: f64 = 1e-11;
+/// Number of elements from which a factorization takes longer than several sweeps.
+const MANY_ELEMENTS: usize = 64;
 
 /// Contact status of an element with infinite friction.
 #[derive(Debug, Clone, Copy, PartialEq)]
