@@ -1,7 +1,7 @@
 //! Contact problem for codes with a time integrator of their own.
 
 use super::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch, SearchMethod};
-use crate::error::{Error, Result, StepError, finite, positive, same_length};
+use crate::error::{Error, Result, finite, positive, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{
     ContactState, InterfaceLaw, Mode, PreviousContact, PreviousContacts, check_list,
@@ -125,10 +125,8 @@ impl ContactProblem {
         let count = delassus.len().isqrt() / COMPONENTS_IN_PLANE;
         let layout = ContactLayout::new(COMPONENTS_IN_PLANE, count);
         if count == 0 || layout.square() != delassus.len() {
-            let (quantity, needed) = (
-                "Delassus operator",
-                ContactLayout::new(COMPONENTS_IN_PLANE, count.max(1)).square(),
-            );
+            let quantity = "Delassus operator";
+            let needed = ContactLayout::new(COMPONENTS_IN_PLANE, count.max(1)).square();
             return Err(Error::Size { quantity, found: delassus.len(), needed });
         }
         check_list(&laws, count)?;
@@ -226,9 +224,8 @@ impl ContactProblem {
         };
         let step = self.steps + 1;
         let time = step as f64 * start.time_step();
-        let failed = |source: StepError| Error::Step { step, time, source };
         let found = self.search.solve(&mut self.solver, &input, &mut self.modes);
-        let (trials, method) = found.map_err(failed)?;
+        let (trials, method) = found.map_err(|source| Error::Step { step, time, source })?;
         self.steps = step;
         Ok(ContactSolution {
             traction: &self.solver.traction,

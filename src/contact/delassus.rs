@@ -74,7 +74,8 @@ impl Delassus {
             return whole;
         }
         let mut rows = vec![0.0; columns.len()];
-        let (mut unit, mut column) = (vec![0.0; rank], vec![0.0; size]);
+        let mut unit = vec![0.0; rank];
+        let mut column = vec![0.0; size];
         for j in 0..rank {
             unit[j] = 1.0;
             means(&unit, &mut column);
@@ -125,11 +126,11 @@ impl Delassus {
         let (Some(soil), Some(Split { means, columns })) = (&self.soil, &self.split) else {
             return dense_multiply_add(&self.values, 1.0, traction, jump);
         };
-        let mut answer = [0.0; MAX_STRUCTURE_RANK];
-        let answer = &mut answer[..columns.len() / traction.len().max(1)];
+        let mut amplitudes = [0.0; MAX_STRUCTURE_RANK];
+        let amplitudes = &mut amplitudes[..columns.len() / traction.len().max(1)];
         soil.multiply_add(traction, jump);
-        transposed_multiply_add(columns, 1.0, traction, answer);
-        dense_multiply_add(means, 1.0, answer, jump);
+        transposed_multiply_add(columns, 1.0, traction, amplitudes);
+        dense_multiply_add(means, 1.0, amplitudes, jump);
     }
 }
 
@@ -139,7 +140,8 @@ mod tests {
 
     #[test]
     fn both_ways_are_one_product() {
-        let (size, rank) = (40, 3);
+        let size = 40;
+        let rank = 3;
         let mut soil = vec![0.0; size * size];
         for i in 0..size {
             for j in i.saturating_sub(1)..(i + 2).min(size) {
@@ -163,7 +165,8 @@ mod tests {
         });
         assert!(split.split.is_some());
         let traction: Vec<f64> = (0..size).map(|k| (3.0 * k as f64).sin()).collect();
-        let [mut a, mut b] = [(); 2].map(|()| vec![1.0; size]);
+        let mut a = vec![1.0; size];
+        let mut b = a.clone();
         whole.multiply_add(&traction, &mut a);
         split.multiply_add(&traction, &mut b);
         for (a, b) in a.iter().zip(&b) {

@@ -4,7 +4,7 @@ use super::problem::{ContactInput, ContactSolver};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
-/// Solves element `e` with the tractions of the others fixed, and returns its mode.
+/// Solves element `e` with all other tractions fixed, and returns its mode.
 pub(super) fn local_mode(
     solver: &mut ContactSolver,
     input: &ContactInput<'_>,
@@ -12,14 +12,17 @@ pub(super) fn local_mode(
     current: Mode,
 ) -> Mode {
     let layout = ContactLayout::new(COMPONENTS_IN_PLANE, solver.states.len());
-    let (size, [n, t]) = (layout.len(), layout.places(e));
-    let row = |i: usize| &input.delassus[i * size..(i + 1) * size];
-    let others = |i: usize| {
-        let all: f64 = crate::linalg::dot(row(i), &solver.traction);
-        input.free_jump[i] + all - row(i)[n] * solver.traction[n] - row(i)[t] * solver.traction[t]
-    };
-    let jump = [others(n), others(t)];
-    let block = [[row(n)[n], row(n)[t]], [row(t)[n], row(t)[t]]];
+    let size = layout.len();
+    let [n, t] = layout.places(e);
+    let rows = [n, t].map(|i| &input.delassus[i * size..(i + 1) * size]);
+    // Jump without the change of traction of this element.
+    let mut jump = [0.0; 2];
+    for ((jump, row), i) in jump.iter_mut().zip(rows).zip([n, t]) {
+        let all = crate::linalg::dot(row, &solver.traction);
+        *jump =
+            input.free_jump[i] + all - row[n] * solver.traction[n] - row[t] * solver.traction[t];
+    }
+    let block = rows.map(|row| [row[n], row[t]]);
     let fixed = [input.static_traction[n], input.static_traction[t]];
     let scale = fixed[0].abs().max(jump[0].abs() / block[0][0].abs()).max(fixed[1].abs());
     let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };

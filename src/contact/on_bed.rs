@@ -55,9 +55,9 @@ impl OnBed {
     ) -> Option<Self> {
         let size = soil.len();
         let diagonal: Vec<f64> =
-            structure.diagonal.iter().zip(&areas).map(|(own, area)| own / area).collect();
-        let whole = |i: usize| soil[i] / areas[i] + diagonal[i];
-        let tolerance = MODE_TOLERANCE * (0..size).map(whole).fold(0.0, f64::max);
+            structure.diagonal.iter().zip(&areas).map(|(entry, area)| entry / area).collect();
+        let max_diagonal = (0..size).map(|i| soil[i] / areas[i] + diagonal[i]).fold(0.0, f64::max);
+        let tolerance = MODE_TOLERANCE * max_diagonal;
         let factors = pivoted_cholesky(diagonal, tolerance, max_rank, |pivot, column| {
             (structure.column)(pivot, column);
             for value in column {
@@ -67,14 +67,18 @@ impl OnBed {
         let rank = factors.len();
         let modes = (0..size).flat_map(|i| factors.iter().map(move |factor| factor[i])).collect();
         let found = Self { soil: soil.to_vec(), areas, modes, rank };
-        let (mut expected, mut product) = (vec![0.0; size], vec![0.0; size]);
+        let mut expected = vec![0.0; size];
+        let mut product = vec![0.0; size];
         let traction: Vec<f64> =
             found.areas.iter().enumerate().map(|(i, area)| (1.0 + i as f64).sin() / area).collect();
         (structure.product)(&traction, &mut expected);
         found.add_modes(&traction, &mut product);
-        let largest = expected.iter().fold(0.0, |largest: f64, own| largest.max(own.abs()));
-        let is_near = |(a, b): (&f64, &f64)| (a - b).abs() <= PRODUCT_TOLERANCE * largest;
-        expected.iter().zip(&product).all(is_near).then_some(found)
+        let largest = expected.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
+        let is_symmetric = expected
+            .iter()
+            .zip(&product)
+            .all(|(expected, found)| (expected - found).abs() <= PRODUCT_TOLERANCE * largest);
+        is_symmetric.then_some(found)
     }
 
     /// Soil's step compliance of a contact component, m/Pa.
@@ -122,13 +126,16 @@ impl OnBed {
     ///
     /// (D A⁻¹ + L Lᵀ)⁻¹ = S − S L (1 + Lᵀ S L)⁻¹ Lᵀ S with S = A D⁻¹ (Woodbury 1950).
     pub(super) fn condition(&self) -> f64 {
-        let (size, rank) = (self.soil.len(), self.rank);
+        let size = self.soil.len();
+        let rank = self.rank;
         let stiffness: Vec<f64> = self.areas.iter().zip(&self.soil).map(|(a, d)| a / d).collect();
         let mut matrix = vec![0.0; rank * rank];
         for (i, stiffness) in stiffness.iter().enumerate() {
             let modes = self.modes(i);
-            for (row, own) in matrix.chunks_exact_mut(rank.max(1)).zip(modes) {
-                row.iter_mut().zip(modes).for_each(|(sum, other)| *sum += stiffness * own * other);
+            for (row, entry) in matrix.chunks_exact_mut(rank.max(1)).zip(modes) {
+                row.iter_mut()
+                    .zip(modes)
+                    .for_each(|(sum, other)| *sum += stiffness * entry * other);
             }
         }
         matrix.iter_mut().step_by(rank + 1).for_each(|entry| *entry += 1.0);
@@ -136,9 +143,6 @@ impl OnBed {
         if !factor.factor(&matrix, rank) {
             return f64::INFINITY;
         }
-        let scale = |x: &mut [f64], factors: &[f64]| {
-            x.iter_mut().zip(factors).for_each(|(x, factor)| *x *= factor);
-        };
         let reciprocals: Vec<f64> = self.areas.iter().map(|area| area.recip()).collect();
         let diagonal: Vec<f64> = (0..size).map(|i| self.diagonal(i)).collect();
         // Wᵀ is A W A⁻¹.
@@ -172,6 +176,13 @@ impl OnBed {
             }
         };
         condition_by_products(&diagonal, multiply, solve)
+    }
+}
+
+/// Multiplies each value by its factor.
+fn scale(values: &mut [f64], factors: &[f64]) {
+    for (value, factor) in values.iter_mut().zip(factors) {
+        *value *= factor;
     }
 }
 
@@ -209,18 +220,23 @@ mod tests {
     fn product_diagonal_and_condition_are_those_of_all_entries() {
         let mut random = Random(5);
         for case in 0..200 {
-            let (size, rank) = (12 + case % 9, case % 5);
+            let size = 12 + case % 9;
+            let rank = case % 5;
             let (lists, part) = random_parts(&mut random, size, rank);
             let found = on_bed(&lists, &part, 5).unwrap();
             assert_eq!(found.rank(), rank);
             let mut whole = part.clone();
             (0..size).for_each(|i| whole[i * (size + 1)] += lists[0][i]);
             let traction: Vec<f64> = (0..size).map(|_| random.within(-1.0, 1.0)).collect();
-            let [mut own, mut expected] = [vec![1.0; size], vec![1.0; size]];
-            found.multiply_add(&traction, &mut own);
+            let mut product = vec![1.0; size];
+            let mut expected = vec![1.0; size];
+            found.multiply_add(&traction, &mut product);
             dense_multiply_add(&whole, 1.0, &traction, &mut expected);
             for i in 0..size {
-                assert!((own[i] - expected[i]).abs() < 1e-12, "{case}: {own:?} {expected:?}");
+                assert!(
+                    (product[i] - expected[i]).abs() < 1e-12,
+                    "{case}: {product:?} {expected:?}"
+                );
                 assert!((found.diagonal(i) - whole[i * (size + 1)]).abs() < 1e-12, "{case}");
             }
             let ratio = found.condition() / dense_condition(&whole, size);
@@ -233,7 +249,7 @@ mod tests {
         let mut random = Random(6);
         let (lists, part) = random_parts(&mut random, 15, 4);
         assert!(on_bed(&lists, &part, 3).is_none());
-        let negative: Vec<f64> = part.iter().map(|own| -own).collect();
+        let negative: Vec<f64> = part.iter().map(|entry| -entry).collect();
         assert!(on_bed(&lists, &negative, 15).is_none());
         // A part that is not symmetric per force.
         let mut skew = part;

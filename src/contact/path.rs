@@ -20,19 +20,19 @@ use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
 
 /// Largest number of mode changes per element.
-const CHANGES: usize = 60;
+const MAX_CHANGES_PER_ELEMENT: usize = 60;
 /// λ below which the path counts as broken.
-const LOST: f64 = -1e4;
+const MIN_PATH_PARAMETER: f64 = -1e4;
 /// Number of attempts that begin with elements about equally far open, or about equally pressed. Their
 /// elements change mode in about the same order. In later attempts the elements differ by up to the factor
-/// `WIDEST`.
-const EVEN: usize = 8;
-const WIDEST: f64 = 1e3;
+/// `MAX_SPREAD_FACTOR`.
+const EVEN_ATTEMPTS: usize = 8;
+const MAX_SPREAD_FACTOR: f64 = 1e3;
 /// The golden ratio minus one.
-const GOLDEN: f64 = 0.618_033_988_749_895;
+const GOLDEN_FRACTION: f64 = 0.618_033_988_749_895;
 /// Smallest advances of λ that count. A change of mode is located only within the laws' tolerances, so the
 /// next mode may become admissible a little later.
-const STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
+const MIN_PATH_STEPS: [f64; 4] = [1e-13, 1e-11, 1e-9, 1e-7];
 
 /// Workspace for following a path.
 pub(crate) struct Path {
@@ -41,6 +41,12 @@ pub(crate) struct Path {
     /// States at the current point, and their rates of change with λ.
     states: Vec<ContactState>,
     rates: Vec<ContactState>,
+}
+
+/// Step of λ until a law rejects the mode of an element.
+struct Reach {
+    distance: f64,
+    element: usize,
 }
 
 impl Path {
@@ -65,21 +71,23 @@ impl Path {
         modes: &mut [Mode],
     ) -> usize {
         self.begin(input, attempt, modes);
-        let (mut lambda, mut direction, mut trials) = (0.0, 1.0, 0);
-        for _ in 0..CHANGES * modes.len() {
+        let mut lambda = 0.0;
+        let mut direction = 1.0;
+        let mut trials = 0;
+        for _ in 0..MAX_CHANGES_PER_ELEMENT * modes.len() {
             trials += 2;
             if !self.line(solver, input, modes, lambda) {
                 break;
             }
             let tolerance = solver.tolerance(input);
-            let (reach, first) = self.reach(input, modes, direction, tolerance);
-            let limit = if direction > 0.0 { 1.0 - lambda } else { lambda - LOST };
-            if reach >= limit {
+            let Reach { distance, element: first } = self.reach(input, modes, direction, tolerance);
+            let limit = if direction > 0.0 { 1.0 - lambda } else { lambda - MIN_PATH_PARAMETER };
+            if distance >= limit {
                 break;
             }
-            lambda += direction * reach;
+            lambda += direction * distance;
             let leaving = modes[first];
-            let here = self.states[first].along(&self.rates[first], direction * reach);
+            let here = self.states[first].along(&self.rates[first], direction * distance);
             // Several modes may be admissible here: the path continues in the mode that continues the
             // solution.
             let compliance = input.delassus[first * (self.jump.len() + 1)];
@@ -93,10 +101,11 @@ impl Path {
                 let break_off = here.distance(&self.states[first], compliance);
                 // Only one direction of λ is admissible; in the other direction rounding allows only a tiny
                 // step.
-                let [ahead, back] = [direction, -direction]
-                    .map(|sense| (self.reach(input, modes, sense, tolerance).0, sense));
-                let (reach, sense) = if ahead.0 >= back.0 { ahead } else { back };
-                if break_off < best.0 && reach > STEPS[0] {
+                let ahead = self.reach(input, modes, direction, tolerance).distance;
+                let back = self.reach(input, modes, -direction, tolerance).distance;
+                let sense = if ahead >= back { direction } else { -direction };
+                let distance = if ahead >= back { ahead } else { back };
+                if break_off < best.0 && distance > MIN_PATH_STEPS[0] {
                     best = (break_off, mode, sense);
                 }
             }
@@ -116,10 +125,14 @@ impl Path {
         let count = modes.len();
         // Multiples of the golden ratio, modulo one, never coincide; multiples by squares are spread without
         // order.
-        let number = |e: usize| (attempt * count + e + 1) as f64;
-        let even = |e: usize| (GOLDEN * number(e)).fract();
-        let uneven = |e: usize| WIDEST.powf((GOLDEN * number(e) * number(e)).fract());
-        let spread = |e: usize| if attempt < EVEN { even(e) } else { uneven(e) };
+        let spread = |e: usize| {
+            let number = (attempt * count + e + 1) as f64;
+            if attempt < EVEN_ATTEMPTS {
+                (GOLDEN_FRACTION * number).fract()
+            } else {
+                MAX_SPREAD_FACTOR.powf((GOLDEN_FRACTION * number * number).fract())
+            }
+        };
         if attempt.is_multiple_of(2) {
             self.begin_open(input, spread, modes);
         } else {
@@ -134,13 +147,15 @@ impl Path {
         spread: impl Fn(usize) -> f64,
         modes: &mut [Mode],
     ) {
-        let (count, size) = (modes.len(), self.jump.len());
+        let count = modes.len();
+        let size = self.jump.len();
         let mut largest = 0.0_f64;
         for (e, mode) in modes.iter_mut().enumerate() {
-            let known = input.modes(e);
-            let is_apart =
-                |mode: &&Mode| matches!(mode, Mode::Open | Mode::Active | Mode::ActiveRight);
-            *mode = *known.iter().find(is_apart).unwrap_or(&known[0]);
+            let allowed = input.modes(e);
+            let apart = allowed
+                .iter()
+                .find(|mode| matches!(mode, Mode::Open | Mode::Active | Mode::ActiveRight));
+            *mode = *apart.unwrap_or(&allowed[0]);
             let row = &input.delassus[e * size..(e + 1) * size];
             let gap = input.free_jump[e] - dot(row, input.static_traction);
             largest = largest.max(gap.abs()).max(input.start.state(e).gap.abs());
@@ -172,35 +187,36 @@ impl Path {
         }
         let mut change: Vec<f64> = input.static_traction.iter().map(|fixed| -fixed).collect();
         for (e, mode) in modes.iter_mut().enumerate() {
-            let (law, start) = (input.law(e), &input.start_of(e));
+            let law = input.law(e);
+            let start = &input.start_of(e);
             *mode = law.modes()[0];
             let pressed = (10.0 + 5.0 * spread(e)) * pressure;
-            let mut wanted = ContactState {
+            let mut target = ContactState {
                 slip: start.state.slip,
                 pressure: pressed,
                 ..ContactState::default()
             };
             for condition in law.conditions(*mode, start) {
                 if let Some(gap) = condition.gap_at(pressed) {
-                    wanted.gap = gap;
+                    target.gap = gap;
                 }
                 if condition.gap == 0.0 && condition.slip != 0.0 && condition.shear != 0.0 {
-                    let known = condition.slip * wanted.slip + condition.pressure * pressed;
-                    wanted.shear = (condition.value - known) / condition.shear;
+                    let fixed_part = condition.slip * target.slip + condition.pressure * pressed;
+                    target.shear = (condition.value - fixed_part) / condition.shear;
                 }
             }
             // A law may prevent an element from closing in this step, at any pressure.
             let exact = Tolerance { length: 0.0, traction: 0.0 };
-            let next = input.next_mode(e, *mode, &wanted, exact).unwrap_or(*mode);
+            let next = input.next_mode(e, *mode, &target, exact).unwrap_or(*mode);
             if next != *mode {
                 *mode = next;
-                wanted = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..wanted };
+                target = ContactState { gap: start.state.gap, pressure: 0.0, shear: 0.0, ..target };
             }
             let [n, t] = layout.places(e);
-            change[n] += wanted.pressure;
-            change[t] += wanted.shear;
-            self.offset[n] = wanted.gap;
-            self.offset[t] = -wanted.slip;
+            change[n] += target.pressure;
+            change[t] += target.shear;
+            self.offset[n] = target.gap;
+            self.offset[t] = -target.slip;
         }
         for (i, offset) in self.offset.iter_mut().enumerate() {
             let row = &input.delassus[i * size..(i + 1) * size];
@@ -249,21 +265,22 @@ impl Path {
         modes: &[Mode],
         direction: f64,
         tolerance: Tolerance,
-    ) -> (f64, usize) {
-        let far = 1.0 - LOST;
-        let mut nearest = (far, 0);
+    ) -> Reach {
+        let far = 1.0 - MIN_PATH_PARAMETER;
+        let mut nearest = Reach { distance: far, element: 0 };
         for (e, &mode) in modes.iter().enumerate() {
             let admits = |distance: f64| {
                 let there = self.states[e].along(&self.rates[e], direction * distance);
                 input.next_mode(e, mode, &there, tolerance) == Ok(mode)
             };
-            let Some(begin) = STEPS.into_iter().find(|&step| admits(step)) else {
-                return (0.0, e);
+            let Some(begin) = MIN_PATH_STEPS.into_iter().find(|&step| admits(step)) else {
+                return Reach { distance: 0.0, element: e };
             };
-            if admits(nearest.0) {
+            if admits(nearest.distance) {
                 continue;
             }
-            let (mut low, mut high) = (begin, nearest.0);
+            let mut low = begin;
+            let mut high = nearest.distance;
             for _ in 0..120 {
                 let middle = 0.5 * (low + high);
                 if admits(middle) {
@@ -272,7 +289,7 @@ impl Path {
                     high = middle;
                 }
             }
-            nearest = (low, e);
+            nearest = Reach { distance: low, element: e };
         }
         nearest
     }

@@ -24,7 +24,7 @@ pub(crate) enum Bond {
     /// No bond, or the search does not distinguish bonds: the law decides.
     Free,
     /// The bond holds the element in its mode of rest at any traction.
-    Held,
+    Intact,
     /// The bond has broken in this step.
     Broken,
 }
@@ -72,7 +72,7 @@ impl ContactInput<'_> {
     /// Modes allowed for an element.
     pub(super) fn modes(&self, element: usize) -> &[Mode] {
         let modes = self.law(element).modes();
-        if self.bond(element) == Bond::Held { &modes[..1] } else { modes }
+        if self.bond(element) == Bond::Intact { &modes[..1] } else { modes }
     }
 
     /// Conditions of the element's law in `mode`, all finite.
@@ -82,7 +82,8 @@ impl ContactInput<'_> {
         element: usize,
         mode: Mode,
     ) -> Result<[Condition; 2], LawError> {
-        let (law, start) = (self.law(element), self.start_of(element));
+        let law = self.law(element);
+        let start = self.start_of(element);
         let pair = law.conditions(mode, &start);
         // A value is not finite, or the sum overflows.
         if !(pair[0].sum() + pair[1].sum()).is_finite()
@@ -104,7 +105,7 @@ impl ContactInput<'_> {
         trial: &ContactState,
         tolerance: Tolerance,
     ) -> Result<Mode, LawError> {
-        if self.bond(element) == Bond::Held {
+        if self.bond(element) == Bond::Intact {
             return Ok(mode);
         }
         let law = self.law(element);
@@ -125,7 +126,8 @@ impl ContactInput<'_> {
     ) -> Result<Option<f64>, LawError> {
         match self.law(element).bond_overload(&self.start_of(element), trial) {
             Some(value) if !value.is_finite() => {
-                let (mode, quantity) = (self.law(element).modes()[0], "overload of the bond");
+                let mode = self.law(element).modes()[0];
+                let quantity = "overload of the bond";
                 Err(LawError::not_finite(element, mode.word(), quantity, value))
             }
             overload => Ok(overload),
@@ -133,7 +135,7 @@ impl ContactInput<'_> {
     }
 }
 
-/// Solves the contact problem for given modes; stores the factors while the modes stay the same.
+/// Solves the contact problem for fixed modes; stores the factors while the modes stay the same.
 pub(crate) struct ContactSolver {
     layout: ContactLayout,
     /// Conditions of the last trial, two per element.
@@ -141,7 +143,7 @@ pub(crate) struct ContactSolver {
     /// The conditions whose factors are stored; the values of these conditions do not matter.
     factored: Vec<[Condition; 2]>,
     factor: DenseFactor,
-    valid: bool,
+    has_valid_factor: bool,
     matrix: Vec<f64>,
     rhs: Vec<f64>,
     /// For each row of the reduced system: element, number of its condition (0 or 1), and the row's scale.
@@ -155,7 +157,7 @@ pub(crate) struct ContactSolver {
     jump: Vec<f64>,
     /// Smallest friction coefficient that replaced the law's larger one on a sliding element; `None` if none was
     /// replaced.
-    pub(crate) stand_in: Option<f64>,
+    pub(crate) substituted_friction: Option<f64>,
     /// Error of a law that returned a number that is not finite, since the last `take`.
     pub(super) fault: Option<LawError>,
     /// Number of factorings so far.
@@ -166,7 +168,8 @@ pub(crate) struct ContactSolver {
 
 impl ContactSolver {
     pub(crate) fn new(layout: ContactLayout) -> Self {
-        let (size, count) = (layout.len(), layout.elements());
+        let size = layout.len();
+        let count = layout.elements();
         // In plan the search has its own system.
         let system = if layout.components() == COMPONENTS_IN_PLANE { size } else { 0 };
         Self {
@@ -174,7 +177,7 @@ impl ContactSolver {
             conditions: vec![[Condition::default(); 2]; count],
             factored: vec![[Condition::default(); 2]; count],
             factor: DenseFactor::with_capacity(system),
-            valid: false,
+            has_valid_factor: false,
             matrix: Vec::with_capacity(system * system),
             rhs: Vec::with_capacity(size),
             rows: Vec::with_capacity(size),
@@ -182,7 +185,7 @@ impl ContactSolver {
             traction: vec![0.0; size],
             states: vec![ContactState::default(); count],
             jump: vec![0.0; size],
-            stand_in: None,
+            substituted_friction: None,
             fault: None,
             factorings: 0,
             generation: 0,
@@ -196,7 +199,7 @@ impl ContactSolver {
 
     /// Discards the factors; call this when W has changed.
     pub(crate) fn invalidate(&mut self) {
-        self.valid = false;
+        self.has_valid_factor = false;
         self.generation += 1;
     }
 
@@ -226,7 +229,7 @@ impl ContactSolver {
             *conditions = input.conditions(e, at_rest)?;
         }
         let regular = self.assemble(&input);
-        self.valid = false;
+        self.has_valid_factor = false;
         self.factorings = 0;
         if !regular {
             return Ok(f64::INFINITY);
@@ -253,17 +256,14 @@ impl ContactSolver {
                 }
             }
         }
-        let same = |a: &Condition, b: &Condition| {
-            (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
-        };
-        let unchanged = self.valid
+        let unchanged = self.has_valid_factor
             && self
                 .conditions
                 .iter()
                 .zip(&self.factored)
-                .all(|(a, b)| same(&a[0], &b[0]) && same(&a[1], &b[1]));
+                .all(|(a, b)| has_same_row(&a[0], &b[0]) && has_same_row(&a[1], &b[1]));
         if !unchanged && !self.assemble(input) {
-            self.valid = false;
+            self.has_valid_factor = false;
             return false;
         }
         self.solve(input);
@@ -273,7 +273,8 @@ impl ContactSolver {
 
     /// Separates conditions that fix one component from the others, and factors the system of the others.
     fn assemble(&mut self, input: &ContactInput<'_>) -> bool {
-        let (layout, size) = (self.layout, self.layout.len());
+        let layout = self.layout;
+        let size = self.layout.len();
         self.rows.clear();
         self.dofs.clear();
         for (e, pair) in self.conditions.iter().enumerate() {
@@ -320,8 +321,8 @@ impl ContactSolver {
         }
         self.factorings += 1;
         self.factored.copy_from_slice(&self.conditions);
-        self.valid = self.factor.factor(&self.matrix, order);
-        self.valid
+        self.has_valid_factor = self.factor.factor(&self.matrix, order);
+        self.has_valid_factor
     }
 
     /// Computes tractions with the stored factors.
@@ -362,7 +363,7 @@ impl ContactSolver {
         self.evaluate_by(input, |traction, jump| input.delassus.multiply_add(traction, jump));
     }
 
-    /// The same by another function for jump ← jump + W τ.
+    /// Computes jumps and states, with `multiply_add` for jump ← jump + W τ.
     pub(super) fn evaluate_by(
         &mut self,
         input: &ContactInput<'_>,
@@ -370,11 +371,12 @@ impl ContactSolver {
     ) {
         self.jump.copy_from_slice(input.free_jump);
         multiply_add(&self.traction, &mut self.jump);
-        let (layout, plan) = (self.layout, self.is_plan());
+        let layout = self.layout;
+        let plan = self.is_plan();
         let Self { jump, traction, states, .. } = self;
         for (e, state) in states.iter_mut().enumerate() {
-            let total = |i: usize| input.static_traction[i] + traction[i];
             let place = |component| layout.place(component, e);
+            let total = |i: usize| input.static_traction[i] + traction[i];
             *state = ContactState::from_components(|k| jump[place(k)], |k| total(place(k)), plan);
         }
     }
@@ -390,4 +392,9 @@ impl ContactSolver {
         let jump = self.jump.iter().fold(input.length_scale, |m, j| m.max(j.abs()));
         Tolerance { length: 1e-13 * jump, traction: 1e-12 * traction }
     }
+}
+
+/// Whether two conditions differ at most in their values.
+fn has_same_row(a: &Condition, b: &Condition) -> bool {
+    (a.gap, a.slip, a.pressure, a.shear) == (b.gap, b.slip, b.pressure, b.shear)
 }

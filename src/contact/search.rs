@@ -9,7 +9,7 @@
 //! 4. If the path does not reach the solution, and there are few elements: try all sets of modes.
 //!
 //! Laws with bonds that break are not monotone, and these methods may return to bonds that they have broken.
-//! All methods therefore hold bonds fixed, and bonds break between their solutions. Each time, those bonds
+//! All methods therefore keep bonds intact, and bonds break between their solutions. Each time, those bonds
 //! break whose overload is at least half of the largest, until no bond is overloaded. Each problem is then
 //! one of Coulomb friction with some elements that stick, and there are at most as many problems as bonds. If
 //! one of these problems is not solved, all bonds break. Where friction alone lets an element stick, its bond
@@ -27,15 +27,15 @@ use crate::interface::Mode;
 /// Number of trials after which the active set counts as cycling.
 const ACTIVE_SET_TRIALS: usize = 60;
 /// Largest number of Gauss–Seidel sweeps.
-const SWEEPS: usize = 400;
+const MAX_SWEEPS: usize = 400;
 /// Largest number of paths. At infinite friction and c₁Δt/l from 13 to 60, one run in 5000 has a step that
 /// needs more than eight paths, and one in 100 000 a step that needs more than sixty.
-const PATHS: usize = 128;
+const MAX_PATHS: usize = 128;
 /// Largest number of sets of modes for which all are tried.
-const MOST_SETS: usize = 1 << 16;
+const MAX_MODE_SETS: usize = 1 << 16;
 /// Bonds break together if their overload is at least this fraction of the largest. Mirror images then break
 /// together in spite of rounding.
-const SHARE: f64 = 0.5;
+const BREAKING_OVERLOAD_RATIO: f64 = 0.5;
 
 /// Workspace of the mode search.
 pub(crate) struct ModeSearch {
@@ -79,7 +79,7 @@ impl ModeSearch {
         }
     }
 
-    /// Finds admissible `modes`, starting from the given modes; the solver then holds the solution.
+    /// Finds admissible `modes`, starting from their present values; the solver then holds the solution.
     ///
     /// Returns the number of trials and the method.
     pub(crate) fn solve(
@@ -118,7 +118,7 @@ impl ModeSearch {
         found.map(|m| (self.trials, m)).ok_or_else(|| self.failure(solver, input, modes))
     }
 
-    /// Finds modes with all bonds held, breaks the most overloaded bonds, and repeats.
+    /// Finds modes with all bonds intact, breaks the most overloaded bonds, and repeats.
     ///
     /// `None` if no modes are found without bonds either.
     fn break_bonds(
@@ -135,30 +135,33 @@ impl ModeSearch {
                 let overload =
                     input.law(e).bond_overload(&input.start.element(e), input.start.state(e));
                 if overload.is_some() {
-                    (*bond, modes[e]) = (Bond::Held, input.law(e).modes()[0]);
+                    *bond = Bond::Intact;
+                    modes[e] = input.law(e).modes()[0];
                 }
             }
         }
-        let mut most = SearchMethod::ActiveSet;
+        let mut last_method = SearchMethod::ActiveSet;
         loop {
-            let found = self.settle(solver, &ContactInput { bonds, ..*input }, modes);
-            if solver.fault.is_some() || found.is_none() && !bonds.contains(&Bond::Held) {
+            let found =
+                self.find_modes_with_bonds(solver, &ContactInput { bonds, ..*input }, modes);
+            if solver.fault.is_some() || found.is_none() && !bonds.contains(&Bond::Intact) {
                 return None;
             }
             let Some(method) = found else {
-                let held = bonds.iter_mut().filter(|bond| **bond == Bond::Held);
-                held.for_each(|bond| *bond = Bond::Broken);
+                for bond in bonds.iter_mut().filter(|bond| **bond == Bond::Intact) {
+                    *bond = Bond::Broken;
+                }
                 continue;
             };
-            most = most.max(method);
-            if !bonds.contains(&Bond::Held) {
-                return Some(most);
+            last_method = last_method.max(method);
+            if !bonds.contains(&Bond::Intact) {
+                return Some(last_method);
             }
             let tolerance = solver.tolerance(input).traction;
             self.overloads.clear();
             for (e, state) in solver.states.iter().enumerate() {
-                let held = bonds[e] == Bond::Held;
-                match if held { input.overload(e, state) } else { Ok(None) } {
+                let is_intact = bonds[e] == Bond::Intact;
+                match if is_intact { input.overload(e, state) } else { Ok(None) } {
                     Ok(overload) => self.overloads.push(overload.unwrap_or(0.0)),
                     Err(fault) => {
                         solver.fault = Some(fault);
@@ -168,10 +171,10 @@ impl ModeSearch {
             }
             let largest = self.overloads.iter().copied().fold(0.0, f64::max);
             if largest <= tolerance {
-                return Some(most);
+                return Some(last_method);
             }
             for (bond, overload) in bonds.iter_mut().zip(&self.overloads) {
-                if *overload >= SHARE * largest {
+                if *overload >= BREAKING_OVERLOAD_RATIO * largest {
                     *bond = Bond::Broken;
                 }
             }
@@ -179,7 +182,7 @@ impl ModeSearch {
     }
 
     /// Finds modes with the present bonds, by one method after the other.
-    fn settle(
+    fn find_modes_with_bonds(
         &mut self,
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
@@ -199,24 +202,25 @@ impl ModeSearch {
         found.then_some(SearchMethod::Path)
     }
 
-    /// Tries all sets of modes, if there are at most [`MOST_SETS`].
+    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`].
     fn enumerate(
         &mut self,
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> bool {
-        let choices = |e: usize| input.modes(e).len();
-        let sets = (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(choices(e)));
-        let Some(sets) = sets.filter(|sets| *sets <= MOST_SETS) else { return false };
+        let sets =
+            (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
+        let Some(sets) = sets.filter(|sets| *sets <= MAX_MODE_SETS) else { return false };
         for set in 0..sets {
             let mut rest = set;
             for (e, mode) in modes.iter_mut().enumerate() {
-                *mode = input.modes(e)[rest % choices(e)];
-                rest /= choices(e);
+                let choices = input.modes(e);
+                *mode = choices[rest % choices.len()];
+                rest /= choices.len();
             }
             self.trials += 1;
-            if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
+            if solver.trial(input, modes) && self.update_next_modes(solver, input, modes) {
                 return true;
             }
             if solver.fault.is_some() {
@@ -251,30 +255,31 @@ impl ModeSearch {
         if !solver.trial(input, modes) {
             return 1.0;
         }
-        self.ask_laws(solver, input, modes);
+        self.update_next_modes(solver, input, modes);
         let before = solver.states.clone();
         if !solver.trial(input, &self.next) {
             return 1.0;
         }
-        let (mut largest, mut apart) = (f64::MIN_POSITIVE, 0.0_f64);
+        let mut largest = f64::MIN_POSITIVE;
+        let mut largest_difference = 0.0_f64;
         for (a, b) in before.iter().zip(&solver.states) {
             for (a, b) in [(a.pressure, b.pressure), (a.shear, b.shear)] {
                 largest = largest.max(a.abs()).max(b.abs());
-                apart = apart.max((a - b).abs());
+                largest_difference = largest_difference.max((a - b).abs());
             }
         }
-        apart / largest
+        largest_difference / largest
     }
 
-    /// Stores the next modes of all elements; returns whether all equal `modes`.
-    fn ask_laws(
+    /// Updates the next modes of all elements; returns whether all equal `modes`.
+    fn update_next_modes(
         &mut self,
         solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
     ) -> bool {
         let tolerance = solver.tolerance(input);
-        let mut settled = true;
+        let mut is_admissible = true;
         for (e, &mode) in modes.iter().enumerate() {
             match input.next_mode(e, mode, &solver.states[e], tolerance) {
                 Ok(next) => self.next[e] = next,
@@ -283,9 +288,9 @@ impl ModeSearch {
                     return false;
                 }
             }
-            settled &= self.next[e] == mode;
+            is_admissible &= self.next[e] == mode;
         }
-        settled
+        is_admissible
     }
 
     fn active_set(
@@ -295,16 +300,16 @@ impl ModeSearch {
         modes: &mut [Mode],
     ) -> bool {
         self.visited.clear();
-        let most = match self.search {
+        let max_trials = match self.search {
             ContactSearch::Robust => ACTIVE_SET_TRIALS,
             ContactSearch::FlowChart { iterations } => iterations,
         };
-        for _ in 0..most {
+        for _ in 0..max_trials {
             self.trials += 1;
             if !solver.trial(input, modes) {
                 return false;
             }
-            if self.ask_laws(solver, input, modes) {
+            if self.update_next_modes(solver, input, modes) {
                 return true;
             }
             if solver.fault.is_some() {
@@ -325,7 +330,7 @@ impl ModeSearch {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> bool {
-        for attempt in 0..PATHS {
+        for attempt in 0..MAX_PATHS {
             self.trials += self.path.follow(solver, input, attempt, modes);
             // Near the point where a path broke, the solution is often found by the active set.
             if self.active_set(solver, input, modes) {
@@ -348,7 +353,7 @@ impl ModeSearch {
         solver.evaluate(input);
         self.before.copy_from_slice(modes);
         let mut wait = 1;
-        for sweep in 1..=SWEEPS {
+        for sweep in 1..=MAX_SWEEPS {
             self.trials += 1;
             for e in 0..modes.len() {
                 modes[e] = local_mode(solver, input, e, modes[e]);
@@ -359,7 +364,7 @@ impl ModeSearch {
             // Modes that stay the same for a sweep are tested by an exact solve; the wait grows after each
             // failure.
             if modes == self.before.as_slice() && sweep >= wait {
-                if solver.trial(input, modes) && self.ask_laws(solver, input, modes) {
+                if solver.trial(input, modes) && self.update_next_modes(solver, input, modes) {
                     return true;
                 }
                 wait = 2 * sweep;

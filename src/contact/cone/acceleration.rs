@@ -34,14 +34,14 @@ pub(super) struct Acceleration {
 impl Acceleration {
     /// Allocates for `force_count` forces and `motion_count` motions.
     pub(super) fn new(force_count: usize, motion_count: usize) -> Self {
-        let forces = || [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count]);
+        let forces = [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count]);
         Self {
-            changes: forces(),
+            changes: forces.clone(),
             results: [(); MAX_STORED_SWEEPS].map(|()| vec![0.0; force_count + motion_count]),
             sweep_count: 0,
             change: vec![0.0; force_count],
             result: vec![0.0; force_count + motion_count],
-            differences: forces(),
+            differences: forces,
         }
     }
 
@@ -60,7 +60,7 @@ impl Acceleration {
         self.change.copy_from_slice(forces);
     }
 
-    /// Overwrites the results of a sweep with their combination with those of earlier sweeps.
+    /// Overwrites the results of a sweep with their combination with the results of earlier sweeps.
     ///
     /// The first slice of `results` are the forces; the others are motions, linear in the forces.
     pub(super) fn end_sweep(&mut self, results: &mut [&mut [f64]]) {
@@ -146,13 +146,13 @@ mod tests {
     use super::*;
 
     /// Number of forces, and the matrix M of sweeps x ← M x + b; its largest eigenvalue is 1.3.
-    const COUNT: usize = 6;
-    const EIGENVALUES: [f64; COUNT] = [1.3, 0.95, 0.8, 0.5, -0.4, 0.1];
+    const FORCE_COUNT: usize = 6;
+    const SWEEP_EIGENVALUES: [f64; FORCE_COUNT] = [1.3, 0.95, 0.8, 0.5, -0.4, 0.1];
 
     /// Result of a sweep: forces, then a motion that is their sum and 2.
-    fn sweep(forces: &[f64], vectors: &[[f64; COUNT]; COUNT]) -> Vec<f64> {
-        let mut result = vec![1.0; COUNT];
-        for (vector, eigenvalue) in vectors.iter().zip(EIGENVALUES) {
+    fn sweep(forces: &[f64], vectors: &[[f64; FORCE_COUNT]; FORCE_COUNT]) -> Vec<f64> {
+        let mut result = vec![1.0; FORCE_COUNT];
+        for (vector, eigenvalue) in vectors.iter().zip(SWEEP_EIGENVALUES) {
             let amplitude = eigenvalue * dot(vector, forces);
             for (value, entry) in result.iter_mut().zip(vector) {
                 *value += amplitude * entry;
@@ -165,19 +165,19 @@ mod tests {
     #[test]
     fn a_linear_problem_is_solved_by_as_many_sweeps_as_forces_though_plain_sweeps_diverge() {
         // Orthonormal cosines.
-        let vectors: [[f64; COUNT]; COUNT] = std::array::from_fn(|k| {
+        let vectors: [[f64; FORCE_COUNT]; FORCE_COUNT] = std::array::from_fn(|k| {
             std::array::from_fn(|i| {
-                let angle = std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / COUNT as f64;
-                let norm = if k == 0 { COUNT as f64 } else { 0.5 * COUNT as f64 };
+                let angle = std::f64::consts::PI * k as f64 * (i as f64 + 0.5) / FORCE_COUNT as f64;
+                let norm = if k == 0 { FORCE_COUNT as f64 } else { 0.5 * FORCE_COUNT as f64 };
                 angle.cos() / norm.sqrt()
             })
         });
-        let mut acceleration = Acceleration::new(COUNT, 1);
-        let mut forces = vec![0.0; COUNT];
-        for _ in 0..=COUNT {
+        let mut acceleration = Acceleration::new(FORCE_COUNT, 1);
+        let mut forces = vec![0.0; FORCE_COUNT];
+        for _ in 0..=FORCE_COUNT {
             acceleration.begin_sweep(&forces);
             let mut result = sweep(&forces, &vectors);
-            let (after, motion) = result.split_at_mut(COUNT);
+            let (after, motion) = result.split_at_mut(FORCE_COUNT);
             acceleration.end_sweep(&mut [after, motion]);
             // A combination whose weights sum to one keeps what is linear.
             assert!((motion[0] - 2.0 - after.iter().sum::<f64>()).abs() < 1e-8);

@@ -8,22 +8,22 @@
 
 use std::collections::HashMap;
 
-use super::group::{LANES, Lane, read, write};
-use super::modes::{RANK, find_modes};
+use super::group::{LANE_COUNT, Lane, read, write};
+use super::modes::{MAX_MODE_COUNT, find_modes};
 use crate::geometry::offset;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd, WithSimd, vectorized};
 
 /// Elements are near each other if the force that one adds to the other is above this fraction of its own.
-const NEAR: f64 = 3e-3;
+const NEAR_FORCE_RATIO: f64 = 3e-3;
 /// Largest number of elements near one, relative to all.
-const MOST_NEAR: f64 = 0.3;
+const MAX_NEAR_FRACTION: f64 = 0.3;
 /// Number of elements near one, relative to all, above which factors of W solve in less time than sweeps.
-const MANY_NEAR: f64 = 0.05;
+const FACTORED_NEAR_FRACTION: f64 = 0.05;
 /// Largest number of elements for which factors of W fit into caches.
-const FACTORED: usize = 600;
+const MAX_FACTORED_ELEMENTS: usize = 600;
 
 /// Motion of an element by a unit force along each direction on another element; the last number is zero.
-type Block = [[f64; 4]; 3];
+type LinkBlock = [[f64; 4]; 3];
 
 /// An element that another one moves, and the block by which it does.
 #[derive(Debug, Clone, Copy)]
@@ -32,18 +32,18 @@ struct Link {
     block: u32,
 }
 
-/// Near elements of all elements, one after the other.
+/// NearFieldProduct elements of all elements, one after the other.
 struct Links {
     all: Vec<Link>,
     /// First link of each element, and the end.
     starts: Vec<usize>,
-    kinds: Vec<Block>,
+    kinds: Vec<LinkBlock>,
 }
 
 /// W = G + L Lᵀ: soil and structure.
-pub(super) struct Blocks {
+pub(super) struct NearFieldBlocks {
     /// Elements of each group; the number of all elements marks a free place.
-    pub(super) groups: Vec<[usize; LANES]>,
+    pub(super) groups: Vec<[usize; LANE_COUNT]>,
     near: Links,
     /// G without the near links; `None` if it is zero.
     far: Option<LatticeProduct>,
@@ -51,14 +51,20 @@ pub(super) struct Blocks {
     /// L of each group, mode by mode: three directions.
     modes: Vec<[Lane; 3]>,
     rank: usize,
-    /// Motions by the soil, and one that no element has; amplitudes Lᵀ r of the modes.
+    /// Displacements due to the soil, padded by one dummy entry; modal amplitudes Lᵀ r.
     motions: Vec<[f64; 4]>,
-    amplitudes: [f64; RANK],
-    /// Forces of the last product with W, and the product: motions and amplitudes.
-    known: (Vec<f64>, Vec<[f64; 4]>, [f64; RANK]),
+    amplitudes: [f64; MAX_MODE_COUNT],
+    last_product: Product,
 }
 
-impl Blocks {
+/// Forces of the last product with W, and the product.
+struct Product {
+    forces: Vec<f64>,
+    motions: Vec<[f64; 4]>,
+    amplitudes: [f64; MAX_MODE_COUNT],
+}
+
+impl NearFieldBlocks {
     /// Blocks of the row-major `w` with the part `soil(row, column)`, for reciprocals `rho` of the diagonal.
     ///
     /// `cells`: column and row of each element. `layer(row)`: part of the diagonal that is neither soil nor structure.
@@ -74,57 +80,63 @@ impl Blocks {
         let block = |receiver: usize, source: usize| {
             [0, 1, 2].map(|r| [0, 1, 2].map(|c| soil(r * count + receiver, c * count + source)))
         };
-        let greatest = |k: usize| rho.iter().map(|own| own[k]).fold(0.0, f64::max);
-        let scales = [greatest(0), greatest(1), greatest(1)];
+        let max_normal = rho.iter().map(|rho| rho[0]).fold(0.0, f64::max);
+        let max_tangential = rho.iter().map(|rho| rho[1]).fold(0.0, f64::max);
+        let scales = [max_normal, max_tangential, max_tangential];
         let is_near = |receiver: usize, source: usize| {
-            let mut entries = block(receiver, source).into_iter().zip(scales);
-            let strong = |(row, rho): ([f64; 3], f64)| row.iter().any(|g| rho * g.abs() > NEAR);
-            receiver == source || entries.any(strong)
+            let mut rows = block(receiver, source).into_iter().zip(scales);
+            receiver == source
+                || rows.any(|(row, rho)| row.iter().any(|g| rho * g.abs() > NEAR_FORCE_RATIO))
         };
         let near = Links::new(cells, is_near, block, &layer)?;
-        if near.all.len() as f64 > MOST_NEAR * (count * count) as f64 {
+        if near.all.len() as f64 > MAX_NEAR_FRACTION * (count * count) as f64 {
             return None;
         }
         let far = far(cells, is_near, block)?;
         let modes = find_modes(w, 3 * count, &soil, &layer)?;
         let groups = near.groups();
-        let of_group = |group: &[usize; LANES], mode: &[f64]| {
-            [0, 1, 2].map(|k| group.map(|e| if e < count { mode[k * count + e] } else { 0.0 }))
-        };
-        let modes_of = |group| modes.iter().map(move |mode| of_group(group, mode));
+        let mut modes_of_groups = Vec::with_capacity(groups.len() * modes.len());
+        for group in &groups {
+            modes_of_groups.extend(modes.iter().map(|mode| lanes_of(group, mode)));
+        }
         Some(Self {
-            modes: groups.iter().flat_map(modes_of).collect(),
+            modes: modes_of_groups,
             rank: modes.len(),
             groups,
             near,
             scratch: far.as_ref().map(LatticeProduct::scratch).unwrap_or_default(),
             far,
             motions: vec![[0.0; 4]; count + 1],
-            amplitudes: [0.0; RANK],
-            known: (vec![f64::NAN; 3 * count], vec![[0.0; 4]; count + 1], [0.0; RANK]),
+            amplitudes: [0.0; MAX_MODE_COUNT],
+            last_product: Product {
+                forces: vec![f64::NAN; 3 * count],
+                motions: vec![[0.0; 4]; count + 1],
+                amplitudes: [0.0; MAX_MODE_COUNT],
+            },
         })
     }
 
     /// Whether factors of W solve in less time than sweeps, for elements that all stick.
     pub(super) fn is_factored(&self) -> bool {
         let count = self.near.starts.len() - 1;
-        count <= FACTORED && self.near.all.len() as f64 > MANY_NEAR * (count * count) as f64
+        count <= MAX_FACTORED_ELEMENTS
+            && self.near.all.len() as f64 > FACTORED_NEAR_FRACTION * (count * count) as f64
     }
 
     /// Sets the motions to W r.
-    pub(super) fn respond(&mut self, forces: &[f64]) {
-        if self.known.0 == forces {
-            self.motions.copy_from_slice(&self.known.1);
-            self.amplitudes = self.known.2;
+    pub(super) fn update_motions(&mut self, forces: &[f64]) {
+        if self.last_product.forces == forces {
+            self.motions.copy_from_slice(&self.last_product.motions);
+            self.amplitudes = self.last_product.amplitudes;
             return;
         }
         self.motions.fill([0.0; 4]);
         self.amplitudes.fill(0.0);
-        vectorized(Near { blocks: self, forces });
+        vectorized(NearFieldProduct { blocks: self, forces });
         self.move_far(forces);
-        self.known.0.copy_from_slice(forces);
-        self.known.1.copy_from_slice(&self.motions);
-        self.known.2 = self.amplitudes;
+        self.last_product.forces.copy_from_slice(forces);
+        self.last_product.motions.copy_from_slice(&self.motions);
+        self.last_product.amplitudes = self.amplitudes;
     }
 
     /// Adds the motions of elements by forces on others that are not near.
@@ -152,7 +164,7 @@ impl Blocks {
         let modes = &self.modes[g * self.rank..][..self.rank];
         for (amplitude, [a, b, c]) in self.amplitudes.iter_mut().zip(modes) {
             let mut sums = simd.splat_f64s(0.0);
-            for part in 0..LANES / S::F64_LANES {
+            for part in 0..LANE_COUNT / S::F64_LANES {
                 sums = simd.mul_add_e_f64s(read::<S>(a, part), read::<S>(p, part), sums);
                 sums = simd.mul_add_e_f64s(read::<S>(b, part), read::<S>(x, part), sums);
                 sums = simd.mul_add_e_f64s(read::<S>(c, part), read::<S>(y, part), sums);
@@ -164,15 +176,15 @@ impl Blocks {
     /// Motions of the elements of a group.
     #[inline(always)]
     pub(super) fn motion<S: Simd>(&self, simd: S, g: usize) -> [Lane; 3] {
-        let mut motion = [[0.0; LANES]; 3];
+        let mut motion = [[0.0; LANE_COUNT]; 3];
         for (lane, e) in self.groups[g].into_iter().enumerate() {
-            let own = &self.motions[e];
+            let by_soil = &self.motions[e];
             for k in 0..3 {
-                motion[k][lane] = own[k];
+                motion[k][lane] = by_soil[k];
             }
         }
         let modes = &self.modes[g * self.rank..][..self.rank];
-        for part in 0..LANES / S::F64_LANES {
+        for part in 0..LANE_COUNT / S::F64_LANES {
             let mut sums = [simd.splat_f64s(0.0); 3];
             for (amplitude, mode) in self.amplitudes.iter().zip(modes) {
                 let amplitude = simd.splat_f64s(*amplitude);
@@ -233,8 +245,8 @@ impl Links {
                     .entry((offset(cells[receiver], cells[source]), layers))
                     .or_insert(u32::try_from(links.kinds.len()).ok()?);
                 if number as usize == links.kinds.len() {
-                    let column = |c: usize| [block[0][c], block[1][c], block[2][c], 0.0];
-                    links.kinds.push([0, 1, 2].map(column));
+                    let columns = [0, 1, 2].map(|c| [block[0][c], block[1][c], block[2][c], 0.0]);
+                    links.kinds.push(columns);
                 }
                 links.all.push(Link { element: u32::try_from(receiver).ok()?, block: number });
             }
@@ -249,22 +261,26 @@ impl Links {
         &self.all[self.starts[e]..self.starts[e + 1]]
     }
 
+    /// Whether the element `other` is near the element `e`.
+    fn are_near(&self, e: usize, other: usize) -> bool {
+        self.of(e).iter().any(|link| link.element as usize == other)
+    }
+
     /// Groups of elements that are not near each other, in the order of their first elements.
-    fn groups(&self) -> Vec<[usize; LANES]> {
+    fn groups(&self) -> Vec<[usize; LANE_COUNT]> {
         let count = self.starts.len() - 1;
-        let mut groups: Vec<[usize; LANES]> = vec![];
+        let mut groups: Vec<[usize; LANE_COUNT]> = vec![];
         for e in 0..count {
-            let is_near =
-                |other: usize| self.of(e).iter().any(|link| link.element as usize == other);
-            let fits = |group: &&mut [usize; LANES]| {
-                group[LANES - 1] == count && !group.iter().any(|other| is_near(*other))
-            };
-            if let Some(group) = groups.iter_mut().find(fits) {
-                if let Some(free) = group.iter_mut().find(|own| **own == count) {
+            let fitting = groups.iter_mut().find(|group| {
+                group[LANE_COUNT - 1] == count
+                    && !group.iter().any(|other| self.are_near(e, *other))
+            });
+            if let Some(group) = fitting {
+                if let Some(free) = group.iter_mut().find(|element| **element == count) {
                     *free = e;
                 }
             } else {
-                let mut group = [count; LANES];
+                let mut group = [count; LANE_COUNT];
                 group[0] = e;
                 groups.push(group);
             }
@@ -274,30 +290,34 @@ impl Links {
 }
 
 /// Motions of all elements by forces on near ones, and by the structure.
-struct Near<'a> {
-    blocks: &'a mut Blocks,
+struct NearFieldProduct<'a> {
+    blocks: &'a mut NearFieldBlocks,
     forces: &'a [f64],
 }
 
-impl WithSimd for Near<'_> {
+impl WithSimd for NearFieldProduct<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { blocks, forces } = self;
-        let count = forces.len() / 3;
         for g in 0..blocks.groups.len() {
-            let own = blocks.groups[g];
-            let force =
-                [0, 1, 2].map(|k| own.map(|e| if e < count { forces[k * count + e] } else { 0.0 }));
+            let force = lanes_of(&blocks.groups[g], forces);
             blocks.push(simd, g, &force);
         }
     }
 }
 
+/// Values of a contact vector on the elements of a group, one in each lane; zero in free lanes.
+#[inline(always)]
+fn lanes_of(group: &[usize; LANE_COUNT], vector: &[f64]) -> [Lane; 3] {
+    let count = vector.len() / 3;
+    [0, 1, 2].map(|k| group.map(|e| if e < count { vector[k * count + e] } else { 0.0 }))
+}
+
 /// Adds the motion by a force.
 #[inline(always)]
-fn add<S: Simd>(simd: S, block: &Block, force: [f64; 3], motion: &mut [f64; 4]) {
+fn add<S: Simd>(simd: S, block: &LinkBlock, force: [f64; 3], motion: &mut [f64; 4]) {
     let (sums, tail) = S::as_mut_simd_f64s(motion);
     for (k, force) in force.into_iter().enumerate() {
         let (column, rest) = S::as_simd_f64s(&block[k]);

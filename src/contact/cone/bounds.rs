@@ -1,7 +1,7 @@
 //! Bounds of an element's force: pressure, friction, strength.
 
 /// Friction coefficient that replaces infinite friction on an element with a bond, and in methods that need a disc.
-pub(super) const STAND_IN: f64 = 1e4;
+pub(super) const SUBSTITUTED_FRICTION: f64 = 1e4;
 
 /// Bounds of an element's force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +9,7 @@ pub(super) struct Bounds {
     /// Friction coefficient of the law.
     pub(super) friction: f64,
     /// Present upper limit of the friction coefficient.
-    pub(super) grip: f64,
+    pub(super) friction_limit: f64,
     /// Force that adds to p in friction, N.
     pub(super) attraction: f64,
     /// Shear force that adds to friction, N.
@@ -23,9 +23,9 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) const NONE: Self = Self {
+    pub(super) const WITHOUT_FRICTION: Self = Self {
         friction: 0.0,
-        grip: f64::INFINITY,
+        friction_limit: f64::INFINITY,
         attraction: 0.0,
         strength: 0.0,
         interval: [0.0, f64::INFINITY],
@@ -38,19 +38,23 @@ impl Bounds {
         if self.bonded {
             f64::INFINITY
         } else {
-            self.taken() * (p + self.attraction).max(0.0) + self.strength
+            self.effective_friction() * (p + self.attraction).max(0.0) + self.strength
         }
     }
 
     /// Present friction coefficient.
-    pub(super) fn taken(&self) -> f64 {
+    pub(super) fn effective_friction(&self) -> f64 {
         let is_plain = self.strength == 0.0 && self.interval[0] == -self.attraction;
-        self.friction.min(if is_plain { self.grip } else { self.grip.min(STAND_IN) })
+        self.friction.min(if is_plain {
+            self.friction_limit
+        } else {
+            self.friction_limit.min(SUBSTITUTED_FRICTION)
+        })
     }
 
     /// Whether the present friction is infinite.
-    pub(super) fn is_endless(&self) -> bool {
-        self.taken() == f64::INFINITY && !self.bonded
+    pub(super) fn has_infinite_friction(&self) -> bool {
+        self.effective_friction() == f64::INFINITY && !self.bonded
     }
 
     /// Whether the element bears tension, or shear without pressure.
@@ -64,17 +68,17 @@ impl Bounds {
         Self { attraction: 0.0, strength: 0.0, interval, ..self }
     }
 
-    /// p of P(r − ρ y), for the gap y minus the offset.
-    pub(super) fn press(&self, p: f64) -> f64 {
+    /// Projects a trial p on its interval.
+    pub(super) fn project_pressure(&self, p: f64) -> f64 {
         if self.bonded { p } else { p.max(self.interval[0]).min(self.interval[1]) }
     }
 
-    /// t of P(r − ρ y), with the projected p and the magnitude before.
-    pub(super) fn shear(&self, p: f64, [x, y]: [f64; 2], size: f64) -> [f64; 2] {
+    /// Projects a trial t of this `size` on the disc of the projected p.
+    pub(super) fn project_shear(&self, p: f64, trial: [f64; 2], size: f64) -> [f64; 2] {
         let radius = self.radius(p);
         if size <= radius {
-            return [x, y];
+            return trial;
         }
-        [x, y].map(|t| t * (radius / size))
+        trial.map(|t| t * (radius / size))
     }
 }

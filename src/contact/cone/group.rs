@@ -5,10 +5,10 @@
 use crate::linalg::Simd;
 
 /// Number of elements of a group.
-pub(super) const LANES: usize = 8;
+pub(super) const LANE_COUNT: usize = 8;
 
 /// A number for each element of a group.
-pub(super) type Lane = [f64; LANES];
+pub(super) type Lane = [f64; LANE_COUNT];
 
 /// Numbers of a group's elements; forces and bounds of a lane without an element are zero.
 #[derive(Debug, Clone, Copy)]
@@ -31,8 +31,8 @@ pub(super) struct Group {
 
 impl Group {
     /// Group without elements.
-    pub(super) const NONE: Self = {
-        let zero = [0.0; LANES];
+    pub(super) const WITHOUT_ELEMENTS: Self = {
+        let zero = [0.0; LANE_COUNT];
         Self {
             q: [zero; 3],
             anchor: [zero; 3],
@@ -47,10 +47,10 @@ impl Group {
         }
     };
 
-    /// Projects the elements once, p first, for their motions by W, without q and with the number `added` on W's
-    /// diagonal.
+    /// Projects the elements once, p first, and writes the changes of force to `moved`.
     ///
-    /// Writes the changes of force to `moved`; returns the largest sum of an element, N, or NaN.
+    /// `motion`: their motions by W, without q; `added`: a number on W's diagonal.
+    /// Returns the largest sum of the changes of an element, N, or NaN.
     #[inline(always)]
     pub(super) fn solve<S: Simd>(
         &mut self,
@@ -59,14 +59,15 @@ impl Group {
         added: f64,
         moved: &mut [Lane; 3],
     ) -> f64 {
-        let mut most = simd.splat_f64s(0.0);
-        let mut sum = most;
-        for part in 0..LANES / S::F64_LANES {
+        let mut largest = simd.splat_f64s(0.0);
+        let mut sum = largest;
+        for part in 0..LANE_COUNT / S::F64_LANES {
             let size = self.solve_part(simd, motion, added, moved, part);
-            (most, sum) = (simd.max_f64s(most, size), simd.add_f64s(sum, size));
+            largest = simd.max_f64s(largest, size);
+            sum = simd.add_f64s(sum, size);
         }
         let sum = simd.reduce_sum_f64s(sum);
-        if sum.is_nan() { sum } else { simd.reduce_max_f64s(most) }
+        if sum.is_nan() { sum } else { simd.reduce_max_f64s(largest) }
     }
 
     /// Solves the elements of one vector register; returns the sums of their changes.
@@ -79,19 +80,20 @@ impl Group {
         moved: &mut [Lane; 3],
         part: usize,
     ) -> S::f64s {
-        let (added, zero) = (simd.splat_f64s(added), simd.splat_f64s(0.0));
-        let [mut start, mut y] = [[zero; 3]; 2];
+        let added = simd.splat_f64s(added);
+        let zero = simd.splat_f64s(0.0);
+        let mut start = [zero; 3];
+        let mut y = [zero; 3];
         for k in 0..3 {
             let change = read::<S>(&self.change[k], part);
             start[k] = simd.add_f64s(read::<S>(&self.anchor[k], part), change);
-            let own = simd.mul_add_e_f64s(added, change, read::<S>(&self.q[k], part));
-            y[k] = simd.add_f64s(read::<S>(&motion[k], part), own);
+            let by_added = simd.mul_add_e_f64s(added, change, read::<S>(&self.q[k], part));
+            y[k] = simd.add_f64s(read::<S>(&motion[k], part), by_added);
         }
         let gap = simd.sub_f64s(y[0], read::<S>(&self.offset, part));
         let trial = simd.sub_f64s(start[0], simd.mul_f64s(read::<S>(&self.rho[0], part), gap));
-        let [least, most] = &self.interval;
-        let p = simd.max_f64s(trial, read::<S>(least, part));
-        let mut r = [simd.min_f64s(p, read::<S>(most, part)), zero, zero];
+        let p = simd.max_f64s(trial, read::<S>(&self.interval[0], part));
+        let mut r = [simd.min_f64s(p, read::<S>(&self.interval[1], part)), zero, zero];
         let pressed = simd.sub_f64s(r[0], start[0]);
         let rho = read::<S>(&self.rho[1], part);
         for k in 1..3 {
@@ -104,11 +106,11 @@ impl Group {
         let pressing =
             simd.mul_f64s(read::<S>(&self.friction, part), simd.max_f64s(pressing, zero));
         let radius = simd.add_f64s(pressing, read::<S>(&self.strength, part));
-        let share = simd.min_f64s(simd.div_f64s(radius, size), simd.splat_f64s(1.0));
+        let ratio = simd.min_f64s(simd.div_f64s(radius, size), simd.splat_f64s(1.0));
         let mut sum = zero;
         for k in 0..3 {
             if k > 0 {
-                r[k] = simd.mul_f64s(share, r[k]);
+                r[k] = simd.mul_f64s(ratio, r[k]);
             }
             let change = simd.sub_f64s(r[k], start[k]);
             sum = simd.add_f64s(sum, simd.max_f64s(change, simd.sub_f64s(zero, change)));

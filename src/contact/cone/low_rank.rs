@@ -29,8 +29,8 @@ impl LowRank {
         for (e, diagonal) in self.diagonal.iter_mut().enumerate() {
             let places = [e, count + e, 2 * count + e];
             *diagonal = places.map(|i| on_bed.soil(i) / areas[e] + layer(i));
-            let [normal, along, across] = places.map(|i| on_bed.modes(i));
-            self.modes.extend((0..self.rank).map(|k| [normal[k], along[k], across[k]]));
+            let modes = places.map(|i| on_bed.modes(i));
+            self.modes.extend((0..self.rank).map(|k| modes.map(|mode| mode[k])));
         }
     }
 
@@ -55,8 +55,8 @@ impl LowRank {
     pub(super) fn block(&self, e: usize) -> [[f64; 3]; 3] {
         let mut block = [[0.0; 3]; 3];
         for mode in self.modes(e) {
-            for (row, own) in block.iter_mut().zip(mode) {
-                row.iter_mut().zip(mode).for_each(|(sum, other)| *sum += own * other);
+            for (row, entry) in block.iter_mut().zip(mode) {
+                row.iter_mut().zip(mode).for_each(|(sum, other)| *sum += entry * other);
             }
         }
         (0..3).for_each(|k| block[k][k] += self.diagonal[e][k]);
@@ -64,7 +64,7 @@ impl LowRank {
     }
 
     /// Sets the amplitudes to Lᵀ r, and `y` to q + (W + `added`) r.
-    pub(super) fn respond(&mut self, forces: &[f64], q: &[f64], added: f64, y: &mut [f64]) {
+    pub(super) fn update_motions(&mut self, forces: &[f64], q: &[f64], added: f64, y: &mut [f64]) {
         let count = self.diagonal.len();
         self.amplitudes.fill(0.0);
         for e in 0..count {

@@ -1,4 +1,4 @@
-//! The linear system of given statuses for W = D + L Lᵀ: three conditions an element, and one for each mode.
+//! The linear system of fixed statuses for W = D + L Lᵀ: three conditions per element, and one per mode.
 //!
 //! | symbol | meaning |
 //! |---|---|
@@ -11,7 +11,7 @@
 //! and its gap one more equation.
 
 use super::low_rank::LowRank;
-use super::problem::Problem;
+use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
 use crate::linalg::DenseFactor;
 
@@ -65,14 +65,19 @@ impl LowRankSystem {
     }
 
     /// Corrects r, with its present y, to the solution for `statuses`; `false` if the system is singular.
-    pub(super) fn solve(&mut self, problem: &mut Problem, statuses: &[Status]) -> bool {
+    pub(super) fn solve(&mut self, problem: &mut ConeProblem, statuses: &[Status]) -> bool {
         let Some(operator) = problem.low_rank.take() else { return false };
         let is_solved = self.correct(&operator, problem, statuses);
         problem.low_rank = Some(operator);
         is_solved
     }
 
-    fn correct(&mut self, operator: &LowRank, problem: &mut Problem, statuses: &[Status]) -> bool {
+    fn correct(
+        &mut self,
+        operator: &LowRank,
+        problem: &mut ConeProblem,
+        statuses: &[Status],
+    ) -> bool {
         self.responses.clear();
         self.unpressed.clear();
         for (e, status) in statuses.iter().enumerate() {
@@ -91,14 +96,13 @@ impl LowRankSystem {
                 (0..3).for_each(|k| motion[k] += amplitude * mode[k]);
             }
             for (k, i) in problem.places(e).into_iter().enumerate() {
-                let [a, b, c] = response.by_motion[k];
-                let moved = a * motion[0] + b * motion[1] + c * motion[2];
+                let moved = dot(&response.by_motion[k], &motion);
                 problem.change[i] += response.force[k] - moved;
             }
         }
-        for (own, shear) in self.unpressed.iter().zip(&self.rhs[operator.rank()..]) {
-            for (k, i) in problem.places(own.element).into_iter().enumerate() {
-                problem.change[i] += own.along[k] * shear;
+        for (unpressed, shear) in self.unpressed.iter().zip(&self.rhs[operator.rank()..]) {
+            for (k, i) in problem.places(unpressed.element).into_iter().enumerate() {
+                problem.change[i] += unpressed.along[k] * shear;
             }
         }
         problem.prescribe(statuses);
@@ -109,15 +113,17 @@ impl LowRankSystem {
     fn add_element(
         &mut self,
         operator: &LowRank,
-        problem: &Problem,
+        problem: &ConeProblem,
         e: usize,
         status: &Status,
     ) -> bool {
-        let (places, bounds) = (problem.places(e), &problem.bounds[e]);
+        let places = problem.places(e);
+        let bounds = &problem.bounds[e];
         let [p, tx, ty] = places.map(|i| problem.force(i));
         let [gap, mx, my] = places.map(|i| problem.y[i]);
-        let [dn, dx, dy] = operator.diagonal(e).map(|own| own + problem.added);
-        let (mut force, mut by_motion) = ([0.0; 3], [[0.0; 3]; 3]);
+        let [dn, dx, dy] = operator.diagonal(e).map(|entry| entry + problem.added);
+        let mut force = [0.0; 3];
+        let mut by_motion = [[0.0; 3]; 3];
         let slope = match status.tangential {
             Tangential::Slip { slope, .. } => slope,
             Tangential::Free | Tangential::Stick => 0.0,
@@ -147,10 +153,13 @@ impl LowRankSystem {
                 }
                 // Across: turn · y + (1 − turn) t / ρ = 0.
                 let stiffness = (1.0 - turn) / problem.rho[e][1];
-                let own = turn * (s * s * dx + c * c * dy) + stiffness;
-                let (factor, coupling) = (turn / own, c * s * (dy - dx));
-                let (moved, sheared) = (c * my - s * mx, c * ty - s * tx);
-                let across = -factor * (moved + along * coupling) - stiffness / own * sheared;
+                let coefficient = turn * (s * s * dx + c * c * dy) + stiffness;
+                let factor = turn / coefficient;
+                let coupling = c * s * (dy - dx);
+                let moved = c * my - s * mx;
+                let sheared = c * ty - s * tx;
+                let across =
+                    -factor * (moved + along * coupling) - stiffness / coefficient * sheared;
                 (force[1], force[2]) = (c * along - s * across, s * along + c * across);
                 let follows = [c + s * factor * coupling, s - c * factor * coupling];
                 let by_gap = if is_unpressed { 0.0 } else { slope * by_motion[0][0] };
@@ -167,10 +176,9 @@ impl LowRankSystem {
     }
 
     /// Factors the system of the modes, and writes its right-hand side; `false` if it is singular.
-    fn assemble(&mut self, operator: &LowRank, problem: &Problem) -> bool {
+    fn assemble(&mut self, operator: &LowRank, problem: &ConeProblem) -> bool {
         let rank = operator.rank();
         let order = rank + self.unpressed.len();
-        let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let Self { responses, unpressed, matrix, rhs, products, factor } = self;
         matrix.clear();
         matrix.resize(order * order, 0.0);
@@ -185,22 +193,29 @@ impl LowRankSystem {
             let rows = matrix.chunks_exact_mut(order.max(1));
             for ((row, sum), mode) in rows.zip(rhs.iter_mut()).zip(modes) {
                 *sum += dot(mode, force);
-                row.iter_mut().zip(&*products).for_each(|(sum, own)| *sum += dot(mode, own));
+                row.iter_mut()
+                    .zip(&*products)
+                    .for_each(|(sum, product)| *sum += dot(mode, product));
             }
         }
-        for (number, own) in unpressed.iter().enumerate() {
+        for (number, unpressed) in unpressed.iter().enumerate() {
             let place = rank + number;
-            for (k, mode) in operator.modes(own.element).iter().enumerate() {
-                matrix[k * order + place] = -dot(mode, &own.along);
+            let e = unpressed.element;
+            for (k, mode) in operator.modes(e).iter().enumerate() {
+                matrix[k * order + place] = -dot(mode, &unpressed.along);
                 matrix[place * order + k] = mode[0];
             }
-            let own_gap = (operator.diagonal(own.element)[0] + problem.added)
-                * responses[own.element].force[0];
-            let gap = problem.y[own.element] + own_gap;
-            rhs[place] = problem.bounds[own.element].offset - gap;
+            let gap_by_force = (operator.diagonal(e)[0] + problem.added) * responses[e].force[0];
+            let gap = problem.y[e] + gap_by_force;
+            rhs[place] = problem.bounds[e].offset - gap;
         }
         factor.factor(matrix, order)
     }
+}
+
+/// Scalar product of two vectors.
+fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -42,20 +42,20 @@ use crate::error::{LawError, StepError};
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
 use crate::interface::{Limits, Mode};
 use crate::linalg::largest;
-use blocks::Blocks;
+use blocks::NearFieldBlocks;
 use newton::Newton;
-use problem::{Bounds, Problem};
+use problem::{Bounds, ConeProblem};
 use proximal::Proximal;
 use search::search;
 use status::{Normal, Status, Tangential};
-use wide::Wide;
+use wide::DenseLattice;
 
 /// Gap at which a bond breaks, relative to the largest displacement.
-const GONE: f64 = 1e-12;
+const BOND_BREAKING_GAP: f64 = 1e-12;
 
 /// A contact problem in plan, and the methods that solve it.
 pub(super) struct Cone {
-    problem: Problem,
+    problem: ConeProblem,
     newton: Newton,
     proximal: Proximal,
     areas: Vec<f64>,
@@ -77,7 +77,7 @@ impl Cone {
     pub(super) fn new(areas: &[f64], is_linear: bool) -> Self {
         let count = areas.len();
         Self {
-            problem: Problem::on_bed(count),
+            problem: ConeProblem::on_bed(count),
             newton: Newton::on_bed(count),
             proximal: Proximal::new(count),
             areas: areas.to_vec(),
@@ -90,7 +90,7 @@ impl Cone {
         }
     }
 
-    /// Finds `modes`, starting from the given ones; the solver then holds the solution.
+    /// Finds `modes`, starting from their present values; the solver then holds the solution.
     ///
     /// Returns the number of iterations and the last method used.
     pub(super) fn solve(
@@ -99,41 +99,37 @@ impl Cone {
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
-        self.take(solver.generation, input)?;
+        self.read_step(solver.generation, input)?;
         self.newton.begin_step();
-        let (mut trials, mut method) = (0, SearchMethod::ActiveSet);
+        let mut method = SearchMethod::ActiveSet;
         for mode in modes.iter_mut() {
             *mode = mode.in_any_direction();
         }
-        let tried = self.repeat(modes);
-        if tried {
-            trials += 1;
-        }
+        let tried = self.try_previous_statuses(modes);
+        let mut trials = usize::from(tried);
         if !(tried && self.problem.is_solved()) {
-            self.begin(input);
+            self.set_initial_forces(input);
             loop {
                 let Self { problem, newton, proximal, start, limited, is_linear, .. } = self;
-                let lasts = lasts(*is_linear, &self.layers, input);
-                let (iterations, found) =
-                    search(problem, newton, proximal, [start, limited], lasts);
-                trials += iterations;
-                let Some(found) = found else { return Err(self.failure(trials)) };
+                let is_constant = has_constant_operator(*is_linear, &self.layers, input);
+                let outcome = search(problem, newton, proximal, start, limited, is_constant);
+                trials += outcome.iterations;
+                let Some(found) = outcome.method else { return Err(self.failure(trials)) };
                 method = method.max(found);
                 self.newton.classify(&self.problem, false);
-                if !self.break_bonds(GONE * input.length_scale) {
+                if !self.break_bonds(BOND_BREAKING_GAP * input.length_scale) {
                     break;
                 }
             }
-            self.name(modes);
+            self.write_modes(modes);
         }
-        solver.stand_in = self.stand_in();
+        solver.substituted_friction = self.substituted_friction();
         let layout = ContactLayout::new(COMPONENTS_IN_SPACE, self.areas.len());
         for (i, traction) in solver.traction.iter_mut().enumerate() {
-            let [_, e] = layout.origin(i);
             // Exactly zero in total if there is no force.
             *traction = match self.problem.force(i) {
                 0.0 => -input.static_traction[i],
-                _ => self.problem.change[i] / self.areas[e],
+                _ => self.problem.change[i] / self.areas[layout.origin(i)[1]],
             };
         }
         StepError::check_finite("contact traction", &solver.traction)?;
@@ -141,61 +137,60 @@ impl Cone {
         Ok((trials, method))
     }
 
-    /// jump ← jump + W τ, by blocks or transforms where there are.
+    /// jump ← jump + W τ, by blocks or transforms where they exist.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
     fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
-        let Problem { blocks, wide, low_rank, .. } = &self.problem;
-        if blocks.is_none() && wide.is_none() && low_rank.is_none() {
+        let ConeProblem { near_field, dense_lattice, low_rank, .. } = &self.problem;
+        if near_field.is_none() && dense_lattice.is_none() && low_rank.is_none() {
             return input.delassus.multiply_add(traction, jump);
         }
         let Self { problem, areas, layers, .. } = self;
         for (e, area) in areas.iter().enumerate() {
             for i in problem.places(e) {
-                problem.set(i, area * (input.static_traction[i] + traction[i]));
+                problem.set_force(i, area * (input.static_traction[i] + traction[i]));
             }
         }
-        problem.respond();
+        problem.update_motions();
         for (e, layer) in layers.iter().enumerate() {
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 // The jump does not contain the layer.
-                let own = layer[component.min(1)] / areas[e] * problem.change[i];
-                jump[i] += problem.y[i] - problem.q[i] - own;
+                let by_layer = layer[component.min(1)] / areas[e] * problem.change[i];
+                jump[i] += problem.y[i] - problem.q[i] - by_layer;
             }
         }
     }
 
     /// Reads W, q and the limits of the laws.
-    fn take(&mut self, generation: usize, input: &ContactInput<'_>) -> Result<(), LawError> {
-        self.find_operator(generation, input)?;
+    fn read_step(&mut self, generation: usize, input: &ContactInput<'_>) -> Result<(), LawError> {
+        self.update_operator(generation, input)?;
         let Self { problem, areas, layers, .. } = self;
         self.broken.fill(false);
         for (e, &area) in areas.iter().enumerate() {
             let start = input.start.element(e);
             problem.bounds[e] = bounds(&limits(input, e)?, area);
-            let (jump, shear) = (start.state.jump(), start.state.traction());
             for (component, i) in problem.places(e).into_iter().enumerate() {
                 problem.anchor[i] = area * input.static_traction[i];
                 problem.q[i] = input.free_jump[i];
                 // A layer starts from its deformation, a slip from its last value.
                 let layer = layers[e][component.min(1)];
-                let begin = if component == 0 { 0.0 } else { shear[component] };
+                let begin = if component == 0 { 0.0 } else { start.state.traction()[component] };
                 problem.q[i] += layer * (input.static_traction[i] - begin);
                 if component > 0 {
-                    problem.q[i] -= jump[component];
+                    problem.q[i] -= start.state.jump()[component];
                 }
             }
         }
-        problem.scale = largest(&problem.anchor);
-        let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |most, rho| most.max(*rho));
+        problem.min_force_scale = largest(&problem.anchor);
+        let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |max, rho| max.max(*rho));
         // Rounding of lengths that are not normal numbers is larger.
         let length = input.length_scale.max(f64::MIN_POSITIVE / f64::EPSILON);
-        problem.finest = 4.0 * f64::EPSILON * length * stiffest;
+        problem.rounding_residual = 4.0 * f64::EPSILON * length * stiffest;
         Ok(())
     }
 
     /// Copies W and adds the layers of the laws, if either has changed.
-    fn find_operator(
+    fn update_operator(
         &mut self,
         generation: usize,
         input: &ContactInput<'_>,
@@ -220,16 +215,17 @@ impl Cone {
         }
         self.generation = Some(generation);
         if let Some(on_bed) = input.delassus.on_bed() {
-            self.take_modes(on_bed);
+            self.read_modes(on_bed);
             return Ok(());
         }
         if self.problem.low_rank.is_some() {
             let count = self.areas.len();
-            (self.problem, self.newton) = (Problem::new(count), Newton::new(count));
+            (self.problem, self.newton) = (ConeProblem::new(count), Newton::new(count));
         }
-        let lasts = lasts(self.is_linear, &self.layers, input);
+        let is_constant = has_constant_operator(self.is_linear, &self.layers, input);
         let Self { problem, areas, layers, .. } = self;
-        let (size, count) = (problem.size(), areas.len());
+        let size = problem.size();
+        let count = areas.len();
         let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
         for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
             for (column, value) in values.iter_mut().enumerate() {
@@ -237,53 +233,55 @@ impl Cone {
             }
             values[row] += layer(row);
         }
-        problem.find_scales();
-        (problem.blocks, problem.wide) = (None, None);
+        problem.update_scales();
+        problem.near_field = None;
+        problem.dense_lattice = None;
         // Blocks of a W that changes would not pay.
-        if let Some(soil) = input.delassus.soil().filter(|_| lasts)
+        if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
             && let Some(cells) = soil.cells()
         {
             let compliance =
                 |row: usize, column: usize| soil[row * size + column] / areas[column % count];
-            let blocks = Blocks::new(&problem.w, &problem.rho, cells, compliance, layer);
-            if blocks.is_none() {
-                problem.wide = Wide::new(&problem.w, cells, compliance, layer);
+            let near_field =
+                NearFieldBlocks::new(&problem.w, &problem.rho, cells, compliance, layer);
+            if near_field.is_none() {
+                problem.dense_lattice = DenseLattice::new(&problem.w, cells, compliance, layer);
             }
-            problem.take_blocks(blocks);
+            problem.set_near_field(near_field);
         }
         problem.prepare_acceleration();
-        self.newton.forget(lasts);
+        self.newton.forget(is_constant);
         Ok(())
     }
 
-    /// Takes W of low rank, and adds the layers of the laws.
-    fn take_modes(&mut self, on_bed: &OnBed) {
+    /// Reads W of low rank, and adds the layers of the laws.
+    fn read_modes(&mut self, on_bed: &OnBed) {
         let Self { problem, newton, areas, layers, .. } = self;
         let count = areas.len();
         let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
         let Some(low_rank) = &mut problem.low_rank else {
-            (*problem, *newton) = (Problem::on_bed(count), Newton::on_bed(count));
-            return self.take_modes(on_bed);
+            (*problem, *newton) = (ConeProblem::on_bed(count), Newton::on_bed(count));
+            return self.read_modes(on_bed);
         };
         low_rank.set(on_bed, areas, layer);
         newton.reserve(on_bed.rank());
-        problem.find_scales();
+        problem.update_scales();
     }
 
     /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
-    fn repeat(&mut self, modes: &[Mode]) -> bool {
+    fn try_previous_statuses(&mut self, modes: &[Mode]) -> bool {
         let Self { newton, problem, .. } = self;
-        if problem.blocks.as_ref().is_some_and(|blocks| !blocks.is_factored()) {
+        if problem.near_field.as_ref().is_some_and(|near_field| !near_field.is_factored()) {
             return false;
         }
         for ((status, mode), bounds) in newton.statuses.iter_mut().zip(modes).zip(&problem.bounds) {
-            let smooth = bounds.friction == 0.0 && !bounds.has_bond();
+            let is_frictionless = bounds.friction == 0.0 && !bounds.has_bond();
             *status = match mode {
-                Mode::Open if !bounds.bonded => Status::OPEN,
-                _ if mode.is_slip() && !smooth && !bounds.bonded => return false,
+                Mode::Open if !bounds.bonded => Status::OPEN_FREE,
+                _ if mode.is_slip() && !is_frictionless && !bounds.bonded => return false,
                 _ => Status {
                     normal: if mode.is_yield() { Normal::Capped } else { Normal::Closed },
-                    tangential: if smooth && !bounds.bonded {
+                    tangential: if is_frictionless && !bounds.bonded {
                         Tangential::Free
                     } else {
                         Tangential::Stick
@@ -291,21 +289,21 @@ impl Cone {
                 },
             };
             let capped = status.normal == Normal::Capped;
-            let is_swept = problem.blocks.is_some() && *status != Status::STICK;
+            let is_swept = problem.near_field.is_some() && *status != Status::CLOSED_STICKING;
             if is_swept || capped && bounds.interval[1] == f64::INFINITY {
                 return false;
             }
         }
-        problem.rest();
+        problem.reset_forces();
         newton.step(problem)
     }
 
     /// Sets the initial forces of the step.
-    fn begin(&mut self, input: &ContactInput<'_>) {
+    fn set_initial_forces(&mut self, input: &ContactInput<'_>) {
         for (e, area) in self.areas.iter().enumerate() {
             let traction = input.start.state(e).traction();
             for (i, traction) in self.problem.places(e).into_iter().zip(traction) {
-                self.problem.set(i, area * traction);
+                self.problem.set_force(i, area * traction);
             }
         }
     }
@@ -325,14 +323,14 @@ impl Cone {
     }
 
     /// Modes of the statuses.
-    fn name(&self, modes: &mut [Mode]) {
+    fn write_modes(&self, modes: &mut [Mode]) {
         for (e, (mode, status)) in modes.iter_mut().zip(&self.newton.statuses).enumerate() {
             // A bond at its strength still holds; a broken one stays broken.
-            let held = self.problem.bounds[e].has_bond();
+            let has_bond = self.problem.bounds[e].has_bond();
             let slides = status.tangential != Tangential::Stick || self.broken[e];
             let closed = if slides { Mode::Slip } else { Mode::Stick };
             *mode = match status.normal {
-                Normal::Open if !held => Mode::Open,
+                Normal::Open if !has_bond => Mode::Open,
                 Normal::Capped => closed.yielding(),
                 _ => closed,
             };
@@ -340,21 +338,25 @@ impl Cone {
     }
 
     /// Smallest friction bound that replaced the law's larger one on a sliding element.
-    fn stand_in(&self) -> Option<f64> {
+    fn substituted_friction(&self) -> Option<f64> {
         let elements = self.newton.statuses.iter().zip(&self.problem.bounds);
-        let taken = elements.filter(|(status, bounds)| status.is_held_by(bounds.friction));
-        taken.map(|(_, bounds)| bounds.taken()).reduce(f64::min)
+        let substituted = elements.filter(|(status, bounds)| status.slips_below(bounds.friction));
+        substituted.map(|(_, bounds)| bounds.effective_friction()).reduce(f64::min)
     }
 
     fn failure(&mut self, iterations: usize) -> StepError {
         let problem = &mut self.problem;
         // With the friction of the laws.
-        problem.hold(f64::INFINITY);
+        problem.limit_friction(f64::INFINITY);
         let residual = problem.residual();
         let tolerance = problem.tolerance();
-        let missed = |e: &usize| problem.miss(*e) > tolerance || problem.miss(*e).is_nan();
-        let elements = (0..problem.count).filter(missed).collect();
-        let scale = problem.largest().max(f64::MIN_POSITIVE);
+        let elements = (0..problem.count)
+            .filter(|e| {
+                let residual = problem.element_residual(*e);
+                residual > tolerance || residual.is_nan()
+            })
+            .collect();
+        let scale = problem.largest_force().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
     }
 }
@@ -362,18 +364,24 @@ impl Cone {
 /// Whether W is constant for the whole run.
 ///
 /// True if the structure is linear, and laws with layers have no state variables.
-fn lasts(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool {
-    let is_fixed =
-        |(e, layer): (usize, &[f64; 2])| *layer == [0.0; 2] || input.law(e).state_variables() == 0;
-    is_linear && layers.iter().enumerate().all(is_fixed)
+fn has_constant_operator(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool {
+    is_linear
+        && layers
+            .iter()
+            .enumerate()
+            .all(|(e, layer)| *layer == [0.0; 2] || input.law(e).state_variables() == 0)
 }
 
 /// Limits of an element's law, checked.
 fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
-    let (law, start) = (input.law(element), input.start.element(element));
+    let law = input.law(element);
+    let start = input.start.element(element);
     let mode = start.mode.word();
-    let refused = |reason| LawError { element, mode, reason: Box::new(reason) };
-    let limits = law.limits(&start).and_then(Limits::checked).map_err(refused)?;
+    let limits = law.limits(&start).and_then(Limits::checked).map_err(|reason| LawError {
+        element,
+        mode,
+        reason: Box::new(reason),
+    })?;
     Ok(if input.frictionless { limits.frictionless() } else { limits })
 }
 
@@ -381,7 +389,7 @@ fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> 
 fn bounds(limits: &Limits, area: f64) -> Bounds {
     Bounds {
         friction: limits.friction,
-        grip: f64::INFINITY,
+        friction_limit: f64::INFINITY,
         attraction: limits.attraction * area,
         strength: limits.shear_strength * area,
         interval: [-limits.tension * area, limits.pressure_cap * area],

@@ -3,9 +3,9 @@
 use crate::linalg::pivoted_cholesky;
 
 /// Largest number of modes.
-pub(super) const RANK: usize = 24;
+pub(super) const MAX_MODE_COUNT: usize = 24;
 /// Diagonal that the modes leave out, relative to the largest of W: rounding.
-const ROUNDING: f64 = 1e-14;
+const MODE_TOLERANCE: f64 = 1e-14;
 
 /// Pivoted Cholesky factors L of W without `soil(row, column)` and its diagonal's `layer(row)`, mode by mode.
 ///
@@ -16,15 +16,15 @@ pub(super) fn find_modes(
     soil: impl Fn(usize, usize) -> f64,
     layer: impl Fn(usize) -> f64,
 ) -> Option<Vec<Vec<f64>>> {
-    let held = |row: usize, column: usize| {
+    let other_part = |row: usize, column: usize| {
         soil(row, column) + if row == column { layer(row) } else { 0.0 }
     };
-    let own = |i: usize| w[i * (size + 1)];
-    let rest: Vec<f64> = (0..size).map(|i| own(i) - held(i, i)).collect();
-    let least = (0..size).map(|i| ROUNDING * own(i)).fold(0.0, f64::max);
-    pivoted_cholesky(rest, least, RANK, |pivot, column| {
+    let diagonal: Vec<f64> = (0..size).map(|i| w[i * (size + 1)]).collect();
+    let rest = diagonal.iter().enumerate().map(|(i, entry)| entry - other_part(i, i)).collect();
+    let tolerance = diagonal.iter().map(|entry| MODE_TOLERANCE * entry).fold(0.0, f64::max);
+    pivoted_cholesky(rest, tolerance, MAX_MODE_COUNT, |pivot, column| {
         for (i, value) in column.iter_mut().enumerate() {
-            *value = w[i * size + pivot] - held(i, pivot);
+            *value = w[i * size + pivot] - other_part(i, pivot);
         }
     })
 }

@@ -6,22 +6,20 @@
 use std::mem::Discriminant;
 
 use super::low_rank_system::LowRankSystem;
-use super::problem::{Endless, Problem};
+use super::problem::{ConeProblem, InfiniteFriction, SolveOutcome};
 use super::status::{Normal, Status, Tangential};
 use super::system::System;
 
 /// Largest number of iterations.
-const ITERATIONS: usize = 15;
-/// Number of elements from which a factorization takes longer than several sweeps.
-pub(super) const MANY_ELEMENTS: usize = 64;
+const MAX_NEWTON_ITERATIONS: usize = 15;
 /// With many elements: factor by which an iteration must reduce the residual, and the number of iterations that may not.
 const MIN_REDUCTION: f64 = 0.5;
 const MAX_SLOW_ITERATIONS: usize = 2;
 /// With many elements: residual, relative to the largest force, below which factors of the same step solve.
 const NEAR_RESIDUAL: f64 = 1e-4;
 /// Largest number of iterations of an attempt with partial steps, and the smallest part of a step.
-const WANDERED: usize = 60;
-const LEAST: f64 = 0.2;
+const MAX_RESTART_ITERATIONS: usize = 60;
+const MIN_STEP_FRACTION: f64 = 0.2;
 
 /// Newton's method, with its scratch.
 pub(super) struct Newton {
@@ -37,7 +35,7 @@ pub(super) struct Newton {
 impl Newton {
     pub(super) fn new(count: usize) -> Self {
         Self {
-            statuses: vec![Status::STICK; count],
+            statuses: vec![Status::CLOSED_STICKING; count],
             system: System::new(count),
             low_rank: None,
             kinds: Vec::with_capacity(count),
@@ -48,7 +46,7 @@ impl Newton {
     /// The method for W of low rank.
     pub(super) fn on_bed(count: usize) -> Self {
         Self {
-            statuses: vec![Status::STICK; count],
+            statuses: vec![Status::CLOSED_STICKING; count],
             low_rank: Some(LowRankSystem::new(count)),
             kinds: Vec::with_capacity(count),
             before: vec![0.0; 3 * count],
@@ -65,9 +63,9 @@ impl Newton {
 
     /// Discards the factors; call it when W has changed.
     ///
-    /// `lasts`: whether W will stay constant.
-    pub(super) fn forget(&mut self, lasts: bool) {
-        self.system.forget(lasts);
+    /// `is_constant`: whether W will stay constant.
+    pub(super) fn forget(&mut self, is_constant: bool) {
+        self.system.forget(is_constant);
     }
 
     /// Discards the results of previous steps that influence the choice of a system.
@@ -78,31 +76,33 @@ impl Newton {
     /// Iterates from the present r; returns the number of iterations, and whether they found a solution.
     ///
     /// With `ahead` the radius follows from the trial's p instead of the present p.
-    pub(super) fn solve(&mut self, problem: &mut Problem, ahead: bool) -> (usize, bool) {
-        for iteration in 0..ITERATIONS {
+    pub(super) fn solve(&mut self, problem: &mut ConeProblem, ahead: bool) -> SolveOutcome {
+        for iteration in 0..MAX_NEWTON_ITERATIONS {
             if problem.is_solved() {
-                return (iteration, true);
+                return SolveOutcome::new(iteration, true);
             }
             self.classify(problem, ahead);
             if !self.step(problem) {
-                return (iteration + 1, false);
+                return SolveOutcome::new(iteration + 1, false);
             }
         }
-        (ITERATIONS, problem.is_solved())
+        SolveOutcome::new(MAX_NEWTON_ITERATIONS, problem.is_solved())
     }
 
-    /// The same for many elements between sweeps: ends early, at the forces of the smallest residual, if the residual
-    /// hardly falls.
+    /// Iterates between the sweeps of many elements: ends early if the residual hardly falls.
+    ///
+    /// The forces with the smallest residual then remain.
     ///
     /// Iterations that start too far from the solution let more and more elements slip, and one of them takes longer
     /// than several sweeps.
-    pub(super) fn solve_briefly(&mut self, problem: &mut Problem, ahead: bool) -> (usize, bool) {
-        let (mut smallest, mut slow) = (f64::INFINITY, 0);
+    pub(super) fn solve_briefly(&mut self, problem: &mut ConeProblem, ahead: bool) -> SolveOutcome {
+        let mut smallest = f64::INFINITY;
+        let mut slow = 0;
         self.before.copy_from_slice(&problem.change);
-        for iteration in 0..=ITERATIONS {
+        for iteration in 0..=MAX_NEWTON_ITERATIONS {
             let residual = problem.residual();
             if residual <= problem.tolerance() {
-                return (iteration, true);
+                return SolveOutcome::new(iteration, true);
             }
             // False for NaN.
             let falls = residual <= MIN_REDUCTION * smallest;
@@ -113,57 +113,57 @@ impl Newton {
                 smallest = residual;
                 self.before.copy_from_slice(&problem.change);
             }
-            if slow == MAX_SLOW_ITERATIONS || iteration == ITERATIONS {
+            if slow == MAX_SLOW_ITERATIONS || iteration == MAX_NEWTON_ITERATIONS {
                 problem.change.copy_from_slice(&self.before);
-                return (iteration, false);
+                return SolveOutcome::new(iteration, false);
             }
             self.classify(problem, ahead);
-            let is_near = slow == 0 && residual <= NEAR_RESIDUAL * problem.largest();
+            let is_near = slow == 0 && residual <= NEAR_RESIDUAL * problem.largest_force();
             if !self.system.solve(problem, &self.statuses, is_near) {
                 problem.change.copy_from_slice(&self.before);
-                return (iteration + 1, false);
+                return SolveOutcome::new(iteration + 1, false);
             }
         }
-        (ITERATIONS, false)
+        SolveOutcome::new(MAX_NEWTON_ITERATIONS, false)
     }
 
-    /// Makes `attempts` in turn: from `start`, from zero forces and with all elements sticking.
+    /// Randomised restarts: `attempts` in turn, from `start`, from zero forces and with all elements sticking.
     ///
     /// Until the statuses stay the same, each element takes a random part of each step, which keeps the iterates
     /// from cycling.
-    pub(super) fn wander(
+    pub(super) fn restart_randomly(
         &mut self,
-        problem: &mut Problem,
+        problem: &mut ConeProblem,
         start: &[f64],
         attempts: u64,
-    ) -> (usize, bool) {
-        let mut all = 0;
+    ) -> SolveOutcome {
+        let mut iterations = 0;
         for attempt in 0..attempts {
             match attempt % 3 {
                 0 => problem.change.copy_from_slice(start),
-                1 => (0..problem.size()).for_each(|i| problem.set(i, 0.0)),
+                1 => (0..problem.size()).for_each(|i| problem.set_force(i, 0.0)),
                 _ => {
-                    problem.rest();
-                    self.statuses.fill(Status::STICK);
+                    problem.reset_forces();
+                    self.statuses.fill(Status::CLOSED_STICKING);
                     self.step(problem);
                 }
             }
-            let (iterations, found) = self.attempt(problem, attempt);
-            all += iterations;
-            if found {
-                return (all, true);
+            let outcome = self.attempt(problem, attempt);
+            iterations += outcome.iterations;
+            if outcome.is_solved {
+                return SolveOutcome::new(iterations, true);
             }
         }
-        (all, false)
+        SolveOutcome::new(iterations, false)
     }
 
-    /// Makes one attempt, by its number.
-    fn attempt(&mut self, problem: &mut Problem, number: u64) -> (usize, bool) {
+    /// Makes one randomised restart; `number` seeds its random fractions.
+    fn attempt(&mut self, problem: &mut ConeProblem, number: u64) -> SolveOutcome {
         let mut state = number.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         self.kinds.clear();
-        for iteration in 0..WANDERED {
+        for iteration in 0..MAX_RESTART_ITERATIONS {
             if problem.is_solved() {
-                return (iteration, true);
+                return SolveOutcome::new(iteration, true);
             }
             self.before.copy_from_slice(&problem.change);
             self.classify(problem, number % 2 == 1);
@@ -171,7 +171,7 @@ impl Newton {
             self.kinds.clear();
             self.kinds.extend(self.statuses.iter().map(Status::kind));
             if !self.step(problem) {
-                return (iteration + 1, false);
+                return SolveOutcome::new(iteration + 1, false);
             }
             if stays {
                 continue;
@@ -181,72 +181,87 @@ impl Newton {
                 state ^= state << 13;
                 state ^= state >> 7;
                 state ^= state << 17;
-                let part = LEAST + (1.0 - LEAST) * (state >> 11) as f64 / (1_u64 << 53) as f64;
+                let fraction = MIN_STEP_FRACTION
+                    + (1.0 - MIN_STEP_FRACTION) * (state >> 11) as f64 / (1_u64 << 53) as f64;
                 for i in problem.places(e) {
-                    let (old, new) = (self.before[i], problem.change[i]);
-                    problem.change[i] = old + part * (new - old);
+                    let old = self.before[i];
+                    let new = problem.change[i];
+                    problem.change[i] = old + fraction * (new - old);
                 }
             }
         }
-        (WANDERED, problem.is_solved())
+        SolveOutcome::new(MAX_RESTART_ITERATIONS, problem.is_solved())
     }
 
-    /// Statuses by the trials of the present r and y.
-    pub(super) fn classify(&mut self, problem: &Problem, ahead: bool) {
+    /// Sets the statuses by the trials of the present r and y.
+    ///
+    /// With `ahead` the radius follows from the trial's p instead of the present p.
+    pub(super) fn classify(&mut self, problem: &ConeProblem, ahead: bool) {
         for (e, status) in self.statuses.iter_mut().enumerate() {
-            let (bounds, [p, x, y]) = (&problem.bounds[e], problem.trial(e));
-            if bounds.bonded {
-                *status = Status::STICK;
-                continue;
-            }
-            let [least, most] = bounds.interval;
-            if bounds.is_endless() {
-                *status = match problem.endless(e) {
-                    Endless::Open => Status::OPEN,
-                    Endless::Stick if p >= most => {
-                        Status { normal: Normal::Capped, tangential: Tangential::Stick }
-                    }
-                    Endless::Stick => Status::STICK,
-                    Endless::Slip(direction) => {
-                        let [_, i, j] = problem.places(e);
-                        let along =
-                            direction[0] * problem.force(i) + direction[1] * problem.force(j);
-                        let turn = (along / x.hypot(y)).clamp(0.0, 1.0);
-                        let slope = f64::INFINITY;
-                        let tangential = Tangential::Slip { direction, turn, slope };
-                        Status { normal: Normal::Closed, tangential }
-                    }
-                };
-                continue;
-            }
-            let normal = if p <= least {
-                Normal::Open
-            } else if p >= most {
-                Normal::Capped
+            let bounds = &problem.bounds[e];
+            *status = if bounds.bonded {
+                Status::CLOSED_STICKING
+            } else if bounds.has_infinite_friction() {
+                status_with_infinite_friction(problem, e)
             } else {
-                Normal::Closed
+                status_with_finite_friction(problem, e, ahead)
             };
-            let pressing = if ahead { bounds.press(p) } else { problem.force(e) };
-            let radius = bounds.radius(pressing);
-            let size = x.hypot(y);
-            let tangential = if radius == 0.0 && (normal == Normal::Open || bounds.friction == 0.0)
-            {
-                Tangential::Free
-            } else if size <= radius {
-                Tangential::Stick
-            } else {
-                let slope = if pressing + bounds.attraction > 0.0 { bounds.taken() } else { 0.0 };
-                Tangential::Slip { direction: [x / size, y / size], turn: radius / size, slope }
-            };
-            *status = Status { normal, tangential };
         }
     }
 
     /// Solves the system of the statuses; `false` if it is singular.
-    pub(super) fn step(&mut self, problem: &mut Problem) -> bool {
+    pub(super) fn step(&mut self, problem: &mut ConeProblem) -> bool {
         match &mut self.low_rank {
             Some(system) => system.solve(problem, &self.statuses),
             None => self.system.solve(problem, &self.statuses, false),
         }
     }
+}
+
+/// Status of an element with infinite friction by its trial.
+fn status_with_infinite_friction(problem: &ConeProblem, e: usize) -> Status {
+    let trial = problem.trial(e);
+    match problem.infinite_friction_status(e) {
+        InfiniteFriction::Open => Status::OPEN_FREE,
+        InfiniteFriction::Stick if trial[0] >= problem.bounds[e].interval[1] => {
+            Status { normal: Normal::Capped, tangential: Tangential::Stick }
+        }
+        InfiniteFriction::Stick => Status::CLOSED_STICKING,
+        InfiniteFriction::Slip(direction) => {
+            let places = problem.places(e);
+            let along =
+                direction[0] * problem.force(places[1]) + direction[1] * problem.force(places[2]);
+            let turn = (along / trial[1].hypot(trial[2])).clamp(0.0, 1.0);
+            let slope = f64::INFINITY;
+            let tangential = Tangential::Slip { direction, turn, slope };
+            Status { normal: Normal::Closed, tangential }
+        }
+    }
+}
+
+/// Status of an element with finite friction by its trial; `ahead` as in [`Newton::classify`].
+fn status_with_finite_friction(problem: &ConeProblem, e: usize, ahead: bool) -> Status {
+    let bounds = &problem.bounds[e];
+    let trial = problem.trial(e);
+    let normal = if trial[0] <= bounds.interval[0] {
+        Normal::Open
+    } else if trial[0] >= bounds.interval[1] {
+        Normal::Capped
+    } else {
+        Normal::Closed
+    };
+    let pressure = if ahead { bounds.project_pressure(trial[0]) } else { problem.force(e) };
+    let radius = bounds.radius(pressure);
+    let size = trial[1].hypot(trial[2]);
+    let tangential = if radius == 0.0 && (normal == Normal::Open || bounds.friction == 0.0) {
+        Tangential::Free
+    } else if size <= radius {
+        Tangential::Stick
+    } else {
+        let has_friction = pressure + bounds.attraction > 0.0;
+        let slope = if has_friction { bounds.effective_friction() } else { 0.0 };
+        let direction = [trial[1] / size, trial[2] / size];
+        Tangential::Slip { direction, turn: radius / size, slope }
+    };
+    Status { normal, tangential }
 }

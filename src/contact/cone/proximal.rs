@@ -2,12 +2,12 @@
 //!
 //! Each problem is better conditioned than the original one, and the added terms vanish as the iterates converge.
 
-use super::problem::Problem;
+use super::problem::ConeProblem;
 
 /// Initial fraction of the mean diagonal D that is added.
-const SHARE: f64 = 0.3;
+const INITIAL_DIAGONAL_FRACTION: f64 = 0.3;
 /// Largest number of iterations.
-const ITERATIONS: usize = 60;
+const MAX_PROXIMAL_ITERATIONS: usize = 60;
 
 /// Original q and diagonal of W, and the last iterate.
 pub(super) struct Proximal {
@@ -18,15 +18,15 @@ pub(super) struct Proximal {
 
 impl Proximal {
     pub(super) fn new(count: usize) -> Self {
-        let zero = || vec![0.0; 3 * count];
-        Self { q: zero(), diagonal: zero(), center: zero() }
+        let zero = vec![0.0; 3 * count];
+        Self { q: zero.clone(), diagonal: zero.clone(), center: zero }
     }
 
     /// Solves `problem` by `solve`, a solver for modified problems; returns whether it succeeded.
     pub(super) fn solve(
         &mut self,
-        problem: &mut Problem,
-        mut solve: impl FnMut(&mut Problem) -> bool,
+        problem: &mut ConeProblem,
+        mut solve: impl FnMut(&mut ConeProblem) -> bool,
     ) -> bool {
         let size = problem.size();
         self.q.copy_from_slice(&problem.q);
@@ -35,30 +35,30 @@ impl Proximal {
             self.diagonal[i] = problem.diagonal(i);
         }
         let mean = self.diagonal.iter().sum::<f64>() / size as f64;
-        let mut share = SHARE;
+        let mut fraction = INITIAL_DIAGONAL_FRACTION;
         let mut found = false;
-        for _ in 0..ITERATIONS {
-            let added = share * mean;
+        for _ in 0..MAX_PROXIMAL_ITERATIONS {
+            let added = fraction * mean;
             for i in 0..size {
                 problem.set_diagonal(i, self.diagonal[i] + added);
                 problem.q[i] = self.q[i] - added * self.center[i];
             }
             problem.added = added;
-            problem.find_scales();
+            problem.update_scales();
             let solved = solve(problem);
             problem.added = 0.0;
             for i in 0..size {
                 problem.set_diagonal(i, self.diagonal[i]);
             }
             problem.q.copy_from_slice(&self.q);
-            problem.find_scales();
+            problem.update_scales();
             if !solved {
                 problem.change.copy_from_slice(&self.center);
-                share *= 3.0;
+                fraction *= 3.0;
                 continue;
             }
             self.center.copy_from_slice(&problem.change);
-            share *= 0.5;
+            fraction *= 0.5;
             found = problem.is_solved();
             if found {
                 break;
@@ -68,11 +68,11 @@ impl Proximal {
     }
 }
 
-impl Problem {
+impl ConeProblem {
     /// Entry on the diagonal of W; `added` is not part of it if W is of low rank.
     fn diagonal(&self, i: usize) -> f64 {
         match &self.low_rank {
-            Some(_) => self.own[i % self.count][i / self.count][i / self.count],
+            Some(_) => self.element_blocks[i % self.count][i / self.count][i / self.count],
             None => self.w[i * (self.size() + 1)],
         }
     }

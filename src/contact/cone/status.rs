@@ -40,32 +40,33 @@ impl Status {
     }
 
     /// Whether the element slips and its friction is below `friction`.
-    pub(super) fn is_held_by(&self, friction: f64) -> bool {
+    pub(super) fn slips_below(&self, friction: f64) -> bool {
         matches!(self.tangential, Tangential::Slip { slope, .. } if slope > 0.0 && slope < friction)
     }
 
     /// Closed without slip.
-    pub(super) const STICK: Self = Self { normal: Normal::Closed, tangential: Tangential::Stick };
+    pub(super) const CLOSED_STICKING: Self =
+        Self { normal: Normal::Closed, tangential: Tangential::Stick };
     /// Open, without any force.
-    pub(super) const OPEN: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
+    pub(super) const OPEN_FREE: Self = Self { normal: Normal::Open, tangential: Tangential::Free };
 
     /// Prescribed p of an open or capped element; `None` if closed.
-    pub(super) fn bound(&self, [least, most]: [f64; 2]) -> Option<f64> {
+    pub(super) fn bound(&self, interval: [f64; 2]) -> Option<f64> {
         match self.normal {
-            Normal::Open => Some(least),
+            Normal::Open => Some(interval[0]),
             Normal::Closed => None,
-            Normal::Capped => Some(most),
+            Normal::Capped => Some(interval[1]),
         }
     }
 
     /// Numbers of unknown forces and of unknown motions.
-    pub(super) fn dofs(&self) -> [usize; 2] {
-        let [force, motion] = match self.tangential {
+    pub(super) fn unknown_counts(&self) -> [usize; 2] {
+        let tangential = match self.tangential {
             Tangential::Free => [0, 2],
             Tangential::Stick => [2, 0],
             Tangential::Slip { .. } => [1, 2],
         };
         let closed = usize::from(self.normal == Normal::Closed);
-        [force + closed, motion + 1 - closed]
+        [tangential[0] + closed, tangential[1] + 1 - closed]
     }
 }

@@ -1,4 +1,4 @@
-//! The linear system of given statuses, for corrections that satisfy y = q + W (r − r₀).
+//! The linear system of known statuses, for corrections that satisfy y = q + W (r − r₀).
 //!
 //! Each component of an element has a condition on its force or on its motion; the other quantity is unknown.
 //! There are two systems with the same solution; the smaller one is solved:
@@ -18,14 +18,14 @@
 //! statuses alone if W is constant, otherwise by the statuses of the same step. If all elements stick, the factors
 //! of W itself solve.
 
-use super::problem::Problem;
+use super::problem::ConeProblem;
 use super::status::{Status, Tangential};
 use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 
-/// Number of columns of W⁻¹ that are solved for together.
-const BLOCK: usize = 32;
+/// Number of columns of W⁻¹ that are solved together.
+const INVERSE_BLOCK_COLUMNS: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
-const INVERSE: f64 = 4.0;
+const INVERSE_COST_FACTOR: f64 = 4.0;
 /// Cost of a product with W⁻¹ of many elements: operations of a factorization for each entry, which memory delivers.
 const OPERATIONS_PER_ENTRY: f64 = 24.0;
 
@@ -46,8 +46,9 @@ impl Mix {
     }
 
     fn sum(&self, values: &[f64]) -> f64 {
-        let [a, b, c] = self.places.map(|place| values[place]);
-        self.weights[0] * a + self.weights[1] * b + self.weights[2] * c
+        self.weights[0] * values[self.places[0]]
+            + self.weights[1] * values[self.places[1]]
+            + self.weights[2] * values[self.places[2]]
     }
 
     fn add_to(&self, values: &mut [f64], factor: f64) {
@@ -58,11 +59,11 @@ impl Mix {
 }
 
 /// An unknown and its condition. x are the unknown forces or motions, A x the quantities of the other kind. The
-/// unknown adds multiples of `column` to x, and row · A x + own column · x = goal.
+/// unknown adds multiples of `column` to x, and row · A x + coefficient column · x = goal.
 struct Unknown {
     row: Mix,
     column: Mix,
-    own: f64,
+    coefficient: f64,
     goal: f64,
 }
 
@@ -75,43 +76,32 @@ pub(super) struct System {
     mixed_rows: Vec<Mix>,
     rhs: Vec<f64>,
     factor: DenseFactor,
-    /// Factors of W, if `is_whole`.
-    whole: DenseFactor,
-    is_whole: bool,
+    /// Factors of W, if `has_whole_factor`.
+    whole_factor: DenseFactor,
+    has_whole_factor: bool,
     /// W⁻¹; empty until it has been computed.
     inverse: Vec<f64>,
     /// Whether W is constant for the whole run.
-    lasts: bool,
+    is_constant: bool,
     /// Cost of the solutions of this step that W⁻¹ would have saved, if W changes.
-    spent: f64,
+    saved_cost: f64,
     /// Statuses of the present factors.
-    held: Vec<Status>,
-    /// Whether the factors belong to `held`, all without slip.
-    is_held: bool,
-    /// Whether the factors belong to `held`, computed in this step.
+    factored_statuses: Vec<Status>,
+    /// Whether the factors belong to `factored_statuses`, all without slip.
+    is_reusable: bool,
+    /// Whether the factors belong to `factored_statuses`, computed in this step.
     is_recent: bool,
     /// Whether the present factors belong to unknown motions.
     by_motions: bool,
     /// Corrections that follow from the statuses alone, of the same kind as the unknown quantities.
-    given: Vec<f64>,
-    /// Quantities of the other kind after the given corrections, where a condition has them; also scratch.
-    answer: Vec<f64>,
+    known: Vec<f64>,
+    /// Quantities of the other kind after the known corrections, where a condition has them; also scratch.
+    products: Vec<f64>,
 }
 
-impl Problem {
-    /// Sets the forces that statuses prescribe, to the last bit.
-    pub(super) fn prescribe(&mut self, statuses: &[Status]) {
-        for (e, status) in statuses.iter().enumerate() {
-            let [n, x, y] = self.places(e);
-            if let Some(bound) = status.bound(self.bounds[e].interval) {
-                self.set(n, bound);
-            }
-            if status.tangential == Tangential::Free {
-                self.set(x, 0.0);
-                self.set(y, 0.0);
-            }
-        }
-    }
+/// Cost of a factorization of this order.
+fn cube(order: usize) -> f64 {
+    (order as f64).powi(3)
 }
 
 impl System {
@@ -123,35 +113,37 @@ impl System {
             mixed_rows: Vec::with_capacity(size),
             rhs: Vec::with_capacity(size),
             factor: DenseFactor::with_capacity(size),
-            whole: DenseFactor::with_columns(size, BLOCK),
-            is_whole: false,
+            whole_factor: DenseFactor::with_columns(size, INVERSE_BLOCK_COLUMNS),
+            has_whole_factor: false,
             inverse: Vec::with_capacity(size * size),
-            lasts: false,
-            spent: 0.0,
-            held: vec![Status::STICK; count],
-            is_held: false,
+            is_constant: false,
+            saved_cost: 0.0,
+            factored_statuses: vec![Status::CLOSED_STICKING; count],
+            is_reusable: false,
             is_recent: false,
             by_motions: false,
-            given: vec![0.0; size],
-            answer: vec![0.0; size],
+            known: vec![0.0; size],
+            products: vec![0.0; size],
         }
     }
 
-    /// Discards factors and W⁻¹; call it when W has changed. `lasts`: whether W will stay constant.
-    pub(super) fn forget(&mut self, lasts: bool) {
-        (self.is_held, self.is_whole, self.lasts) = (false, false, lasts);
+    /// Discards factors and W⁻¹; call it when W has changed. `is_constant`: whether W will stay constant.
+    pub(super) fn forget(&mut self, is_constant: bool) {
+        self.is_reusable = false;
+        self.has_whole_factor = false;
+        self.is_constant = is_constant;
         self.is_recent = false;
         self.inverse.clear();
-        self.spent = 0.0;
+        self.saved_cost = 0.0;
     }
 
     /// Discards the results of previous steps that influence the choice of a system.
     pub(super) fn begin_step(&mut self) {
         self.is_recent = false;
-        if !self.lasts {
-            self.is_held &= !self.by_motions;
+        if !self.is_constant {
+            self.is_reusable &= !self.by_motions;
             self.inverse.clear();
-            self.spent = 0.0;
+            self.saved_cost = 0.0;
         }
     }
 
@@ -160,73 +152,87 @@ impl System {
     /// With `is_near` factors of the same step for statuses of the same kinds are near enough.
     pub(super) fn solve(
         &mut self,
-        problem: &mut Problem,
+        problem: &mut ConeProblem,
         statuses: &[Status],
         is_near: bool,
     ) -> bool {
-        if statuses.iter().all(|status| *status == Status::STICK) {
-            return self.stick(problem);
+        if statuses.iter().all(|status| *status == Status::CLOSED_STICKING) {
+            return self.solve_sticking(problem);
         }
-        let slips = |status: &Status| matches!(status.tangential, Tangential::Slip { .. });
-        let sticks = !statuses.iter().any(slips);
+        let has_no_slip =
+            !statuses.iter().any(|status| matches!(status.tangential, Tangential::Slip { .. }));
         let by_motions = self.prefers_motions(problem, statuses);
-        let same_kinds =
-            || self.held.iter().map(Status::kind).eq(statuses.iter().map(Status::kind));
-        let known = self.by_motions == by_motions
-            && (sticks && self.is_held && self.held == statuses
-                || is_near && self.is_recent && same_kinds());
-        if !known {
-            (self.is_held, self.is_recent, self.by_motions) = (false, false, by_motions);
+        let is_factored = self.by_motions == by_motions
+            && (has_no_slip && self.is_reusable && self.factored_statuses == statuses
+                || is_near && self.is_recent && self.has_factors_of_kinds(statuses));
+        if !is_factored {
+            self.is_reusable = false;
+            self.is_recent = false;
+            self.by_motions = by_motions;
         }
         self.gather(problem, statuses);
-        if !known {
+        if !is_factored {
             if !self.assemble(problem) {
                 return false;
             }
-            (self.is_held, self.is_recent) = (sticks, true);
-            self.held.copy_from_slice(statuses);
+            self.is_reusable = has_no_slip;
+            self.is_recent = true;
+            self.factored_statuses.copy_from_slice(statuses);
         }
         self.correct(problem);
         problem.prescribe(statuses);
         problem.change.iter().all(|change| change.is_finite())
     }
 
+    /// Whether the present factors belong to statuses of the same kinds.
+    fn has_factors_of_kinds(&self, statuses: &[Status]) -> bool {
+        self.factored_statuses.iter().map(Status::kind).eq(statuses.iter().map(Status::kind))
+    }
+
     /// Corrects r so that nothing moves and all gaps are at their offsets; `false` if W is singular.
-    fn stick(&mut self, problem: &mut Problem) -> bool {
+    fn solve_sticking(&mut self, problem: &mut ConeProblem) -> bool {
         if !self.factor_whole(problem) {
             return false;
         }
-        let Self { whole, answer, .. } = self;
-        answer.iter_mut().zip(&problem.y).for_each(|(answer, y)| *answer = -y);
+        let Self { whole_factor, products, .. } = self;
+        for (value, y) in products.iter_mut().zip(&problem.y) {
+            *value = -y;
+        }
         // Normal components are the first.
-        answer.iter_mut().zip(&problem.bounds).for_each(|(answer, own)| *answer += own.offset);
-        whole.solve(answer);
-        problem.change.iter_mut().zip(answer).for_each(|(change, more)| *change += *more);
+        for (value, bounds) in products.iter_mut().zip(&problem.bounds) {
+            *value += bounds.offset;
+        }
+        whole_factor.solve(products);
+        for (change, correction) in problem.change.iter_mut().zip(products) {
+            *change += *correction;
+        }
         problem.change.iter().all(|change| change.is_finite())
     }
 
     /// Factors W if it has not been factored; `false` if it is singular.
-    fn factor_whole(&mut self, problem: &Problem) -> bool {
-        self.is_whole = self.is_whole || self.whole.factor(&problem.w, problem.size());
-        self.is_whole
+    fn factor_whole(&mut self, problem: &ConeProblem) -> bool {
+        self.has_whole_factor =
+            self.has_whole_factor || self.whole_factor.factor(&problem.w, problem.size());
+        self.has_whole_factor
     }
 
     /// Whether fewer motions than forces are unknown, and W⁻¹ is available. W⁻¹ of a constant W is computed at
     /// once, otherwise when it would have saved its own cost in this step.
-    fn prefers_motions(&mut self, problem: &Problem, statuses: &[Status]) -> bool {
-        let dofs = statuses.iter().map(Status::dofs);
-        let [forces, motions] = dofs.fold([0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    fn prefers_motions(&mut self, problem: &ConeProblem, statuses: &[Status]) -> bool {
+        let forces: usize = statuses.iter().map(|status| status.unknown_counts()[0]).sum();
+        let motions: usize = statuses.iter().map(|status| status.unknown_counts()[1]).sum();
         if motions >= forces {
             return false;
         }
         let size = problem.size();
-        let cube = |order: usize| (order as f64).powi(3);
         let gain = cube(forces) - cube(motions);
         if problem.acceleration.is_some() && gain < OPERATIONS_PER_ENTRY * (size * size) as f64 {
             return false;
         }
-        self.spent += gain;
-        if self.inverse.is_empty() && (self.lasts || self.spent > INVERSE * cube(size)) {
+        self.saved_cost += gain;
+        if self.inverse.is_empty()
+            && (self.is_constant || self.saved_cost > INVERSE_COST_FACTOR * cube(size))
+        {
             if !self.factor_whole(problem) {
                 return false;
             }
@@ -234,15 +240,17 @@ impl System {
             for i in 0..size {
                 self.inverse[i * (size + 1)] = 1.0;
             }
-            self.inverse.chunks_mut(BLOCK * size).for_each(|rows| self.whole.solve(rows));
+            self.inverse
+                .chunks_mut(INVERSE_BLOCK_COLUMNS * size)
+                .for_each(|rows| self.whole_factor.solve(rows));
         }
         !self.inverse.is_empty()
     }
 
     /// Lists the unknown quantities, and the known part of the corrections.
-    fn gather(&mut self, problem: &Problem, statuses: &[Status]) {
+    fn gather(&mut self, problem: &ConeProblem, statuses: &[Status]) {
         self.dofs.clear();
-        self.given.fill(0.0);
+        self.known.fill(0.0);
         for (e, status) in statuses.iter().enumerate() {
             self.gather_element(problem, e, status);
         }
@@ -250,19 +258,23 @@ impl System {
     }
 
     /// Lists the unknown quantities of one element, and the known part of its corrections.
-    fn gather_element(&mut self, problem: &Problem, e: usize, status: &Status) {
+    fn gather_element(&mut self, problem: &ConeProblem, e: usize, status: &Status) {
         let motions = self.by_motions;
-        let (given, dofs) = (&mut self.given, &mut self.dofs);
-        let mut add = |row, column, own, goal| dofs.push(Unknown { row, column, own, goal });
+        let known = &mut self.known;
+        let dofs = &mut self.dofs;
+        let mut add = |row, column, coefficient, goal| {
+            dofs.push(Unknown { row, column, coefficient, goal });
+        };
         let places = problem.places(e);
-        let ([n, x, y], bounds) = (places, &problem.bounds[e]);
+        let [n, x, y] = places;
+        let bounds = &problem.bounds[e];
         let [p, tx, ty] = places.map(|i| problem.force(i));
         let [p_0, x_0, y_0] = places.map(|i| problem.anchor[i]);
         let bound = status.bound(bounds.interval);
         match bound {
             Some(bound) if motions => add(Mix::single(n), Mix::single(n), 0.0, bound - p_0),
-            Some(bound) => given[n] = bound - p,
-            None if motions => given[n] = bounds.offset - problem.y[n],
+            Some(bound) => known[n] = bound - p,
+            None if motions => known[n] = bounds.offset - problem.y[n],
             None => {}
         }
         // The force p, and the shear that p allows in slip.
@@ -271,12 +283,12 @@ impl System {
             Tangential::Free | Tangential::Stick => {
                 let sticks = status.tangential == Tangential::Stick;
                 for i in [x, y] {
-                    let (own, goal) = (Mix::single(i), -problem.anchor[i]);
+                    let component = Mix::single(i);
                     match (motions, sticks) {
-                        (false, true) => add(own, own, 0.0, 0.0),
-                        (true, false) => add(own, own, 0.0, goal),
-                        (false, false) => given[i] = -problem.force(i),
-                        (true, true) => given[i] = -problem.y[i],
+                        (false, true) => add(component, component, 0.0, 0.0),
+                        (true, false) => add(component, component, 0.0, -problem.anchor[i]),
+                        (false, false) => known[i] = -problem.force(i),
+                        (true, true) => known[i] = -problem.y[i],
                     }
                 }
             }
@@ -284,30 +296,31 @@ impl System {
                 let mix = |weights| Mix { places, weights };
                 // Along the slip: shear and pressure are divided by a friction above one, so that infinite friction
                 // has its limit.
-                let [sheared, pressed] =
-                    if slope > 1.0 { [1.0 / slope, 1.0] } else { [1.0, slope] };
+                let sheared = if slope > 1.0 { 1.0 / slope } else { 1.0 };
+                let pressed = if slope > 1.0 { 1.0 } else { slope };
                 let goal = sheared * bounds.strength + pressed * bounds.attraction;
                 if motions {
                     let goal = goal + pressed * p_0 - sheared * (c * x_0 + s * y_0);
                     let row = mix([-pressed, sheared * c, sheared * s]);
                     add(row, mix([0.0, c, s]), 0.0, goal);
                 } else {
-                    let left = goal + pressed * (p + given[n]) - sheared * (c * tx + s * ty);
+                    let excess = goal + pressed * (p + known[n]) - sheared * (c * tx + s * ty);
                     if bound.is_none() && sheared < 1.0 {
-                        given[n] -= left;
+                        known[n] -= excess;
                     } else {
-                        mix([0.0, c, s]).add_to(given, left / sheared);
+                        mix([0.0, c, s]).add_to(known, excess / sheared);
                     }
                     pressing = mix([sheared, pressed * c, pressed * s]);
                 }
                 // Across the slip.
-                let (factor, own) = if motions {
-                    (1.0 - turn, turn * problem.rho[e][1])
+                let factor = if motions { 1.0 - turn } else { turn };
+                let coefficient = if motions {
+                    turn * problem.rho[e][1]
                 } else {
-                    (turn, (1.0 - turn) / problem.rho[e][1])
+                    (1.0 - turn) / problem.rho[e][1]
                 };
-                let goal = -if motions { factor } else { own } * (c * y_0 - s * x_0);
-                add(mix([0.0, -s * factor, c * factor]), mix([0.0, -s, c]), own, goal);
+                let goal = -if motions { factor } else { coefficient } * (c * y_0 - s * x_0);
+                add(mix([0.0, -s * factor, c * factor]), mix([0.0, -s, c]), coefficient, goal);
             }
         }
         if bound.is_none() && !motions {
@@ -316,67 +329,70 @@ impl System {
     }
 
     /// Factors the matrix of the unknown quantities; `false` if it is singular.
-    fn assemble(&mut self, problem: &Problem) -> bool {
-        let (size, motions) = (problem.size(), self.by_motions);
-        let Self { dofs, factor, inverse, answer, rows, mixed_rows, .. } = self;
+    fn assemble(&mut self, problem: &ConeProblem) -> bool {
+        let size = problem.size();
+        let motions = self.by_motions;
+        let Self { dofs, factor, inverse, products, rows, mixed_rows, .. } = self;
         let matrix = if motions { inverse.as_slice() } else { problem.w.as_slice() };
-        let singles = dofs.partition_point(|unknown| unknown.row.is_single());
-        let (single, mixed) = dofs.split_at(singles);
+        let single_count = dofs.partition_point(|unknown| unknown.row.is_single());
         // Compact lists: each column reads them.
         rows.clear();
-        rows.extend(single.iter().map(|unknown| unknown.row.places[0]));
+        rows.extend(dofs[..single_count].iter().map(|unknown| unknown.row.places[0]));
         mixed_rows.clear();
-        mixed_rows.extend(mixed.iter().map(|unknown| unknown.row));
+        mixed_rows.extend(dofs[single_count..].iter().map(|unknown| unknown.row));
         factor.factor_columns(dofs.len(), |j, values| {
-            let Unknown { column: Mix { places, weights }, own, .. } = &dofs[j];
+            let Unknown { column: Mix { places, weights }, coefficient, .. } = &dofs[j];
             // It is symmetric: its rows are its columns.
             let [first, second, third] = places.map(|place| &matrix[place * size..][..size]);
             let column = if dofs[j].column.is_single() {
                 first
             } else {
-                let [a, b, c] = *weights;
                 let others = second.iter().zip(third);
-                for ((answer, first), (second, third)) in answer.iter_mut().zip(first).zip(others) {
-                    *answer = a * first + b * second + c * third;
+                for ((value, first), (second, third)) in products.iter_mut().zip(first).zip(others)
+                {
+                    *value = weights[0] * first + weights[1] * second + weights[2] * third;
                 }
-                &answer[..]
+                &products[..]
             };
             let begin = values.len();
             values.extend(rows.iter().map(|place| column[*place]));
             values.extend(mixed_rows.iter().map(|row| row.sum(column)));
-            values[begin + j] += own;
+            values[begin + j] += coefficient;
         })
     }
 
     /// Solves, and adds the corrections to r.
     ///
     /// By motions the forces follow from all corrections; motions themselves are left to the next product with W.
-    fn correct(&mut self, problem: &mut Problem) {
-        let Self { dofs, rhs, factor, inverse, given, answer, .. } = self;
-        let Problem { w, change, y, .. } = problem;
-        let (matrix, own, other) =
-            if self.by_motions { (inverse, y, change) } else { (w, change, y) };
-        own.iter_mut().zip(given.iter()).for_each(|(own, given)| *own += given);
-        answer.copy_from_slice(other);
-        if given.iter().any(|given| *given != 0.0) {
+    fn correct(&mut self, problem: &mut ConeProblem) {
+        let Self { dofs, rhs, factor, inverse, known, products, .. } = self;
+        let ConeProblem { w, change, y, .. } = problem;
+        let matrix = if self.by_motions { inverse } else { w };
+        // Quantities of the kind of the unknown, and of the other kind.
+        let (solved, other) = if self.by_motions { (y, change) } else { (change, y) };
+        for (value, known) in solved.iter_mut().zip(known.iter()) {
+            *value += known;
+        }
+        products.copy_from_slice(other);
+        if known.iter().any(|known| *known != 0.0) {
             // Only the rows of conditions; NaN marks the others.
-            answer.fill(f64::NAN);
+            products.fill(f64::NAN);
             for place in dofs.iter().flat_map(|unknown| unknown.row.places) {
-                if answer[place].is_nan() {
-                    answer[place] = other[place] + dot(&matrix[place * given.len()..], given);
+                if products[place].is_nan() {
+                    products[place] = other[place] + dot(&matrix[place * known.len()..], known);
                 }
             }
         }
         rhs.clear();
         rhs.extend(dofs.iter().map(|unknown| {
-            let Unknown { row, column, own: weight, goal } = unknown;
-            goal - row.sum(answer) - weight * column.sum(own)
+            let Unknown { row, column, coefficient, goal } = unknown;
+            goal - row.sum(products) - coefficient * column.sum(solved)
         }));
         factor.solve(rhs);
-        let sum = if self.by_motions { &mut *given } else { own };
+        let sum = if self.by_motions { &mut *known } else { solved };
         dofs.iter().zip(rhs).for_each(|(unknown, x)| unknown.column.add_to(sum, *x));
         if self.by_motions {
-            dense_multiply_add(matrix, 1.0, given, other);
+            dense_multiply_add(matrix, 1.0, known, other);
         }
     }
 }

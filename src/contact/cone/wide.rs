@@ -2,12 +2,12 @@
 
 #![allow(clippy::inline_always, reason = "to be compiled for the instructions of its caller")]
 
-use super::group::LANES;
+use super::group::LANE_COUNT;
 use super::modes::find_modes;
 use crate::linalg::{LatticeProduct, LatticeScratch, Simd};
 
 /// W = G + L Lᵀ: soil and structure.
-pub(super) struct Wide {
+pub(super) struct DenseLattice {
     /// Columns and rows of the lattice, and its columns with others of no element that complete the lanes.
     counts: [usize; 2],
     row_length: usize,
@@ -25,7 +25,7 @@ pub(super) struct Wide {
     amplitudes: Vec<f64>,
 }
 
-impl Wide {
+impl DenseLattice {
     /// W of `cells` (column and row): the row-major `w` with the part `soil(row, column)`.
     ///
     /// `layer(row)`: part of the diagonal that is neither soil nor structure. `None` if blocks of equal offset differ, or
@@ -41,8 +41,8 @@ impl Wide {
             [0, 1, 2].map(|r| [0, 1, 2].map(|c| soil(r * count + receiver, c * count + source)))
         };
         let product = LatticeProduct::new(cells, &vec![1.0; count], block)?;
-        let counts = [0, 1].map(|axis| cells.iter().fold(0, |most, cell| most.max(cell[axis] + 1)));
-        let row_length = counts[0].next_multiple_of(LANES);
+        let counts = [0, 1].map(|axis| cells.iter().fold(0, |max, cell| max.max(cell[axis] + 1)));
+        let row_length = counts[0].next_multiple_of(LANE_COUNT);
         let width = counts[0] + row_length - 1;
         let table_length = width * (2 * counts[1] - 1);
         let mut tables = [(); 3].map(|()| [(); 3].map(|()| vec![0.0; table_length]));
@@ -58,16 +58,16 @@ impl Wide {
             }
         }
         let modes = find_modes(w, 3 * count, &soil, &layer)?;
-        let own = |e: usize| [e, count + e, 2 * count + e];
+        let places = |e: usize| [e, count + e, 2 * count + e];
         Some(Self {
             counts,
             row_length,
             tables,
             scratch: product.scratch(),
             product,
-            layers: (0..count).map(|e| own(e).map(&layer)).collect(),
+            layers: (0..count).map(|e| places(e).map(&layer)).collect(),
             modes: (0..count)
-                .flat_map(|e| modes.iter().map(move |mode| own(e).map(|i| mode[i])))
+                .flat_map(|e| modes.iter().map(move |mode| places(e).map(|i| mode[i])))
                 .collect(),
             rank: modes.len(),
             motions: [(); 3].map(|()| vec![0.0; row_length * counts[1]]),
@@ -76,7 +76,7 @@ impl Wide {
     }
 
     /// Sets the motions to W r.
-    pub(super) fn respond(&mut self, forces: &[f64]) {
+    pub(super) fn update_motions(&mut self, forces: &[f64]) {
         let Self { product, scratch, motions, row_length, amplitudes, modes, rank, .. } = self;
         let cells = product.cells();
         product.multiply(forces, scratch, |k, e, value| {
@@ -126,7 +126,7 @@ impl Wide {
         let [i, j] = self.product.cells()[e];
         let length = self.row_length;
         let width = columns + length - 1;
-        let wide = force.map(|force| simd.splat_f64s(force));
+        let splatted = force.map(|force| simd.splat_f64s(force));
         for (motions, [a, b, c]) in self.motions.iter_mut().zip(&self.tables) {
             for row in 0..rows {
                 let begin = (rows - 1 + row - j) * width + columns - 1 - i;
@@ -135,9 +135,9 @@ impl Wide {
                 let (b, _) = S::as_simd_f64s(&b[begin..begin + length]);
                 let (c, _) = S::as_simd_f64s(&c[begin..begin + length]);
                 for (sum, ((a, b), c)) in sums.iter_mut().zip(a.iter().zip(b).zip(c)) {
-                    let first = simd.mul_add_e_f64s(*a, wide[0], *sum);
-                    let second = simd.mul_add_e_f64s(*b, wide[1], first);
-                    *sum = simd.mul_add_e_f64s(*c, wide[2], second);
+                    let first = simd.mul_add_e_f64s(*a, splatted[0], *sum);
+                    let second = simd.mul_add_e_f64s(*b, splatted[1], first);
+                    *sum = simd.mul_add_e_f64s(*c, splatted[2], second);
                 }
             }
         }

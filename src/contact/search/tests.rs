@@ -23,7 +23,7 @@ use crate::soil::Soil;
 use crate::structure::{FemModel, RigidBlock, Structure};
 use basemat_testkit::random::Random;
 
-const FRICTION: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
+const FRICTION_CASES: [f64; 6] = [0.0, 0.2, 0.4, 1.0, 3.0, f64::INFINITY];
 
 /// Parameters of the law of a problem.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +81,9 @@ impl Problem {
         let length = largest(&jump).max(largest(&self.free_jump));
         let Parameters { friction, activation, .. } = self.parameters;
         let element = |e: usize| {
-            let (start, pressure, shear) = (self.start.element(e), total[e], total[count + e]);
+            let start = self.start.element(e);
+            let pressure = total[e];
+            let shear = total[count + e];
             let free = pressure.abs().max(shear.abs()) / force;
             let closed_gap = match activation {
                 UnilateralCondition::Position => 0.0,
@@ -135,7 +137,8 @@ fn scene(count: usize, random: &mut Random) -> (Vec<f64>, Vec<f64>) {
     let (assembled, _) =
         Assembled::new(structure.as_ref(), &Patch::new(ground.elements().to_vec()).unwrap())
             .unwrap();
-    let (model, tangent) = (Model::new(&assembled), SparseMatrix::default());
+    let model = Model::new(&assembled);
+    let tangent = SparseMatrix::default();
     let coefficients = Midpoint.coefficients(time_step);
     let factor = Factor::of_dofs(&model, &coefficients, &tangent).unwrap();
     let operator = Arc::new(CompressedMatrix::new(operator, 2 * count));
@@ -150,12 +153,12 @@ fn invented(count: usize, random: &mut Random) -> Vec<f64> {
     let size = 2 * count;
     let root: Vec<f64> = (0..size * size).map(|_| random.within(-1.0, 1.0)).collect();
     let lengths: Vec<f64> = (0..count).map(|_| random.log_within(0.1, 1.0)).collect();
-    let own = random.log_within(1e-3, 1.0);
+    let shift = random.log_within(1e-3, 1.0);
     let mut matrix = vec![0.0; size * size];
     for i in 0..size {
         for j in 0..size {
             let product: f64 = (0..size).map(|k| root[i * size + k] * root[j * size + k]).sum();
-            let diagonal = if i == j { own } else { 0.0 };
+            let diagonal = if i == j { shift } else { 0.0 };
             matrix[i * size + j] = (product + diagonal) / lengths[i % count];
         }
     }
@@ -167,7 +170,7 @@ fn begin(delassus: Vec<f64>, count: usize, random: &mut Random) -> Problem {
     let size = 2 * count;
     let pressure = random.log_within(1e3, 1e6);
     let length = delassus[0] * pressure;
-    let friction = random.pick(&FRICTION);
+    let friction = random.pick(&FRICTION_CASES);
     let activation = if random.chance(0.25) {
         UnilateralCondition::Velocity { closed_below: 1e-6 * length }
     } else {
@@ -239,7 +242,7 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
             *mode = known[rest % known.len()];
             rest /= known.len();
         }
-        if solver.trial(&input, &modes) && search.ask_laws(solver, &input, &modes) {
+        if solver.trial(&input, &modes) && search.update_next_modes(solver, &input, &modes) {
             found.push((modes.clone(), solver.traction.clone()));
         }
     }
@@ -348,7 +351,7 @@ impl Tally {
 /// Sequences of steps, each from the end of the previous step.
 fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
     let mut random = Random(seed);
-    let mut tallies: Vec<Tally> = FRICTION.iter().map(|_| Tally::default()).collect();
+    let mut tallies: Vec<Tally> = FRICTION_CASES.iter().map(|_| Tally::default()).collect();
     for sequence in 0..sequences {
         let delassus = if sequence % 2 == 0 {
             scene(count, &mut random).0
@@ -356,7 +359,7 @@ fn tally(count: usize, sequences: usize, seed: u64) -> Vec<Tally> {
             invented(count, &mut random)
         };
         let mut problem = begin(delassus, count, &mut random);
-        let row = FRICTION.iter().position(|f| *f == problem.parameters.friction).unwrap();
+        let row = FRICTION_CASES.iter().position(|f| *f == problem.parameters.friction).unwrap();
         for _ in 0..20 {
             push(&mut problem, &mut random);
             let Some((modes, states)) = tallies[row].examine(&problem) else { break };
@@ -376,11 +379,11 @@ fn search_finds_what_brute_force_finds() {
     let mut total = Tally::default();
     for (count, sequences) in sequences {
         for (friction, tally) in
-            FRICTION.into_iter().zip(tally(count, more * sequences, 7 + count as u64))
+            FRICTION_CASES.into_iter().zip(tally(count, more * sequences, 7 + count as u64))
         {
             println!("{count} elements, friction {friction}: {tally:?}");
             total.add(&tally);
-            // Brittle adhesion makes the law non-monotone: no method finds a solution with certainty.
+            // Brittle cohesion makes the law non-monotone: no method finds a solution with certainty.
             assert_eq!((tally.failed, tally.none), (0, 0), "{count}, friction {friction}");
             assert!(tally.worst < 1e-12, "{count} elements, friction {friction}: {tally:?}");
             // For the coefficients below one that are drawn here, the solution is unique.
@@ -389,7 +392,7 @@ fn search_finds_what_brute_force_finds() {
     }
     println!("{total:?}");
     assert!(total.problems > 3_000 && total.failed_with_strength <= more, "{total:?}");
-    // The active set alone solves nearly all problems; the path alone solves all problems without adhesion.
+    // The active set alone solves nearly all problems; the path alone solves all problems without cohesion.
     assert!(total.alone[0] > total.problems * 9 / 10, "{total:?}");
     assert!(total.alone[2] + 2 * more > total.problems, "{total:?}");
 }

@@ -110,7 +110,7 @@ impl Standing<'_> {
                 // The springs may have no force without an equilibrium, if K u is only rounding.
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
-                    state.stand_in = solver.stand_in.or(state.stand_in);
+                    state.stand_in = solver.substituted_friction.or(state.stand_in);
                     shared.replace(compliance.filter(|compliance| {
                         assembled.linear && compliance.floating.springs == initial_stiffness
                     }));

@@ -159,7 +159,7 @@ impl LinearStep {
         increment.modes.copy_from_slice(&state.modes);
         (increment.trials, increment.method) =
             search.solve(contact, &input, &mut increment.modes)?;
-        increment.stand_in = contact.stand_in;
+        increment.stand_in = contact.substituted_friction;
         increment.traction.copy_from_slice(&contact.traction);
         increment.contact.copy_from_slice(&contact.states);
         Ok(())

@@ -11,9 +11,10 @@ use crate::linalg::{dense_multiply_add, dot};
 use basemat_testkit::random::Random;
 
 /// The same random problem with W of low rank, and with all entries of W.
-fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [Problem; 2] {
+fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [ConeProblem; 2] {
     let size = 3 * count;
-    let [mut low, mut whole] = [Problem::on_bed(count), Problem::new(count)];
+    let mut low = ConeProblem::on_bed(count);
+    let mut whole = ConeProblem::new(count);
     let soil: Vec<f64> = (0..size).map(|_| random.log_within(0.3, 1.0)).collect();
     let areas: Vec<f64> = (0..count).map(|_| random.within(0.5, 2.0)).collect();
     let of_components: Vec<f64> = (0..size).map(|i| areas[i % count]).collect();
@@ -38,7 +39,7 @@ fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [P
         }
     }
     for e in 0..count {
-        let mut bounds = Bounds { friction, ..Bounds::NONE };
+        let mut bounds = Bounds { friction, ..Bounds::WITHOUT_FRICTION };
         if random.chance(0.2) && friction < f64::INFINITY {
             bounds.strength = random.within(0.0, 0.3);
         }
@@ -52,19 +53,20 @@ fn problems(random: &mut Random, count: usize, rank: usize, friction: f64) -> [P
         (low.bounds[e], whole.bounds[e]) = (bounds, bounds);
     }
     for i in 0..size {
-        let (q, anchor) = (random.within(-1.0, 1.0), random.within(-1.0, 1.0));
+        let q = random.within(-1.0, 1.0);
+        let anchor = random.within(-1.0, 1.0);
         for problem in [&mut low, &mut whole] {
             (problem.q[i], problem.anchor[i]) = (q, anchor);
         }
     }
     for problem in [&mut low, &mut whole] {
-        problem.scale = 1e-3;
-        problem.find_scales();
+        problem.min_force_scale = 1e-3;
+        problem.update_scales();
     }
     [low, whole]
 }
 
-fn newton(problem: &Problem) -> Newton {
+fn newton(problem: &ConeProblem) -> Newton {
     let count = problem.count;
     let Some(low_rank) = &problem.low_rank else { return Newton::new(count) };
     let mut newton = Newton::on_bed(count);
@@ -73,9 +75,9 @@ fn newton(problem: &Problem) -> Newton {
 }
 
 /// Largest difference of the forces, relative to the largest force.
-fn apart([low, whole]: &[Problem; 2]) -> f64 {
+fn apart([low, whole]: &[ConeProblem; 2]) -> f64 {
     let pairs = low.change.iter().zip(&whole.change);
-    pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) / whole.largest()
+    pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) / whole.largest_force()
 }
 
 #[test]
@@ -89,16 +91,16 @@ fn blocks_and_motions_are_those_of_all_entries() {
             problem.added = 0.7;
             if problem.low_rank.is_none() {
                 let size = problem.size();
-                problem.w.iter_mut().step_by(size + 1).for_each(|own| *own += 0.7);
+                problem.w.iter_mut().step_by(size + 1).for_each(|entry| *entry += 0.7);
             }
-            problem.find_scales();
-            problem.respond();
+            problem.update_scales();
+            problem.update_motions();
         }
         let [low, whole] = &both;
         let near = |a: f64, b: f64| (a - b).abs() < 1e-13 * (1.0 + b.abs());
         assert!(low.y.iter().zip(&whole.y).all(|(a, b)| near(*a, *b)), "case {case}");
-        let blocks = low.own.as_flattened().as_flattened();
-        let mut pairs = blocks.iter().zip(whole.own.as_flattened().as_flattened());
+        let blocks = low.element_blocks.as_flattened().as_flattened();
+        let mut pairs = blocks.iter().zip(whole.element_blocks.as_flattened().as_flattened());
         assert!(pairs.all(|(a, b)| near(*a, *b)), "case {case}");
         assert!(
             low.rho.as_flattened().iter().zip(whole.rho.as_flattened()).all(|(a, b)| near(*a, *b))
@@ -109,15 +111,18 @@ fn blocks_and_motions_are_those_of_all_entries() {
 /// All statuses, also of the limit of infinite friction.
 #[test]
 fn corrections_are_those_of_all_entries() {
-    let (mut random, mut unpressed) = (Random(32), 0);
+    let mut random = Random(32);
+    let mut unpressed = 0;
     for case in 0..400 {
-        let (count, rank) = (6 + case % 5, 3 + case % 4);
+        let count = 6 + case % 5;
+        let rank = 3 + case % 4;
         let mut both = problems(&mut random, count, rank, 0.5);
         let mut status = |e: usize| {
             let normal =
                 random.pick(&[Normal::Open, Normal::Closed, Normal::Closed, Normal::Capped]);
             let (s, c) = random.within(0.0, 6.0).sin_cos();
-            let (turn, slope) = (random.within(0.0, 1.0), random.pick(&[0.0, 0.4, 3.0, 1e4]));
+            let turn = random.within(0.0, 1.0);
+            let slope = random.pick(&[0.0, 0.4, 3.0, 1e4]);
             // Fewer of these than modes.
             if e < 2 && random.chance(0.5) {
                 unpressed += 1;
@@ -131,10 +136,11 @@ fn corrections_are_those_of_all_entries() {
         };
         let mut statuses: Vec<Status> = (0..count).map(&mut status).collect();
         if case % 10 == 9 {
-            statuses.fill(Status::STICK);
+            statuses.fill(Status::CLOSED_STICKING);
         }
-        let (mut own, mut system) = (LowRankSystem::new(count), System::new(count));
-        own.reserve(rank);
+        let mut low_rank_system = LowRankSystem::new(count);
+        let mut system = System::new(count);
+        low_rank_system.reserve(rank);
         for problem in &mut both {
             for bounds in &mut problem.bounds {
                 (bounds.interval, bounds.attraction) = ([-0.2, 0.7], 0.3);
@@ -142,9 +148,9 @@ fn corrections_are_those_of_all_entries() {
             for i in 0..problem.size() {
                 problem.change[i] = (i as f64).cos();
             }
-            problem.respond();
+            problem.update_motions();
         }
-        assert!(own.solve(&mut both[0], &statuses), "case {case}");
+        assert!(low_rank_system.solve(&mut both[0], &statuses), "case {case}");
         assert!(system.solve(&mut both[1], &statuses, false), "case {case}");
         let apart = apart(&both);
         assert!(apart < 1e-8, "case {case}: {apart:e}");
@@ -155,17 +161,22 @@ fn corrections_are_those_of_all_entries() {
 /// With little friction a problem has one solution (Acary et al. 2011), which all methods find.
 #[test]
 fn searches_find_the_same_forces() {
-    let (mut random, mut swept, mut nearing, mut failed) = (Random(33), 0, 0, 0);
+    let mut random = Random(33);
+    let mut swept = 0;
+    let mut nearing = 0;
+    let mut failed = 0;
     for case in 0..60 {
-        let (count, rank) = (8 + case % 30, case % 7);
+        let count = 8 + case % 30;
+        let rank = case % 7;
         let friction = [0.0, 0.05, 0.1, 0.8, f64::INFINITY][case % 5];
         let mut both = problems(&mut random, count, rank, friction);
         for problem in &mut both {
             let mut newton = newton(problem);
-            let [mut start, mut limited] = [(); 2].map(|()| vec![0.0; 3 * count]);
-            let scratch = [&mut start[..], &mut limited[..]];
+            let mut start = vec![0.0; 3 * count];
+            let mut limited = start.clone();
             let mut proximal = Proximal::new(count);
-            let found = search(problem, &mut newton, &mut proximal, scratch, true).1;
+            let found =
+                search(problem, &mut newton, &mut proximal, &mut start, &mut limited, true).method;
             let is_solved = found.is_some() && problem.is_solved();
             failed += usize::from(!is_solved);
             // Much friction may leave no solution.
@@ -177,7 +188,7 @@ fn searches_find_the_same_forces() {
         let reference = both[1].change.clone();
         assert!(apart(&both) < 1e-8, "case {case}: {:e}", apart(&both));
         // Each method alone.
-        let sweep = |problem: &mut Problem| problem.sweep(500).1;
+        let sweep = |problem: &mut ConeProblem| problem.sweep(500).is_solved;
         both[0].change.fill(0.0);
         if sweep(&mut both[0]) {
             swept += 1;

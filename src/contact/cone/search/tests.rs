@@ -5,28 +5,29 @@ use super::*;
 use basemat_testkit::random::Random;
 
 /// Columns and rows of the lattice.
-const COUNTS: [usize; 2] = [9, 8];
-const COUNT: usize = COUNTS[0] * COUNTS[1];
+const LATTICE_COUNTS: [usize; 2] = [9, 8];
+const ELEMENT_COUNT: usize = LATTICE_COUNTS[0] * LATTICE_COUNTS[1];
 
 /// A tilted rigid body that lands and slides on a half-space, with its centre of gravity at `height`.
-fn landing(random: &mut Random, friction: f64, height: f64) -> Problem {
-    let mut problem = Problem::new(COUNT);
-    let at = |e: usize| [(e % COUNTS[0]) as f64 - 4.0, (e / COUNTS[0]) as f64 - 3.5];
+fn landing(random: &mut Random, friction: f64, height: f64) -> ConeProblem {
+    let mut problem = ConeProblem::new(ELEMENT_COUNT);
+    let at =
+        |e: usize| [(e % LATTICE_COUNTS[0]) as f64 - 4.0, (e / LATTICE_COUNTS[0]) as f64 - 3.5];
     // Motions of an element's components by the body's six motions.
     let modes = |i: usize| {
-        let [x, y] = at(i % COUNT);
-        match i / COUNT {
+        let [x, y] = at(i % ELEMENT_COUNT);
+        match i / ELEMENT_COUNT {
             0 => [1.0, 0.0, 0.0, x, y, 0.0],
             1 => [0.0, 1.0, 0.0, -height, 0.0, -y],
             _ => [0.0, 0.0, 1.0, 0.0, -height, x],
         }
     };
     let compliance = [0.02, 0.02, 0.02, 1e-3, 1e-3, 1e-3];
-    for i in 0..3 * COUNT {
-        for j in 0..3 * COUNT {
-            let ([x, y], [u, v]) = (at(i % COUNT), at(j % COUNT));
+    for i in 0..3 * ELEMENT_COUNT {
+        for j in 0..3 * ELEMENT_COUNT {
+            let ([x, y], [u, v]) = (at(i % ELEMENT_COUNT), at(j % ELEMENT_COUNT));
             let distance = (x - u).hypot(y - v);
-            let soil = if i / COUNT != j / COUNT {
+            let soil = if i / ELEMENT_COUNT != j / ELEMENT_COUNT {
                 0.0
             } else if distance == 0.0 {
                 3.5
@@ -34,7 +35,7 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> Problem {
                 1.0 / distance
             };
             let body: f64 = (0..6).map(|k| compliance[k] * modes(i)[k] * modes(j)[k]).sum();
-            problem.w[i * 3 * COUNT + j] = soil + body;
+            problem.w[i * 3 * ELEMENT_COUNT + j] = soil + body;
         }
     }
     let motion: [f64; 6] = std::array::from_fn(|k| match k {
@@ -42,12 +43,12 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> Problem {
         1 | 2 => random.within(-2.0, 2.0),
         _ => random.within(-0.3, 0.3),
     });
-    for i in 0..3 * COUNT {
+    for i in 0..3 * ELEMENT_COUNT {
         problem.q[i] = (0..6).map(|k| motion[k] * modes(i)[k]).sum();
     }
-    problem.bounds.fill(Bounds { friction, ..Bounds::NONE });
-    problem.scale = 1e-3;
-    problem.find_scales();
+    problem.bounds.fill(Bounds { friction, ..Bounds::WITHOUT_FRICTION });
+    problem.min_force_scale = 1e-3;
+    problem.update_scales();
     problem.prepare_acceleration();
     problem
 }
@@ -55,17 +56,20 @@ fn landing(random: &mut Random, friction: f64, height: f64) -> Problem {
 /// Newton's method that ends early, and factors of the same step, lead to the forces of complete iterations.
 #[test]
 fn sweeps_and_brief_iterations_find_the_forces_of_other_methods() {
-    let (mut random, mut compared) = (Random(23), 0);
+    let mut random = Random(23);
+    let mut compared = 0;
     for case in 0..12 {
         let mut problem = landing(&mut random, 0.2, [1.0, 6.0][case % 2]);
-        let (mut newton, mut proximal) = (Newton::new(COUNT), Proximal::new(COUNT));
+        let mut newton = Newton::new(ELEMENT_COUNT);
+        let mut proximal = Proximal::new(ELEMENT_COUNT);
         assert!(problem.acceleration.is_some());
-        assert!(rounds(&mut problem, &mut newton).1.is_some(), "case {case}");
-        let (found, largest) = (problem.change.clone(), problem.largest());
+        assert!(rounds(&mut problem, &mut newton).method.is_some(), "case {case}");
+        let found = problem.change.clone();
+        let largest = problem.largest_force();
         problem.change.fill(0.0);
         let complete = proximal.solve(&mut problem, |problem| {
             newton.forget(false);
-            problem.sweep(60).1 || newton.solve(problem, false).1
+            problem.sweep(60).is_solved || newton.solve(problem, false).is_solved
         });
         if complete {
             compared += 1;

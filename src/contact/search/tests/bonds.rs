@@ -21,7 +21,10 @@ fn glue(problem: &mut Problem, random: &mut Random) {
 #[test]
 fn bonds_break_where_brute_force_says_they_may() {
     let mut random = Random(5);
-    let (mut problems, mut breaking, mut several, mut cut) = (0, 0, 0, 0);
+    let mut problems = 0;
+    let mut breaking = 0;
+    let mut several = 0;
+    let mut cut = 0;
     for (count, sequences) in [(1, 60), (2, 120), (3, 120), (4, 60), (5, 12)] {
         for sequence in 0..sequences {
             let delassus = if sequence % 2 == 0 {
@@ -48,9 +51,9 @@ fn bonds_break_where_brute_force_says_they_may() {
                 let mut modes = problem.modes.clone();
                 search.solve(&mut solver, &problem.input(), &mut modes).unwrap();
                 assert!(all.iter().any(|(m, _)| *m == modes), "{modes:?} is not among {all:?}");
-                let glued = |e: usize| problem.start.state_variables_of(e) == [1.0];
+                let is_bonded = |e: usize| problem.start.state_variables_of(e) == [1.0];
                 let keeps_all =
-                    |modes: &[Mode]| (0..count).all(|e| !glued(e) || modes[e] == Mode::Stick);
+                    |modes: &[Mode]| (0..count).all(|e| !is_bonded(e) || modes[e] == Mode::Stick);
                 // No bond breaks where all of them may hold, unless friction alone allows several solutions.
                 let may_hold = all.iter().any(|(modes, _)| keeps_all(modes));
                 let is_unique = problem.parameters.friction < 1.0;
@@ -58,7 +61,8 @@ fn bonds_break_where_brute_force_says_they_may() {
                 breaking += usize::from(!may_hold);
                 several += usize::from(distinct(&all) > 1);
                 cut += usize::from(problem.start.state_variables().contains(&0.0));
-                let (laws, states) = (&problem.laws, &solver.states);
+                let laws = &problem.laws;
+                let states = &solver.states;
                 problem
                     .start
                     .update_state_variables(laws, states, &modes, &mut state_variables)
