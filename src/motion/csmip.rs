@@ -87,13 +87,12 @@ impl CsmipHeader {
         let points = block::leading_count(title, "number of points")?;
         let step = block::positive_step(time_step(title)?)?;
         let peak = self.peak_in_unit()?;
-        let (unit, rest) = match unit_text(title) {
-            Some(text) => block::unit_and_rest(line, text)?,
-            None => {
-                let expected = peak.map(|(_, unit)| unit).or(default_unit);
-                let rest = volume_2(title).map_or("", |text| &text[time_end(text)..]);
-                (block::unit_of_untitled(title, expected)?, rest)
-            }
+        let (unit, rest) = if let Some(text) = unit_text(title) {
+            block::unit_and_rest(line, text)?
+        } else {
+            let expected = peak.map(|(_, unit)| unit).or(default_unit);
+            let rest = volume_2(title).map_or("", |text| &text[time_end(text)..]);
+            (block::unit_of_untitled(title, expected)?, rest)
         };
         let format = block::format_of_title(title, rest)?;
         self.check(points, step)?;

@@ -191,7 +191,7 @@ impl OscillatorMarch {
         let substep_growth = growth / self.substeps as f64;
         for k in 0..self.substeps {
             self.substeps_done += 1;
-            if self.substeps_done % SUBSTEPS_PER_REPORT == 0 {
+            if self.substeps_done.is_multiple_of(SUBSTEPS_PER_REPORT) {
                 report()?;
             }
             let ground_at_start = ground + growth * (k as f64 / self.substeps as f64);

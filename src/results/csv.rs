@@ -73,7 +73,9 @@ impl TimeSeries {
             for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
                 let places = ends.iter().map(|(_, places)| NumberCell(places[element]).to_string());
                 let places = places.collect::<Vec<_>>().join(",");
-                text += &format!("{},{element},{places},{mode},", NumberCell(frame.time));
+                let time = NumberCell(frame.time);
+                text += &[&time.to_string(), &element.to_string(), &places, &mode.to_string(), ""]
+                    .join(",");
                 text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
             }
         }

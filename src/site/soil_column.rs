@@ -213,14 +213,14 @@ impl SoilColumn {
     ) -> Result<Triaxial> {
         let steps = 3 * PartProgress::STEPS_PER_PART;
         let watch = &mut Watch::new("motion of the surface", steps, observer);
-        let mut surface_record = |part, wave, record: &Option<Record>| {
+        let mut surface_record = |part, wave, record: Option<&Record>| {
             let mut progress = PartProgress::part(watch, part);
             Self::surface_record(profile, wave, control, record, &mut progress)
         };
         Ok(Triaxial {
-            x: surface_record(0, VerticalWave::Shear, &motion.x)?,
-            y: surface_record(1, VerticalWave::Shear, &motion.y)?,
-            up: surface_record(2, VerticalWave::Pressure, &motion.up)?,
+            x: surface_record(0, VerticalWave::Shear, motion.x.as_ref())?,
+            y: surface_record(1, VerticalWave::Shear, motion.y.as_ref())?,
+            up: surface_record(2, VerticalWave::Pressure, motion.up.as_ref())?,
         })
     }
 
@@ -229,7 +229,7 @@ impl SoilColumn {
         profile: &SoilProfile,
         wave: VerticalWave,
         control: ControlPoint,
-        record: &Option<Record>,
+        record: Option<&Record>,
         progress: &mut PartProgress<'_, '_>,
     ) -> Result<Option<Record>> {
         let Some(record) = record else {

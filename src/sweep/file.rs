@@ -142,12 +142,11 @@ fn stored_sum(line: &[u8], ending: Ending<'_>) -> LineResult<Option<u64>> {
     if sum.is_empty() && ending == Ending::Whole {
         return Ok(None);
     }
-    match u64::from_str_radix(sum, 16) {
-        Ok(value) => Ok(Some(value)),
-        Err(_) => {
-            let fault = FileFault::value("check sum", quoted(sum), "a hexadecimal number");
-            Err((1, fault))
-        }
+    if let Ok(value) = u64::from_str_radix(sum, 16) {
+        Ok(Some(value))
+    } else {
+        let fault = FileFault::value("check sum", quoted(sum), "a hexadecimal number");
+        Err((1, fault))
     }
 }
 

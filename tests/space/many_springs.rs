@@ -205,7 +205,8 @@ fn a_tower_rocks_and_slides_on_thousands_of_springs() {
     assert!(conditioning.ground == 1.0 && conditioning.delassus < 1e3, "{conditioning}");
     let run = simulation.run(300, |_| {}).unwrap();
     let whole = &run.whole;
-    let [open, slip] = [&whole.uplifted_fraction, &whole.largest_slip].map(|own| own.magnitude());
+    let [open, slip] =
+        [&whole.uplifted_fraction, &whole.largest_slip].map(basemat::results::Extremes::magnitude);
     println!("{open:.2} open, slip {slip:.3} m, energy error {:.1e}", run.energy_error);
     assert!(open > 0.3 && slip > 0.01 && run.energy_error < 1e-9, "{open} {slip} {run:?}");
 }

@@ -104,6 +104,7 @@ mod tests {
     }
 
     /// Long enough for the calling thread to do some of the items.
+    #[allow(clippy::unnecessary_wraps, reason = "the type of the function that it stands for")]
     fn wait((): &mut (), _item: usize) -> Result<()> {
         std::thread::sleep(Duration::from_millis(2));
         Ok(())

@@ -267,7 +267,7 @@ mod tests {
         for time in 1..9 {
             let mean = f64::from(time) - 0.5;
             let mut displacement = vec![0.0; 6];
-            unions.gather(&mut displacement, |cells| fill_zero(cells)).unwrap();
+            unions.gather(&mut displacement, fill_zero).unwrap();
             for (place, displacement) in displacement.iter().enumerate().filter(|_| time > 1) {
                 let found = displacement + step[place] * mean;
                 assert!((found - at_rest[place] * f64::from(time)).abs() < 1e-14, "{time}");
@@ -276,6 +276,7 @@ mod tests {
         }
     }
 
+    #[allow(clippy::unnecessary_wraps, reason = "the type of the function that it stands for")]
     fn fill_zero(cells: &mut [f64]) -> Result<()> {
         cells.fill(0.0);
         Ok(())

@@ -68,10 +68,10 @@ pub(crate) fn solve(
         let on_base = condensed.as_ref().map(|condensed| &condensed.assembled);
         buckling::check(grounded, on_base, &state)?;
     }
-    if parts.given.is_static() {
-        if let Some(force) = parts.structure.nonlinear_mut() {
-            force.commit(&state.displacement);
-        }
+    if parts.given.is_static()
+        && let Some(force) = parts.structure.nonlinear_mut()
+    {
+        force.commit(&state.displacement);
     }
     let structure = &parts.structure;
     (state.force, state.energy) = nonlinear_state(structure.as_ref(), &state.displacement)?;

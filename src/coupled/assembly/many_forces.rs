@@ -103,7 +103,13 @@ impl Reduction<'_> {
                     space.ritz_with((&block, newest), c, (&products, rows), min_length)?;
                 let new_change = self.smooth_responses(&modes, &all).difference(last, tolerance);
                 if new_change <= tolerance {
-                    return self.basis_of_many(space, fewer, effective, scheme_shift, tolerance);
+                    return self.basis_of_many(
+                        space,
+                        fewer,
+                        effective.as_deref(),
+                        scheme_shift,
+                        tolerance,
+                    );
                 }
                 let ratio = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
                 is_last = change.is_finite() && new_change * ratio <= tolerance;
@@ -114,7 +120,13 @@ impl Reduction<'_> {
             block = space.inertia(newest, c.acceleration[0]);
             let modes = space.ritz()?;
             if is_last || space.count() == self.assembled.dofs() {
-                return self.basis_of_many(space, &modes, effective, scheme_shift, tolerance);
+                return self.basis_of_many(
+                    space,
+                    &modes,
+                    effective.as_deref(),
+                    scheme_shift,
+                    tolerance,
+                );
             }
             products.extend(space.products(products.len() / count, rows));
             last = Some((self.smooth_responses(&modes, &products), modes));
@@ -134,7 +146,7 @@ impl Reduction<'_> {
         &self,
         space: Subspace<'_>,
         modes: &Ritz,
-        effective: Option<Box<SparseFactor>>,
+        effective: Option<&SparseFactor>,
         scheme_shift: f64,
         tolerance: f64,
     ) -> Result<ModalBasis> {
@@ -142,8 +154,7 @@ impl Reduction<'_> {
             return Ok(space.basis(modes));
         }
         let floating = self.on_springs(scheme_shift)?;
-        let factors: Vec<_> =
-            effective.iter().map(|factor| &**factor).chain([&floating.factor]).collect();
+        let factors: Vec<_> = effective.into_iter().chain([&floating.factor]).collect();
         self.basis(space, modes, &factors, tolerance)
     }
 

@@ -45,7 +45,9 @@ impl Reduction<'_> {
         let mut forces = coupling.times(&space.mode_rows(&modes));
         for (force, square) in forces.chunks_exact_mut(order).zip(&modes.stiffness) {
             let frequency = square.max(0.0).sqrt().min(fastest);
-            force.iter_mut().for_each(|value| *value *= frequency);
+            for value in force.iter_mut() {
+                *value *= frequency;
+            }
         }
         for factor in factors {
             let mut block = forces.clone();

@@ -147,7 +147,9 @@ impl PlacedBase {
         for footing in &mut base.foundations {
             for weights in footing.rotations.iter_mut().chain([&mut footing.settlement]) {
                 if let Weights::Sparse(terms) = weights {
-                    terms.iter_mut().for_each(|(dof, _)| *dof = number(*dof));
+                    for (dof, _) in terms.iter_mut() {
+                        *dof = number(*dof);
+                    }
                 }
             }
         }

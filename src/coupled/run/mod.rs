@@ -266,6 +266,7 @@ impl Run {
     /// `opens`: whether an element can open. `of_scene`: warnings of the scene itself. `pressures_above`: of the soil, Pa,
     /// on elements of walls without a largest pressure; empty without walls. `drag`: damping of a rigid
     /// translation over its mass, 1/s. `rotation_limit`: rotation that ends a run, rad.
+    #[allow(clippy::too_many_arguments, reason = "what the scene and the run know of each other")]
     pub(crate) fn finish(
         &mut self,
         ground: &dyn Ground,

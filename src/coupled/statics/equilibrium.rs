@@ -155,7 +155,9 @@ impl Standing<'_> {
         let mut displacement = self.without_traction(current, load, state)?;
         let mut free_jump = vec![0.0; solver.traction.len()];
         self.assembled.base.means(&displacement, &mut free_jump);
-        free_jump.iter_mut().for_each(|jump| *jump = -*jump);
+        for jump in &mut free_jump {
+            *jump = -*jump;
+        }
         free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
         let input = ContactInput {
             delassus: &current.delassus,

@@ -334,7 +334,7 @@ impl Element for Shell {
                 self.add_mass(&MiddleSurface::quadrilateral(&nodes), kind, matrix);
             }
             Ok(Corners::Three(nodes)) => {
-                self.add_mass(&MiddleSurface::triangle(&nodes), kind, matrix)
+                self.add_mass(&MiddleSurface::triangle(&nodes), kind, matrix);
             }
             Err(_) => (),
         }

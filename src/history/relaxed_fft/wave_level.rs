@@ -119,6 +119,7 @@ impl WaveLevel {
     /// Adds the effect of the b inputs before `now` to the next b outputs, in all rows.
     ///
     /// There is one row per wavenumber for the first component, then as many for each other component.
+    #[allow(clippy::too_many_arguments, reason = "buffers of one step, each with its meaning")]
     pub(super) fn apply(
         &self,
         rows: &mut [Complex<f64>],

@@ -33,7 +33,7 @@ pub(super) fn read(source: impl Read, accepted: &AcceptedKinds) -> LineResult<Fi
             "PhysicalNames" => physical_names(&mut fields, &mut mesh)?,
             "Entities" if is_version_4 => version4::entities(&mut fields, &mut mesh, false)?,
             "PartitionedEntities" if is_version_4 => {
-                version4::partitioned_entities(&mut fields, &mut mesh)?
+                version4::partitioned_entities(&mut fields, &mut mesh)?;
             }
             "Nodes" if is_version_4 => version4::nodes(&mut fields, &mut mesh)?,
             "Elements" if is_version_4 => version4::elements(&mut fields, &mut mesh, accepted)?,

@@ -163,12 +163,11 @@ impl Graph {
                 }
                 let place = edge_to[neighbour];
                 let edge = coarse.edges.get_mut(place).filter(|_| place >= first_edge);
-                match edge.filter(|edge| edge.0 == neighbour) {
-                    Some(edge) => edge.1 += weight,
-                    None => {
-                        edge_to[neighbour] = coarse.edges.len();
-                        coarse.edges.push((neighbour, weight));
-                    }
+                if let Some(edge) = edge.filter(|edge| edge.0 == neighbour) {
+                    edge.1 += weight;
+                } else {
+                    edge_to[neighbour] = coarse.edges.len();
+                    coarse.edges.push((neighbour, weight));
                 }
             }
             coarse.start.push(coarse.edges.len());

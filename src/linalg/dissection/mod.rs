@@ -140,6 +140,7 @@ mod tests {
         rows
     }
 
+    #[allow(clippy::unnecessary_wraps, reason = "the type of the function that it stands for")]
     fn natural_order(graph: &Adjacency) -> Option<Vec<usize>> {
         Some((0..graph.start.len() - 1).collect())
     }
@@ -152,7 +153,9 @@ mod tests {
         assert!(members.iter().all(|rows| rows.len() == 2));
         let side = dissected(&graph);
         let mut counts = [0; 3];
-        side.iter().for_each(|part| counts[usize::from(*part)] += 1);
+        for part in &side {
+            counts[usize::from(*part)] += 1;
+        }
         assert_eq!(counts[usize::from(SEPARATOR_PART)], 30);
         assert!(counts[0].max(counts[1]) <= 180);
         for v in (0..graph.len()).filter(|v| side[*v] != SEPARATOR_PART) {

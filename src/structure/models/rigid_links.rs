@@ -176,9 +176,8 @@ impl RigidLinks {
 
     /// All nodes that follow another one.
     pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
-        self.leader.iter().enumerate().filter_map(|(node, leader)| match *leader {
-            Some((link, leader)) => Some(Follower { node, leader, is_body: link == Link::Body }),
-            None => None,
+        self.leader.iter().enumerate().filter_map(|(node, leader)| {
+            (*leader).map(|(link, leader)| Follower { node, leader, is_body: link == Link::Body })
         })
     }
 

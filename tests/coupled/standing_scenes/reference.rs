@@ -15,22 +15,19 @@ const INCREMENTS: usize = 100;
 fn base_rows(base: &Base, [x, y]: [f64; 2], dofs: usize) -> Vec<Vec<f64>> {
     let nodes: Vec<&BaseNode> = base.nodes().collect();
     // Weights of three or two nodes that give the linear function of the place.
-    let weights = match base {
-        Base::Lines(_) => {
-            let (left, right) = (nodes[0], nodes[nodes.len() - 1]);
-            let share = (x - left.x) / (right.x - left.x);
-            vec![(left, 1.0 - share), (right, share)]
-        }
-        _ => {
-            let three = [nodes[0], nodes[1], nodes[2]];
-            let places: Matrix = vec![
-                vec![1.0; 3],
-                three.iter().map(|node| node.x).collect(),
-                three.iter().map(|node| node.y).collect(),
-            ];
-            let found = solve(&places, &[1.0, x, y]);
-            three.into_iter().zip(found).collect()
-        }
+    let weights = if let Base::Lines(_) = base {
+        let (left, right) = (nodes[0], nodes[nodes.len() - 1]);
+        let share = (x - left.x) / (right.x - left.x);
+        vec![(left, 1.0 - share), (right, share)]
+    } else {
+        let three = [nodes[0], nodes[1], nodes[2]];
+        let places: Matrix = vec![
+            vec![1.0; 3],
+            three.iter().map(|node| node.x).collect(),
+            three.iter().map(|node| node.y).collect(),
+        ];
+        let found = solve(&places, &[1.0, x, y]);
+        three.into_iter().zip(found).collect()
     };
     let row = |of: fn(&BaseNode) -> &DofCombination, sign: f64| {
         let mut row = vec![0.0; dofs];

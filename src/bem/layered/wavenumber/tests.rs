@@ -44,7 +44,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
         let n: Vec<f64> = line.split(',').map(|x| x.parse().unwrap()).collect();
         let s = Complex::new(n[0], n[1]);
         integrals.compliance(&profile, s, &mut StripWorkspace::default(), &mut values).unwrap();
-        let mut indices = line.split(',').skip(2).map(|text| text.parse::<usize>());
+        let mut indices = line.split(',').skip(2).map(str::parse::<usize>);
         let row = indices.next().unwrap().unwrap();
         let column = indices.next().unwrap().unwrap();
         let found = assembled(&classes, &values);
