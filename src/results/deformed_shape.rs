@@ -54,8 +54,8 @@ impl DeformedShape {
     /// and 8 or 9 a quadrilateral with the corners first; other numbers a polygon.
     ///
     /// # Errors
-    /// [`Error::Size`] without points or for an empty cell, [`Error::Index`] for a cell with a point
-    /// that does not exist, [`Error::Input`] for a number that is not finite.
+    /// [`Error::Size`](crate::Error::Size) without points or for an empty cell, [`Error::Index`](crate::Error::Index) for a cell with a point
+    /// that does not exist, [`Error::Input`](crate::Error::Input) for a number that is not finite.
     pub fn new(points: Vec<ShapePoint>, cells: Vec<Vec<usize>>) -> Result<Self> {
         at_least("points of a deformed shape", points.len(), 1)?;
         for point in &points {
@@ -123,7 +123,7 @@ impl DeformedShape {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Input`] unless the height is positive; as for [`DofCombination::of_base`].
+    /// [`Error::Input`](crate::Error::Input) unless the height is positive; as for [`DofCombination::of_base`].
     pub fn of_block(block: &dyn Structure, height: f64) -> Result<Self> {
         positive("height of the rectangle", height)?;
         // Checks the base.
@@ -216,7 +216,7 @@ impl DeformedShape {
     /// Lowers all points by a `depth` (m), for a structure in [`WithWalls`](crate::structure::WithWalls).
     ///
     /// # Errors
-    /// [`Error::Input`] for a depth that is not finite.
+    /// [`Error::Input`](crate::Error::Input) for a depth that is not finite.
     pub fn lowered(mut self, depth: f64) -> Result<Self> {
         finite("depth of a deformed shape", depth)?;
         for point in &mut self.points {
@@ -258,7 +258,7 @@ impl DeformedShape {
     /// moves along y.
     ///
     /// # Errors
-    /// [`Error::Index`] if a degree of freedom of a point is missing in `dofs`.
+    /// [`Error::Index`](crate::Error::Index) if a degree of freedom of a point is missing in `dofs`.
     pub fn displacements(&self, dofs: &[f64]) -> Result<Vec<[f64; 3]>> {
         let mut displacements = Vec::with_capacity(self.points.len());
         for point in &self.points {

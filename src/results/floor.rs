@@ -12,7 +12,7 @@ impl TimeSeries {
     /// which does not affect a spectrum. A floor's vibration should have ten steps or more in its period.
     ///
     /// # Errors
-    /// [`Error::Name`] if no probe has this name; [`Error::Scene`] if the probe contains displacements or
+    /// [`Error::Name`](crate::Error::Name) if no probe has this name; [`Error::Scene`](crate::Error::Scene) if the probe contains displacements or
     /// velocities, or if not every step is kept; as for [`Record::new`].
     pub fn acceleration_record(&self, probe: &str) -> Result<Record> {
         let index = self.probe_index(probe)?;
@@ -60,7 +60,7 @@ impl TimeSeries {
 /// ```
 ///
 /// # Errors
-/// [`Error::Input`] unless both are positive, and for fewer than two numbers or more than a million.
+/// [`Error::Input`](crate::Error::Input) unless both are positive, and for fewer than two numbers or more than a million.
 pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
     positive("first of the numbers", first)?;
     positive("last of the numbers", last)?;
@@ -84,7 +84,7 @@ pub fn log_spaced(first: f64, last: f64, count: usize) -> Result<Vec<f64>> {
 /// fraction) T. Between its periods the spectrum is linear in the logarithm of the period.
 ///
 /// # Errors
-/// [`Error::Input`] unless 0 ≤ `fraction` < 1 and the periods increase.
+/// [`Error::Input`](crate::Error::Input) unless 0 ≤ `fraction` < 1 and the periods increase.
 pub fn broadened(spectrum: &[SpectralOrdinate], fraction: f64) -> Result<Vec<SpectralOrdinate>> {
     not_negative("fraction of broadening", fraction)?;
     require("fraction of broadening", fraction, fraction < 1.0, "below one")?;

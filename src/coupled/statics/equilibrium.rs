@@ -155,10 +155,7 @@ impl Standing<'_> {
         let mut displacement = self.without_traction(current, load, state)?;
         let mut free_jump = vec![0.0; solver.traction.len()];
         self.assembled.base.means(&displacement, &mut free_jump);
-        for jump in &mut free_jump {
-            *jump = -*jump;
-        }
-        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
+        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump = offset - *jump);
         let input = ContactInput {
             delassus: &current.delassus,
             free_jump: &free_jump,
