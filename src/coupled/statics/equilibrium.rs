@@ -153,9 +153,10 @@ impl Standing<'_> {
         state: &mut StaticState,
     ) -> Result<Option<Vec<f64>>> {
         let mut displacement = self.without_traction(current, load, state)?;
-        let mut free_jump = vec![0.0; solver.traction.len()];
-        self.assembled.base.means(&displacement, &mut free_jump);
-        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump = offset - *jump);
+        let mut means = vec![0.0; solver.traction.len()];
+        self.assembled.base.means(&displacement, &mut means);
+        let mut free_jump: Vec<f64> = means.iter().map(|mean| -mean).collect();
+        free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
         let input = ContactInput {
             delassus: &current.delassus,
             free_jump: &free_jump,
