@@ -82,11 +82,18 @@ impl LowRank {
     /// Motion of an element with this force.
     #[inline]
     pub(super) fn motion(&self, e: usize, force: [f64; 3]) -> [f64; 3] {
+        let mut motion = self.motion_by_modes(e, &self.amplitudes);
+        (0..3).for_each(|k| motion[k] += self.diagonal[e][k] * force[k]);
+        motion
+    }
+
+    /// Motion L a of an element by amplitudes a of the modes.
+    #[inline]
+    pub(super) fn motion_by_modes(&self, e: usize, amplitudes: &[f64]) -> [f64; 3] {
         let mut motion = [0.0; 3];
-        for (amplitude, mode) in self.amplitudes.iter().zip(self.modes(e)) {
+        for (amplitude, mode) in amplitudes.iter().zip(self.modes(e)) {
             (0..3).for_each(|k| motion[k] += amplitude * mode[k]);
         }
-        (0..3).for_each(|k| motion[k] += self.diagonal[e][k] * force[k]);
         motion
     }
 

@@ -91,10 +91,7 @@ impl LowRankSystem {
         }
         self.factor.solve(&mut self.rhs);
         for (e, response) in self.responses.iter().enumerate() {
-            let mut motion = [0.0; 3];
-            for (amplitude, mode) in self.rhs.iter().zip(operator.modes(e)) {
-                (0..3).for_each(|k| motion[k] += amplitude * mode[k]);
-            }
+            let motion = operator.motion_by_modes(e, &self.rhs);
             for (k, i) in problem.places(e).into_iter().enumerate() {
                 let moved = dot(&response.by_motion[k], &motion);
                 problem.change[i] += response.force[k] - moved;

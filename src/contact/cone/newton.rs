@@ -98,8 +98,9 @@ impl Newton {
     pub(super) fn solve_briefly(&mut self, problem: &mut ConeProblem, ahead: bool) -> SolveOutcome {
         let mut smallest = f64::INFINITY;
         let mut slow = 0;
+        let mut iteration = 0;
         self.before.copy_from_slice(&problem.change);
-        for iteration in 0..=MAX_NEWTON_ITERATIONS {
+        loop {
             let residual = problem.residual();
             if residual <= problem.tolerance() {
                 return SolveOutcome::new(iteration, true);
@@ -123,8 +124,8 @@ impl Newton {
                 problem.change.copy_from_slice(&self.before);
                 return SolveOutcome::new(iteration + 1, false);
             }
+            iteration += 1;
         }
-        SolveOutcome::new(MAX_NEWTON_ITERATIONS, false)
     }
 
     /// Randomised restarts: `attempts` in turn, from `start`, from zero forces and with all elements sticking.

@@ -95,8 +95,11 @@ impl ConeProblem {
             if largest.is_nan() {
                 return SolveOutcome::new(sweep, false);
             }
-            if largest <= sufficient_change && (self.is_solved() || largest > tolerance) {
-                return SolveOutcome::new(sweep, self.is_solved());
+            if largest <= sufficient_change {
+                let is_solved = self.is_solved();
+                if is_solved || largest > tolerance {
+                    return SolveOutcome::new(sweep, is_solved);
+                }
             }
             if largest <= MIN_REDUCTION * smallest_change {
                 smallest_change = largest;
@@ -228,21 +231,9 @@ impl ConeProblem {
         let mut largest_change = 0.0;
         for e in 0..self.count {
             let places = self.places(e);
-            let start = places.map(|i| self.force(i));
-            let change = places.map(|i| self.change[i]);
-            let mut y = low_rank.motion(e, change);
-            for k in 0..3 {
-                y[k] += self.q[places[k]] + self.added * change[k];
-            }
-            let r = relaxed_force(
-                &self.bounds[e],
-                self.rho[e],
-                &self.element_blocks[e],
-                start,
-                y,
-                tolerance,
-            );
-            let moved = [0, 1, 2].map(|k| r[k] - start[k]);
+            let motion = low_rank.motion(e, places.map(|i| self.change[i]));
+            let r = self.relaxed_with_motion(e, motion, tolerance);
+            let moved = [0, 1, 2].map(|k| r[k] - self.force(places[k]));
             if moved != [0.0; 3] {
                 (0..3).for_each(|k| self.set_force(places[k], r[k]));
                 low_rank.push(e, moved);
@@ -252,6 +243,19 @@ impl ConeProblem {
         }
         self.low_rank = Some(low_rank);
         largest_change
+    }
+
+    /// Force of an element with all other forces fixed, for its present motion by W without `added`.
+    #[inline(always)]
+    fn relaxed_with_motion(&self, e: usize, motion: [f64; 3], tolerance: f64) -> [f64; 3] {
+        let places = self.places(e);
+        let mut start = [0.0; 3];
+        let mut y = motion;
+        for k in 0..3 {
+            start[k] = self.force(places[k]);
+            y[k] += self.q[places[k]] + self.added * self.change[places[k]];
+        }
+        relaxed_force(&self.bounds[e], self.rho[e], &self.element_blocks[e], start, y, tolerance)
     }
 
     /// Relaxes one element with all other forces fixed; returns the change of its force (N).
@@ -353,31 +357,20 @@ impl WithSimd for DenseLatticeSweep<'_> {
         let mut largest_change = 0.0;
         for e in 0..problem.count {
             let places = problem.places(e);
-            let mut start = [0.0; 3];
             let mut change = [0.0; 3];
             for k in 0..3 {
-                start[k] = problem.force(places[k]);
                 change[k] = problem.change[places[k]];
             }
-            let Some(dense_lattice) = &mut problem.dense_lattice else { return f64::NAN };
-            let mut y = dense_lattice.motion(e, change);
-            for k in 0..3 {
-                y[k] += problem.q[places[k]] + problem.added * change[k];
-            }
-            let r = relaxed_force(
-                &problem.bounds[e],
-                problem.rho[e],
-                &problem.element_blocks[e],
-                start,
-                y,
-                tolerance,
-            );
+            let Some(dense_lattice) = &problem.dense_lattice else { return f64::NAN };
+            let r = problem.relaxed_with_motion(e, dense_lattice.motion(e, change), tolerance);
             let mut moved = [0.0; 3];
             for k in 0..3 {
-                moved[k] = r[k] - start[k];
+                moved[k] = r[k] - problem.force(places[k]);
                 problem.change[places[k]] = r[k] - problem.anchor[places[k]];
             }
-            if moved != [0.0; 3] {
+            if moved != [0.0; 3]
+                && let Some(dense_lattice) = &mut problem.dense_lattice
+            {
                 dense_lattice.push(simd, e, moved);
             }
             largest_change =
