@@ -9,12 +9,12 @@
 //! W = D + L Lᵀ A, with as many numbers as there are elements.
 
 use crate::linalg::{
-    DenseFactor, condition_by_products, dense_multiply_add, dot, pivoted_cholesky,
+    DenseFactor, condition_by_products, dense_multiply_add, dot, pivoted_cholesky, scale_by,
     transposed_multiply_add,
 };
 
 /// Diagonal that the modes leave out, relative to the largest of W: rounding.
-const MODE_TOLERANCE: f64 = 1e-14;
+pub(super) const MODE_TOLERANCE: f64 = 1e-14;
 /// Largest difference of a product with L Lᵀ from the structure's, relative to the largest number: asymmetry.
 const PRODUCT_TOLERANCE: f64 = 1e-8;
 
@@ -148,41 +148,34 @@ impl OnBed {
         // Wᵀ is A W A⁻¹.
         let multiply = |x: &mut [f64], transposed: bool| {
             if transposed {
-                scale(x, &reciprocals);
+                scale_by(x, &reciprocals);
             }
             let mut product = vec![0.0; size];
             self.multiply_add(x, &mut product);
             x.copy_from_slice(&product);
             if transposed {
-                scale(x, &self.areas);
+                scale_by(x, &self.areas);
             }
         };
         let solve = |x: &mut [f64], transposed: bool| {
             if transposed {
-                scale(x, &reciprocals);
+                scale_by(x, &reciprocals);
             }
-            scale(x, &stiffness);
+            scale_by(x, &stiffness);
             if rank > 0 {
                 let mut amplitudes = vec![0.0; rank];
                 transposed_multiply_add(&self.modes, 1.0, x, &mut amplitudes);
                 factor.solve(&mut amplitudes);
                 let mut moved = vec![0.0; size];
                 dense_multiply_add(&self.modes, 1.0, &amplitudes, &mut moved);
-                scale(&mut moved, &stiffness);
+                scale_by(&mut moved, &stiffness);
                 x.iter_mut().zip(&moved).for_each(|(x, moved)| *x -= moved);
             }
             if !transposed {
-                scale(x, &reciprocals);
+                scale_by(x, &reciprocals);
             }
         };
         condition_by_products(&diagonal, multiply, solve)
-    }
-}
-
-/// Multiplies each value by its factor.
-fn scale(values: &mut [f64], factors: &[f64]) {
-    for (value, factor) in values.iter_mut().zip(factors) {
-        *value *= factor;
     }
 }
 

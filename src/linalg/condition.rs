@@ -60,7 +60,8 @@ fn roots_of_diagonal(diagonal: impl Iterator<Item = f64>) -> Vec<f64> {
     diagonal.map(|d| if d == 0.0 { 1.0 } else { d.abs().sqrt() }).collect()
 }
 
-fn scale_by(values: &mut [f64], factors: &[f64]) {
+/// Multiplies each value by its factor.
+pub(crate) fn scale_by(values: &mut [f64], factors: &[f64]) {
     values.iter_mut().zip(factors).for_each(|(x, s)| *x *= s);
 }
 

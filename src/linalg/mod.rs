@@ -30,7 +30,7 @@ mod triplets;
 #[cfg(feature = "embedded")]
 pub(crate) use block::ComplexBlock;
 pub use complex::Complex;
-pub(crate) use condition::{condition_by_products, dense_condition, sparse_condition};
+pub(crate) use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
 pub(crate) use dense::DenseFactor;
 pub(crate) use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
 pub(crate) use elimination::Elimination;

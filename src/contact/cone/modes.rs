@@ -1,11 +1,10 @@
 //! The modes in which the structure moves the elements: factors of W without the soil.
 
+use crate::contact::on_bed::MODE_TOLERANCE;
 use crate::linalg::pivoted_cholesky;
 
 /// Largest number of modes.
 pub(super) const MAX_MODE_COUNT: usize = 24;
-/// Diagonal that the modes leave out, relative to the largest of W: rounding.
-const MODE_TOLERANCE: f64 = 1e-14;
 
 /// Pivoted Cholesky factors L of W without `soil(row, column)` and its diagonal's `layer(row)`, mode by mode.
 ///
