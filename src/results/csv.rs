@@ -73,9 +73,8 @@ impl TimeSeries {
             for (element, (state, mode)) in frame.states.iter().zip(frame.modes).enumerate() {
                 let places = ends.iter().map(|(_, places)| NumberCell(places[element]).to_string());
                 let places = places.collect::<Vec<_>>().join(",");
-                let time = NumberCell(frame.time);
-                text += &[&time.to_string(), &element.to_string(), &places, &mode.to_string(), ""]
-                    .join(",");
+                let start = format!("{},{element},{places},{mode},", NumberCell(frame.time));
+                text += &start;
                 text += &cell_line(numbers.iter().map(|(_, value)| NumberCell(value(state))));
             }
         }
