@@ -12,7 +12,7 @@ use std::sync::Arc;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
 use crate::coupled::model::load_factor::LoadedStiffness;
-use crate::coupled::model::mechanism::AtRest;
+use crate::coupled::model::mechanism::StructureAtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
 use crate::error::{Error, Result, at_least};
@@ -191,9 +191,9 @@ impl Assembled {
     }
 
     /// The structure at rest, for a search for mechanisms; `structure` names its degrees of freedom.
-    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
+    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> StructureAtRest<'a> {
         let stiffness = self.stiffness_at_rest();
-        AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
+        StructureAtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
     /// Largest damping of a translation along the ground, divided by the mass that it moves, r·C r / r·M r, 1/s.

@@ -267,16 +267,16 @@ fn transform(
 
 /// Adds (or subtracts) the product of two spectra, stored as real parts, then imaginary parts.
 fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
-    vectorized(Product::<PLUS> { output, factor, input });
+    vectorized(SpectrumProduct::<PLUS> { output, factor, input });
 }
 
-struct Product<'a, const PLUS: bool> {
+struct SpectrumProduct<'a, const PLUS: bool> {
     output: &'a mut [f64],
     factor: [&'a [f64]; 2],
     input: &'a [f64],
 }
 
-impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
+impl<const PLUS: bool> WithSimd for SpectrumProduct<'_, PLUS> {
     type Output = ();
 
     #[inline(always)]

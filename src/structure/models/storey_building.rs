@@ -4,7 +4,7 @@ use super::rigid_body::RigidBody;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
-use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, Springs};
+use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, HystereticSprings};
 use crate::structure::{
     Base, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
 };
@@ -85,7 +85,7 @@ pub struct StoreyBuilding {
     pub(super) storeys: Vec<PlanStorey>,
     /// Whether a law replaces a storey's stiffness, by direction.
     has_law: Vec<[bool; 3]>,
-    springs: Springs,
+    springs: HystereticSprings,
     gravity: f64,
 }
 
@@ -126,7 +126,7 @@ impl StoreyBuilding {
             mat,
             storeys: storeys.to_vec(),
             has_law: vec![[false; 3]; storeys.len()],
-            springs: Springs::default(),
+            springs: HystereticSprings::default(),
             gravity: 0.0,
         };
         finite("mass of the building", building.total_mass())?;
