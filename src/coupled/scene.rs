@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::{ConnectedPart, UP};
+use crate::coupled::base::influence::{ConnectedPart, UPWARD_DIRECTION};
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::coupled::model::Model;
 use crate::coupled::model::kinematics::Kinematics;
@@ -88,7 +88,7 @@ impl Scene {
         let mut weight = Vec::new();
         if given.falls() {
             weight.resize(model.coordinates, 0.0);
-            let up = model.influence.of(UP, model.coordinates);
+            let up = model.influence.of(UPWARD_DIRECTION, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
         let elements = &parts.elements;

@@ -18,7 +18,7 @@ pub(crate) struct HeldBase<'a> {
 }
 
 impl<'a> HeldBase<'a> {
-    pub(crate) const NAME: &'static str = "stiffness matrix with its base held";
+    pub(crate) const STIFFNESS_NAME: &'static str = "stiffness matrix with its base held";
 
     pub(crate) fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring: f64) -> Self {
         let mut matrix = SparseMatrix::weighted_sum(stiffness.order(), &[(1.0, stiffness)]);
@@ -30,7 +30,7 @@ impl<'a> HeldBase<'a> {
 
     /// The factored matrix.
     pub(crate) fn factor(&self) -> Result<SparseFactor> {
-        SparseFactor::new(Self::NAME, &self.matrix)
+        SparseFactor::new(Self::STIFFNESS_NAME, &self.matrix)
     }
 
     /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.

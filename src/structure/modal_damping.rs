@@ -116,7 +116,7 @@ impl ModalDamping {
         check_rows(&nodes, matrices.mass.order())?;
         let spring = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
         let on_springs = HeldBase::new(&nodes, stiffness, spring);
-        let on_springs = SparseMatrix::new(HeldBase::NAME, &on_springs.matrix)?;
+        let on_springs = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &on_springs.matrix)?;
         let (values, vectors) =
             generalised_modes(&matrices.mass, &on_springs).ok_or(UNRESISTED_MOTION)?;
         let mut found = WithModalDamping::new(structure);

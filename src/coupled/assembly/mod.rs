@@ -39,7 +39,7 @@ use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
-use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
+use crate::coupled::parts::{ENDLESS_STEPS, Parts, SimulationBuilder};
 use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Weight, wall_pressure};
@@ -191,7 +191,7 @@ impl SimulationBuilder {
     /// does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.steps = if steps < ENDLESS { steps } else { 0 };
+        self.steps = if steps < ENDLESS_STEPS { steps } else { 0 };
         self
     }
 

@@ -238,13 +238,13 @@ impl Assembled {
         let stiffest = stiffest(stiffness);
         let spring = self.spring();
         let held = HeldBase::new(self.base.nodes(), stiffness, spring);
-        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &held.matrix)?;
         let is_condensed =
             self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
         let ending =
             if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = ending.as_ref().unwrap_or(&self.elimination);
-        let factor = SparseFactor::of(HeldBase::NAME, &matrix, elimination)?;
+        let factor = SparseFactor::of(HeldBase::STIFFNESS_NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
@@ -257,7 +257,7 @@ impl Assembled {
             solution.iter_mut().zip(&residual).for_each(|(r, d)| *r += d);
         }
         if solution.iter().any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
+            return Err(Error::Singular { matrix: HeldBase::STIFFNESS_NAME, order: n });
         }
         let mut translations: Vec<_> = solution.chunks_exact(n).map(<[f64]>::to_vec).collect();
         let firmer = spring / stiffest;

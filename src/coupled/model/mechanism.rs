@@ -148,7 +148,7 @@ impl Regular {
     pub(crate) fn factor(&self) -> Option<SparseFactor> {
         let mut sum = self.matrix.clone();
         self.added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        SparseFactor::new(HeldBase::NAME, &sum).ok()
+        SparseFactor::new(HeldBase::STIFFNESS_NAME, &sum).ok()
     }
 
     /// The degrees of freedom that take part in displacements with work of at most `free`, ascending.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::coupled::base::influence::UP;
+use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::run::GroundMotion;
 use crate::coupled::run::mistake::Mistake;
@@ -76,7 +76,8 @@ impl Weight {
         let translations = assembled.influence.of_all(assembled.dofs());
         let masses: Vec<f64> =
             translations.iter().map(|moved| assembled.mass.form(moved, moved)).collect();
-        let pressure = gravity * masses[UP] / assembled.base.areas().iter().sum::<f64>();
+        let pressure =
+            gravity * masses[UPWARD_DIRECTION] / assembled.base.areas().iter().sum::<f64>();
         Self { gravity, pressure, masses }
     }
 }
@@ -181,8 +182,9 @@ impl Warning {
         warnings.extend(soft.map(|shear_modulus| {
             Self::Mistake(Mistake::HeavyStructure { pressure, shear_modulus })
         }));
-        let vertical = masses[UP];
-        let sideways = masses.iter().enumerate().filter(|(direction, _)| *direction != UP);
+        let vertical = masses[UPWARD_DIRECTION];
+        let sideways =
+            masses.iter().enumerate().filter(|(direction, _)| *direction != UPWARD_DIRECTION);
         let other = sideways.map(|(_, mass)| *mass).find(|horizontal| {
             *horizontal > 0.0
                 && vertical > 0.0

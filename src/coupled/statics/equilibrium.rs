@@ -74,7 +74,7 @@ impl Standing<'_> {
         mut state: StaticState,
         load: &[f64],
     ) -> Result<(StaticState, Vec<ContactState>)> {
-        let Self { assembled, structure, shared, .. } = *self;
+        let assembled = self.assembled;
         let base = &assembled.base;
         let mut springs = self.springs()?;
         let initial_stiffness = springs.stiffness;
@@ -88,13 +88,12 @@ impl Standing<'_> {
         let mut last_step = Vec::new();
         while iterations < MAX_PROXIMAL_ITERATIONS {
             iterations += 1;
-            tangent.refill(structure, &state.displacement)?;
+            tangent.refill(self.structure, &state.displacement)?;
             let current = match compliance.take() {
                 Some(current) if assembled.linear => current,
                 _ => {
                     solver.invalidate();
-                    let max_stiffness = MAX_STIFFENING_FACTOR * initial_stiffness;
-                    self.stiffened(&mut springs, &tangent.matrix, max_stiffness)?
+                    self.stiffened(&mut springs, &tangent.matrix, initial_stiffness)?
                 }
             };
             let current = compliance.insert(current);
@@ -110,10 +109,8 @@ impl Standing<'_> {
                 // The springs may have no force without an equilibrium, if K u is only rounding.
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
+                    self.share(compliance, initial_stiffness);
                     state.stand_in = solver.substituted_friction.or(state.stand_in);
-                    shared.replace(compliance.filter(|compliance| {
-                        assembled.linear && compliance.floating.springs == initial_stiffness
-                    }));
                     state.close_gaps(laws, start, &solver.states)?;
                     return Ok((state, solver.states));
                 }
@@ -134,10 +131,39 @@ impl Standing<'_> {
             }
             last_step = step;
         }
-        // With the initial springs: softened springs leave a matrix of rounding, which has no condition.
-        let initial = Floating::new(assembled, &tangent.matrix, initial_stiffness);
+        Err(self.failure(&tangent.matrix, initial_stiffness, iterations, change))
+    }
+
+    /// Shares the compliance of a linear structure on its initial springs with other searches.
+    fn share(&self, compliance: Option<Compliance>, initial_stiffness: f64) {
+        let is_shared = |compliance: &Compliance| {
+            self.assembled.linear && compliance.floating.springs == initial_stiffness
+        };
+        self.shared.replace(compliance.filter(is_shared));
+    }
+
+    /// Error for iterations without an equilibrium, with the condition of the matrix on the initial springs.
+    ///
+    /// Softened springs leave a matrix of rounding, which has no condition.
+    fn failure(
+        &self,
+        tangent: &SparseMatrix,
+        initial_stiffness: f64,
+        iterations: usize,
+        change: f64,
+    ) -> Error {
+        let initial = Floating::new(self.assembled, tangent, initial_stiffness);
         let condition = initial.map_or(1.0, |floating| floating.condition());
-        Err(failure(condition, iterations, change))
+        if condition <= MAX_ACCEPTED_CONDITION {
+            return Error::Preload { iterations, residual: change };
+        }
+        Error::IllConditioned {
+            matrix: STATIC_STIFFNESS_NAME,
+            condition,
+            limit: MAX_ACCEPTED_CONDITION,
+            quantity: "stiffness of the structure over that of the ground",
+            ratio: PROXIMAL_SPRING_FRACTION * condition,
+        }
     }
 
     /// Displacements of the next iterate; `None` if its contact problem has no solution.
@@ -208,13 +234,13 @@ impl Standing<'_> {
     /// Compliance with springs stiff enough to hold a structure that leans without the ground.
     ///
     /// Each iteration then finds the smallest energy. With softer springs it may find a structure on the verge of a
-    /// fall, on a corner. If springs of up to `max_stiffness` do not help (Lagrange multipliers), or rounding is the
-    /// cause, they stay unchanged.
+    /// fall, on a corner. If springs of [`MAX_STIFFENING_FACTOR`] times `initial_stiffness` do not help (Lagrange
+    /// multipliers), or rounding is the cause, they stay unchanged.
     fn stiffened(
         &self,
         springs: &mut Springs,
         tangent: &SparseMatrix,
-        max_stiffness: f64,
+        initial_stiffness: f64,
     ) -> Result<Compliance> {
         let mut shared = self.shared.borrow_mut();
         if self.assembled.linear
@@ -231,7 +257,7 @@ impl Standing<'_> {
             return Ok(initial);
         }
         let mut stiffness = 10.0 * springs.stiffness;
-        while stiffness <= max_stiffness {
+        while stiffness <= MAX_STIFFENING_FACTOR * initial_stiffness {
             let stiffer = self.compliance(tangent, stiffness)?;
             if stiffer.floating.factor.is_positive_definite() {
                 *springs = Springs { stiffness, softest: stiffness };
@@ -323,20 +349,6 @@ fn rounding(iterations: usize, current: &Compliance) -> f64 {
     match iterations {
         0..ROUNDING_CHECK_ITERATION => SPRING_FORCE_ROUNDING,
         _ => SPRING_FORCE_ROUNDING.min(current.floating.condition() * f64::EPSILON),
-    }
-}
-
-/// Error for a search that did not converge.
-fn failure(condition: f64, iterations: usize, change: f64) -> Error {
-    if condition <= MAX_ACCEPTED_CONDITION {
-        return Error::Preload { iterations, residual: change };
-    }
-    Error::IllConditioned {
-        matrix: STATIC_STIFFNESS_NAME,
-        condition,
-        limit: MAX_ACCEPTED_CONDITION,
-        quantity: "stiffness of the structure over that of the ground",
-        ratio: PROXIMAL_SPRING_FRACTION * condition,
     }
 }
 
