@@ -184,20 +184,21 @@
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 #[macro_use]
-mod text;
+extern crate basemat_base;
+#[macro_use]
+extern crate basemat_structures;
+
+use basemat_base::{error, geometry, text};
+use basemat_linalg as linalg;
 
 pub mod bem;
 pub mod contact;
 pub mod coupled;
-mod error;
-pub mod fem;
 pub mod fundamental;
-mod geometry;
 pub mod history;
 pub mod interface;
 #[cfg(feature = "io")]
 pub mod io;
-mod linalg;
 pub mod motion;
 #[cfg(feature = "plot")]
 pub mod plot;
@@ -207,14 +208,17 @@ pub mod reference;
 pub mod results;
 pub mod site;
 pub mod soil;
-pub mod structure;
 pub mod sweep;
 
+#[doc(inline)]
+pub use basemat_structures::{fem, structure};
 pub use coupled::simulation::Simulation;
+#[doc(inline)]
 pub use error::{
     Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit,
     set_memory_limit, unobserved,
 };
+#[doc(inline)]
 pub use linalg::Complex;
 pub use soil::Soil;
 

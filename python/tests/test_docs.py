@@ -273,7 +273,7 @@ def test_names_of_the_core_in_messages_have_pythons_words() -> None:
     """Texts in the core's sources that name a function of Rust, against the table of Python's words."""
     table = (ROOT / "src" / "error.rs").read_text("utf-8")
     named = set()
-    for path in (ROOT.parent / "src").rglob("*.rs"):
+    for path in [*ROOT.parent.glob("src/**/*.rs"), *ROOT.parent.glob("crates/*/src/**/*.rs")]:
         code = re.sub(r"^\s*(//|#!?\[(?!error)).*$", "", path.read_text("utf-8"), flags=re.M)
         texts = re.findall(r'"((?:[^"\\\n]|\\.|\\\n)*)"', code, re.S)
         found = (re.findall(r"\w+(?:::\w+)+", own) for own in texts if " " in own)

@@ -29,6 +29,7 @@ mod strip;
 mod strip_impedance;
 mod weights_ground;
 
+#[doc(inline)]
 pub use crate::error::{GroundError, PlanError};
 pub use elastic_ground::ElasticGround;
 pub use influence::InfluenceKernel;
@@ -42,6 +43,7 @@ pub use weights_ground::WeightsGround;
 use std::any::Any;
 use std::sync::Arc;
 
+#[doc(inline)]
 pub use crate::geometry::ContactElement;
 
 use crate::error::{CheckpointError, Error, Observer, Result};

@@ -98,6 +98,7 @@ pub(crate) mod state;
 mod statics;
 mod step;
 
+#[doc(inline)]
 pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepError};
 pub use crate::structure::probe::Probe;
 pub use checkpoint::Checkpoint;

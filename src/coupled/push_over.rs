@@ -357,7 +357,7 @@ fn base_rotations(structure: &dyn Structure, displacement: &[f64]) -> [f64; 2] {
         let [slope, slope_across] = slopes(part, displacement);
         let rotations = match base {
             Base::Faces(_) => [-slope, slope_across],
-            _ => [slope, 0.0],
+            Base::Lines(_) => [slope, 0.0],
         };
         for (sum, value) in largest.iter_mut().zip(rotations) {
             if value.abs() > sum.abs() {

@@ -41,9 +41,9 @@ impl LastLag {
         let mut done = 0;
         let mut lag = MIN_KEPT_LAGS;
         while lag <= max_lags / 2 {
-            kernel.prepare(2 * lag, &mut |Progress { task, done: parts, total }| {
+            kernel.prepare(2 * lag, &mut |Progress { task, done: parts, total, .. }| {
                 let lags = done + (2 * lag - done) * parts / total.max(1);
-                observer(Progress { task, done: lags, total: max_lags })
+                observer(Progress::new(task, lags, max_lags))
             })?;
             let mut late_sums = vec![[0.0; SERIES_PER_OFFSET]; sums.len()];
             let mut changes = late_sums.clone();

@@ -9,7 +9,7 @@ use crate::geometry::{
     COMPONENTS_IN_PLANE, COMPONENTS_IN_SPACE, ContactElement, ContactLayout, Lattice,
     SERIES_PER_OFFSET, check_count, check_order, offset,
 };
-use crate::linalg::{ComplexField, hermitian_range, indefinite_pivot};
+use crate::linalg::{MatrixScalar, hermitian_range, indefinite_pivot};
 
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const STRIP_KINDS: usize = 3;
@@ -338,7 +338,7 @@ impl PairClasses {
         of_pair: impl FnMut([usize; 2], &Pair) -> [T; N],
     ) -> f64
     where
-        T: ComplexField<Real = f64> + Copy + Default + Mul<f64, Output = T>,
+        T: MatrixScalar + Default + Mul<f64, Output = T>,
     {
         let matrix = self.scaled(diagonal, of_pair);
         hermitian_range(&matrix, self.layout().len()).map_or(f64::NAN, |[smallest, _]| smallest)

@@ -16,6 +16,7 @@ mod thin_layer;
 mod variable_friction;
 mod yielding;
 
+#[doc(inline)]
 pub use crate::error::LawError;
 pub use cohesive::{Bonded, Cohesive};
 pub use condition::Condition;

@@ -9,8 +9,6 @@
 //! | ParaView, `.pvd` and `.vtu` | [`paraview`] |
 
 mod gmsh;
-mod matrix_market;
-mod matrix_market_reader;
 pub mod paraview;
 
 pub use gmsh::{GmshMesh, GmshPart, GmshSpaceMesh};

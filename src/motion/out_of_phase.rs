@@ -10,7 +10,8 @@
 
 use std::f64::consts::PI;
 
-use super::hilbert::hilbert;
+use basemat_records::hilbert;
+
 use super::{FreeField, Record};
 use crate::error::{Result, require};
 use crate::linalg::Complex;

@@ -83,7 +83,7 @@ impl DeformedShape {
     /// their outer sides; files for ParaView have all elements, in the order of the mesh.
     pub fn of_model(model: &FemModel) -> Self {
         let mesh = model.mesh();
-        let up = mesh.upwards();
+        let up = if mesh.has_depth() { Direction::Z } else { Direction::Y };
         let surface = model.surface_height();
         let mut points = Vec::with_capacity(mesh.nodes().len());
         for (node, &[x, y, z]) in mesh.nodes().iter().enumerate() {
@@ -165,7 +165,7 @@ impl DeformedShape {
     pub fn of_storeys(building: &StoreyBuilding) -> Result<Self> {
         let center = building.center();
         let base = building.base().into_nodes();
-        let mut points: Vec<ShapePoint> = base.iter().map(BaseNode::shape_point).collect();
+        let mut points: Vec<ShapePoint> = base.iter().map(point_at).collect();
         let mut cells = Vec::new();
         add_outline(&mut cells, 0, base.len());
         let mut height = 0.0;
@@ -312,12 +312,10 @@ impl ShapePoint {
     }
 }
 
-impl BaseNode {
-    /// Point of the shape at the node itself.
-    fn shape_point(&self) -> ShapePoint {
-        let rows = [&self.horizontal, &self.across, &self.vertical].map(DofCombination::clone);
-        ShapePoint::in_space([self.x, self.y, 0.0], rows)
-    }
+/// Point of the shape at a node of the base.
+fn point_at(node: &BaseNode) -> ShapePoint {
+    let rows = [&node.horizontal, &node.across, &node.vertical].map(DofCombination::clone);
+    ShapePoint::in_space([node.x, node.y, 0.0], rows)
 }
 
 /// Adds a prism of this height on a face of the base.
@@ -329,7 +327,7 @@ fn add_prism(
 ) {
     let first = points.len();
     let count = face.len();
-    points.extend(face.iter().map(BaseNode::shape_point));
+    points.extend(face.iter().map(point_at));
     for node in face {
         let rows = BaseNode::carried(face, node.place(), height);
         points.push(ShapePoint::in_space([node.x, node.y, height], rows));

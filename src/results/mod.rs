@@ -82,6 +82,7 @@ pub use crate::coupled::run::{
     ServiceCheck, Sliding, SlipEvent, Summary, Uplift,
 };
 pub use crate::coupled::serviceability::{Criterion, Serviceability};
+#[doc(inline)]
 pub use crate::text::csv::Csv;
 pub use comparison::Comparison;
 pub use csv::spectrum_csv;

@@ -8,8 +8,8 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex64;
-use realfft::{ComplexToReal, RealFftPlanner};
+use basemat_fourier::num_complex::Complex64;
+use basemat_fourier::{ComplexToReal, RealPlanner};
 
 use super::part_progress::PartProgress;
 use super::site_motion::{AMPLIFICATION_LIMIT, SiteMotion};
@@ -169,7 +169,7 @@ impl Transform {
     /// Spectrum of `motion`.
     pub(super) fn new(contour: Contour, motion: &[f64]) -> Result<Self> {
         let length = contour.length;
-        let mut planner = RealFftPlanner::<f64>::new();
+        let mut planner = RealPlanner::new();
         let forward = planner.plan_fft_forward(length);
         let inverse = planner.plan_fft_inverse(length);
         let mut values = forward.make_input_vec();

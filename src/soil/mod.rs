@@ -9,6 +9,7 @@ mod relaxation;
 mod strain_curves;
 mod strength;
 
+#[doc(inline)]
 pub use crate::error::SoilError;
 pub use maxwell::GeneralizedMaxwell;
 pub(crate) use profile::layer_name;

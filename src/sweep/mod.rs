@@ -44,6 +44,7 @@ mod run_table;
 mod stored;
 mod table;
 
+#[doc(inline)]
 pub use crate::error::{CaseError, SweepError};
 #[cfg(feature = "io")]
 pub use case_file::CaseFile;

@@ -179,7 +179,7 @@ fn reader_refuses_drifting_steps_and_endless_lines() {
 
 #[test]
 fn reader_refuses_a_truncated_record() {
-    let text = include_str!("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let text = include_str!("../../crates/records/data/elcentro1940_NS_peknold_0319g.csv");
     let format = ColumnFormat {
         samples: Some(1560),
         ..ColumnFormat::new(AccelerationUnit::StandardGravity)
@@ -206,7 +206,8 @@ fn files_that_cannot_be_read_are_named() {
     assert_eq!(error.to_string(), "/nowhere/record.csv cannot be read: it does not exist");
     let error = Record::read(basemat_problems::data_path(""), &metric()).unwrap_err();
     assert!(matches!(error, Error::File(FileError { fault: FileFault::Unreadable(_), .. })));
-    let file = basemat_problems::data_path("../../data/elcentro1940_NS_peknold_0319g.csv");
+    let file =
+        basemat_problems::data_path("../../crates/records/data/elcentro1940_NS_peknold_0319g.csv");
     let format = ColumnFormat::new(AccelerationUnit::StandardGravity);
     assert_eq!(Record::read(file, &format).unwrap(), el_centro_1940());
 }

@@ -1,6 +1,6 @@
 //! Stretched finite elements in place of the half-plane below the near field.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 /// Heights of stretched elements, for all Laplace variables near one of them.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! Vertical waves in the soil beside a trench: displacement and stress at the depths of its faces.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 /// Piece of the profile: its height (m), modulus M of the wave (Pa) and ρ s².
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,7 @@
 //! the soil), soil that moves by w has the tractions t + F⁻¹(w − u). A body without mass exerts no resultant:
 //! K U = Aᵀ (F⁻¹ u − t).
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::compliance::HalfCompliances;
 use super::ground::TrenchGround;

@@ -1,6 +1,6 @@
 //! Soil around a trench, and its compliance at one Laplace variable.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::bottom::Bottom;
 use super::compliance::{HalfCompliances, TrenchModel};

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::polynomials::{IntervalFunctions, ProductIntegrals, lagrange, nodes};
 use crate::error::Result;

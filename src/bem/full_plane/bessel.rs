@@ -11,8 +11,8 @@
 //! * K₀ = Σ qᵏ/(k!)² · (ψ(k+1) − ln(z/2)),
 //! * κ = Σ qᵏ/(k!(k+1)!) · (½ ln(z/2) − ¼ψ(k+1) − ¼ψ(k+2)).
 
+use basemat_fourier::num_complex::Complex;
 use complex_bessel::{Scaling, besselk_seq};
-use realfft::num_complex::Complex;
 
 /// Complex number of double precision.
 pub(super) type Complex64 = Complex<f64>;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use basemat_fourier::num_complex::Complex;
+use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 
 /// Number of frequencies that are multiplied together, so that all inputs and outputs stay in cache.
 const FREQUENCY_TILE_SIZE: usize = 64;
@@ -52,7 +52,7 @@ impl BlockTransform {
     pub(super) fn new(
         size: usize,
         series: &[Vec<f64>],
-        planner: &mut RealFftPlanner<f64>,
+        planner: &mut RealPlanner,
         work: &mut TransformBuffers,
     ) -> Self {
         let mut level = Self {

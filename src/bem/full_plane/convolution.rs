@@ -11,7 +11,7 @@ use super::block::{BlockTransform, SeriesLink, TransformBuffers};
 use super::pair_classes::SegmentPairClasses;
 use crate::error::{Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
-use realfft::RealFftPlanner;
+use basemat_fourier::RealPlanner;
 
 /// Number of steps that are summed directly, before the smallest block is transformed.
 const DIRECT_STEPS: usize = 64;
@@ -33,7 +33,7 @@ pub(super) struct BoundaryHistory {
     direct_series: Vec<Vec<f64>>,
     /// Transforms of blocks, each twice as long as the one before.
     transforms: Vec<BlockTransform>,
-    planner: RealFftPlanner<f64>,
+    planner: RealPlanner,
     work: TransformBuffers,
     /// 4E rows of `capacity`.
     inputs: Vec<f64>,
@@ -57,7 +57,7 @@ impl BoundaryHistory {
             pairs,
             kernel,
             transforms: Vec::new(),
-            planner: RealFftPlanner::new(),
+            planner: RealPlanner::new(),
             work: TransformBuffers::default(),
             inputs: Vec::new(),
             outputs: Vec::new(),

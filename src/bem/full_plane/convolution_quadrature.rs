@@ -16,7 +16,7 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
+use basemat_fourier::RealPlanner;
 
 use crate::error::{Error, Result, positive, require, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
@@ -162,7 +162,7 @@ impl ConvolutionQuadrature {
                 }
             }
         }
-        let inverse = RealFftPlanner::new().plan_fft_inverse(lags);
+        let inverse = RealPlanner::new().plan_fft_inverse(lags);
         let mut series = inverse.make_output_vec();
         let mut scratch = inverse.make_scratch_vec();
         let mut early = vec![[0.0; 8]; count * lags];

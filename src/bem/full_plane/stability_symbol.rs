@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::f64::consts::TAU;
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex64;
+use basemat_fourier::RealPlanner;
+use basemat_fourier::num_complex::Complex64;
 
 use crate::error::{Error, Result, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
@@ -265,7 +265,7 @@ impl<'a> BoundarySymbol<'a> {
     pub(super) fn operators_on(&self, radius: f64, points: usize) -> Vec<Vec<Complex64>> {
         let order = self.order();
         let count = self.classes.len();
-        let forward = RealFftPlanner::new().plan_fft_forward(points);
+        let forward = RealPlanner::new().plan_fft_forward(points);
         let mut series = forward.make_input_vec();
         let mut spectrum = forward.make_output_vec();
         let mut scratch = forward.make_scratch_vec();

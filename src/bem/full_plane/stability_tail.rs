@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 /// Number of powers p = 1, 2, … of N/n.
 pub(super) const TAIL_POWERS: usize = 10;

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::stability_symbol::BoundarySymbol;
 use crate::error::{Error, Result};
 use crate::linalg::DenseFactor;
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 /// Initial number of points on the whole circle.
 const CIRCLE_POINT_COUNT: usize = 1024;

@@ -20,7 +20,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use realfft::RealFftPlanner;
+use basemat_fourier::RealPlanner;
 
 use super::contour::{
     CHEBYSHEV_POINTS, Circle, CirclePanel, PanelPolynomials, Panels, evaluate, panel_factor,
@@ -180,7 +180,7 @@ impl<I: Compliances<KINDS>, const KINDS: usize> Quadrature<I, KINDS> {
         let inverse_rest: Vec<_> = (0..circle.points())
             .map(|point| on_circle(logarithm, circle.angle(point)).rest.inverse())
             .collect();
-        let transform = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
+        let transform = RealPlanner::new().plan_fft_inverse(length);
         // r⁻ⁿ/L.
         let scales: Vec<_> =
             (first..first + lags).map(|n| (-logarithm * n as f64).exp() / length as f64).collect();

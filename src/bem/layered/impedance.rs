@@ -7,7 +7,7 @@
 //! except at the frequencies at which guided waves begin. It is therefore evaluated at iω + η, 2η, … 8η and
 //! extrapolated.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::passivity::assembled;
 use super::static_compliance;

@@ -1,6 +1,6 @@
 //! Passivity check: whether the convolution weights of a layered ground can create energy.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::coefficients::Quadrature;
 use super::threads::{on_threads, threads};

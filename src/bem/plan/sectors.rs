@@ -8,7 +8,7 @@
 //!
 //! A rectangle needs only a quarter of the cells, in four systems. With unions, p and q are elements.
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::cells::Plan;
 use crate::error::{Error, Result, memory};

@@ -12,8 +12,7 @@ use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{dot, largest};
 use crate::structure::{
-    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, forward_structure, mass_and_stiffness,
-    stiffest,
+    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.

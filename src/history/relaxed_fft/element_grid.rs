@@ -14,9 +14,9 @@
 
 use std::sync::Arc;
 
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
-use rustfft::{Fft, FftPlanner};
+use basemat_fourier::num_complex::Complex;
+use basemat_fourier::{ComplexPlanner, Fft};
+use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 
 use super::plan_spectra::{LAGS_PER_CHUNK, coefficients_in_plan};
 use super::wave_numbers::WaveNumbers;
@@ -130,11 +130,11 @@ impl ElementGrid {
         lengths: [usize; 2],
         rows: usize,
     ) -> Self {
-        let mut planner = RealFftPlanner::new();
+        let mut planner = RealPlanner::new();
         let length = lengths[0];
         let forward = planner.plan_fft_forward(length);
         let inverse = planner.plan_fft_inverse(length);
-        let mut planner = FftPlanner::new();
+        let mut planner = ComplexPlanner::new();
         let across = [planner.plan_fft_forward(lengths[1]), planner.plan_fft_inverse(lengths[1])];
         let scratch_along = forward.get_scratch_len().max(inverse.get_scratch_len());
         let scratch = across

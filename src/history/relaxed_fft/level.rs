@@ -8,8 +8,8 @@ use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
 use crate::history::pair_classes::{MAX_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
-use realfft::num_complex::Complex;
-use realfft::{ComplexToReal, RealFftPlanner, RealToComplex};
+use basemat_fourier::num_complex::Complex;
+use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
 
 /// Number of frequencies multiplied together, so that all inputs and outputs stay in cache.
 const FREQUENCIES_PER_TILE: usize = 64;
@@ -98,7 +98,7 @@ impl PairLevel {
         size: usize,
         classes: usize,
         kinds: usize,
-        planner: &mut RealFftPlanner<f64>,
+        planner: &mut RealPlanner,
     ) -> Self {
         Self {
             size,

@@ -250,9 +250,9 @@ impl ConvolutionHistory for RelaxedFftHistory {
         let lags = self.lags(steps)?;
         let spectra_units =
             lags.saturating_mul(kernel.classes().count()) / LAGS_PER_PROGRESS_UNIT + 1;
-        let mut progress = Progress { task: "convolution weights", done: 0, total: spectra_units };
-        let mut report_weights = |Progress { done, total, task }: Progress| {
-            progress = Progress { task, done, total: total + spectra_units };
+        let mut progress = Progress::new("convolution weights", 0, spectra_units);
+        let mut report_weights = |Progress { done, total, task, .. }: Progress| {
+            progress = Progress::new(task, done, total + spectra_units);
             observer(progress)
         };
         let weights = match self.neglected.filter(|_| self.last_lag.is_none()) {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use realfft::RealFftPlanner;
+use basemat_fourier::RealPlanner;
 
 use super::blocks::{HistoryBlocks, SPECTRA_PROGRESS_PARTS};
 use super::coefficients::{Coefficients, Scatter};
@@ -34,7 +34,7 @@ pub(super) struct PairBlocks {
     coefficients: Coefficients,
     /// Blocks of each size, from the smallest on.
     levels: Vec<Arc<PairLevel>>,
-    planner: RealFftPlanner<f64>,
+    planner: RealPlanner,
     scratch: TransformScratch,
     /// 2Q rows of `stride`: inputs before the present step, then the outputs computed so far.
     rows: Vec<f64>,
@@ -61,7 +61,7 @@ impl PairBlocks {
         Ok(Self {
             coefficients: Coefficients::new(kernel, max_direct)?,
             levels: Vec::new(),
-            planner: RealFftPlanner::new(),
+            planner: RealPlanner::new(),
             scratch: TransformScratch::default(),
             rows: Vec::new(),
             stride: 0,

@@ -8,9 +8,9 @@ use super::ring::Ring;
 use super::wave_numbers::WaveNumbers;
 use crate::error::Result;
 use crate::history::pair_classes::STRIP_KINDS;
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
-use rustfft::{Fft, FftPlanner};
+use basemat_fourier::RealPlanner;
+use basemat_fourier::num_complex::Complex;
+use basemat_fourier::{ComplexPlanner, Fft};
 
 /// Kind of the coefficient for each displacement (row) and traction (column): of two components, and of three.
 const COMPONENT_KINDS: [&[&[usize]]; 2] =
@@ -51,7 +51,7 @@ impl WaveLevel {
         size: usize,
         waves: WaveNumbers,
         kinds: impl Iterator<Item = bool>,
-        planner: &mut FftPlanner<f64>,
+        planner: &mut ComplexPlanner,
     ) -> Self {
         let length = waves.with_spectra * (size + 1);
         Self {
@@ -104,7 +104,7 @@ impl WaveLevel {
         kind: usize,
         wave: usize,
         time: &mut [f64],
-        planner: &mut RealFftPlanner<f64>,
+        planner: &mut RealPlanner,
         scratch: &mut Vec<Complex<f64>>,
     ) {
         let plan = planner.plan_fft_forward(2 * self.size);

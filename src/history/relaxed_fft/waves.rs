@@ -3,9 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex;
-use rustfft::FftPlanner;
+use basemat_fourier::ComplexPlanner;
+use basemat_fourier::RealPlanner;
+use basemat_fourier::num_complex::Complex;
 
 use super::blocks::{HistoryBlocks, SPECTRA_PROGRESS_PARTS};
 use super::element_grid::ElementGrid;
@@ -33,7 +33,7 @@ pub(super) struct WaveBlocks {
     reach: usize,
     leaf: Arc<LeafCoefficients>,
     levels: Vec<Arc<WaveLevel>>,
-    planner: FftPlanner<f64>,
+    planner: ComplexPlanner,
     /// B rows of `stride` for each component: inputs before the present leaf, then the outputs computed so far.
     rows: Vec<Complex<f64>>,
     stride: usize,
@@ -60,7 +60,7 @@ impl WaveBlocks {
             lattice,
             leaf: Arc::default(),
             levels: Vec::new(),
-            planner: FftPlanner::new(),
+            planner: ComplexPlanner::new(),
             rows: Vec::new(),
             stride: 0,
             ring: Ring::ALL_STEPS,
@@ -136,7 +136,7 @@ impl WaveBlocks {
             }
             Ok(())
         })?;
-        let mut planner = RealFftPlanner::new();
+        let mut planner = RealPlanner::new();
         let half = SPECTRA_PROGRESS_PARTS / 2;
         let mut time = vec![0.0; lags];
         let mut real = vec![0.0; lags];

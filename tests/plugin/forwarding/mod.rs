@@ -36,7 +36,10 @@ fn boxed_springs() {
     let log = Log::default();
     let part: Box<dyn Hysteresis> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("structure/hysteresis/mod.rs"), "Hysteresis"));
+    assert_eq!(
+        log.take(),
+        methods(source!("../crates/structures/src/structure/hysteresis/mod.rs"), "Hysteresis")
+    );
 }
 
 #[test]
@@ -185,7 +188,7 @@ fn boxed_elements() {
     let log = Log::default();
     let part: Box<dyn Element> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("fem/element.rs"), "Element"));
+    assert_eq!(log.take(), methods(source!("../crates/structures/src/fem/element.rs"), "Element"));
 }
 
 #[test]
@@ -212,7 +215,7 @@ fn boxed_formats() {
     let log = Log::default();
     let part: Box<dyn RecordFormat> = Box::new(Double::new(&log));
     ask(part);
-    assert_eq!(log.take(), methods(source!("motion/format.rs"), "RecordFormat"));
+    assert_eq!(log.take(), methods(source!("../crates/records/src/format.rs"), "RecordFormat"));
 }
 
 /// GOAL: parts chosen at run time make a simulation, the same one.

@@ -191,12 +191,15 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
 
 fn all() -> BTreeSet<String> {
     let mut all = linear();
-    all.extend(methods(source!("structure/nonlinear.rs"), "NonlinearForce"));
+    all.extend(methods(
+        source!("../crates/structures/src/structure/nonlinear.rs"),
+        "NonlinearForce",
+    ));
     all
 }
 
 fn linear() -> BTreeSet<String> {
-    methods(source!("structure/mod.rs"), "Structure")
+    methods(source!("../crates/structures/src/structure/mod.rs"), "Structure")
 }
 
 fn double(log: &Log) -> Double {

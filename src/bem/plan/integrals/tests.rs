@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use realfft::num_complex::Complex64;
+use basemat_fourier::num_complex::Complex64;
 
 use super::super::forms::{AngularMeans, integrals};
 use super::*;

@@ -1,0 +1,108 @@
+//! Limit of memory for sizes that the caller states as numbers, checked before allocation.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A size that needs more memory than is allowed; nothing was allocated.
+///
+/// The limit is [`memory_limit`](crate::memory_limit), for a convolution history
+/// `HistoryOptions::memory`.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "{quantity}: {asked} would take about {} of memory, but at most {} are allowed \
+     ({remedy})",
+    bytes_text(*.needed), bytes_text(*.limit)
+)]
+pub struct MemoryError {
+    /// Name of the quantity.
+    pub quantity: &'static str,
+    /// Number in the request.
+    pub asked: f64,
+    /// Estimated memory for this number, bytes.
+    pub needed: f64,
+    /// The limit, bytes.
+    pub limit: f64,
+    /// Remedies.
+    pub remedy: &'static str,
+}
+
+fn bytes_text(number: f64) -> String {
+    if number < 1e6 {
+        format!("{:.1} kB", number / 1e3)
+    } else if number < 1e9 {
+        format!("{:.1} MB", number / 1e6)
+    } else if number < 1e15 {
+        format!("{:.1} GB", number / 1e9)
+    } else {
+        format!("{:.0e} GB", number / 1e9)
+    }
+}
+
+/// The limit, bytes.
+static MEMORY_LIMIT: AtomicU64 = AtomicU64::new(4 << 30);
+
+/// Memory limit (bytes) for the size of one mesh, matrix, ground, record or sweep.
+///
+/// 4 GiB unless [`set_memory_limit`] was called.
+pub fn memory_limit() -> u64 {
+    MEMORY_LIMIT.load(Ordering::Relaxed)
+}
+
+/// Sets the memory limit (bytes) for the whole process.
+///
+/// Sizes stated as numbers (columns of a block, elements of a strip, degrees of freedom of a matrix, steps of a
+/// record, convolution weights of layered ground) are compared with it before anything is allocated; a
+/// [`MemoryError`] states the memory that they would take. The estimate is for each part alone, not a count of all
+/// memory of a program. Set the limit to the machine's memory, minus the memory of other programs.
+///
+/// ```
+/// use basemat::bem::Strip;
+/// use basemat::{Error, MemoryError};
+///
+/// let error = Strip::graded(-5.0..5.0, 10_000).unwrap_err();
+/// assert!(matches!(error, Error::Memory(MemoryError { asked: 10_000.0, .. })));
+/// basemat::set_memory_limit(64 << 30);
+/// assert_eq!(Strip::graded(-5.0..5.0, 10_000)?.elements().len(), 10_000);
+/// # Ok::<(), Error>(())
+/// ```
+pub fn set_memory_limit(bytes: u64) {
+    MEMORY_LIMIT.store(bytes, Ordering::Relaxed);
+}
+
+/// Error if the `needed` bytes for `asked` of `quantity` exceed the limit, or are NaN.
+pub fn check(
+    quantity: &'static str,
+    asked: f64,
+    needed: f64,
+) -> std::result::Result<(), MemoryError> {
+    let limit = memory_limit() as f64;
+    let remedy = "`set_memory_limit` allows more";
+    if needed <= limit {
+        Ok(())
+    } else {
+        Err(MemoryError { quantity, asked, needed, limit, remedy })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(needed: f64) -> String {
+        let limit = 2.0_f64.powi(32);
+        MemoryError { quantity: "rows", asked: 1e5, needed, limit, remedy: "less" }.to_string()
+    }
+
+    #[test]
+    fn sizes_are_told_in_their_units() {
+        assert_eq!(
+            message(4.84e9),
+            "rows: 100000 would take about 4.8 GB of memory, but at most 4.3 GB are allowed \
+             (less)"
+        );
+        assert!(
+            message(2e6).contains("about 2.0 MB of") && message(2e30).contains("about 2e21 GB of")
+        );
+        assert!(message(2e4).contains("about 20.0 kB of"));
+        assert!(message(f64::INFINITY).contains("about inf GB of"));
+    }
+}

@@ -1,0 +1,244 @@
+//! Contact element: its place, its directions and its area.
+
+use std::ops::Range;
+
+use super::middle;
+use crate::error::{Result, finite, positive, require};
+
+/// Directions of an element on the flat surface: down, to the right, away from the reader.
+const SURFACE_DIRECTIONS: [[f64; 3]; 3] = [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+/// Ends along y of an element in the plane, m: a metre of depth.
+const UNIT_DEPTH_ENDS: [f64; 2] = [-0.5, 0.5];
+
+/// Contact element between base and soil: a flat rectangle.
+///
+/// Coordinates: x to the right, y away from the reader, z up, m. Tractions and displacements of an element have one
+/// component along each of its [`directions`](ContactElement::directions): the normal into the soil, and the tangents.
+/// An element in the plane has one tangent and is one metre deep.
+///
+/// ```
+/// use basemat::bem::ContactElement;
+/// let strip = ContactElement::new(-1.0, 2.0);
+/// assert_eq!((strip.length(), strip.center()[0]), (3.0, 0.5));
+/// let cell = ContactElement::in_plan([-1.0, 2.0], [0.0, 4.0]);
+/// assert_eq!((cell.area(), cell.directions().len()), (12.0, 3));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct ContactElement {
+    /// Corner from which all tangents lead inwards, and the opposite corner, m.
+    corners: [[f64; 3]; 2],
+    /// Unit vectors: the normal into the soil, and both sides of the rectangle.
+    directions: [[f64; 3]; 3],
+    /// Whether the element moves along both sides; in the plane along the first.
+    in_plan: bool,
+    /// Fraction of the area inside the outline of the base.
+    inside: f64,
+}
+
+impl ContactElement {
+    /// Element in the plane: the interval from `left` to `right` of the surface, m.
+    pub const fn new(left: f64, right: f64) -> Self {
+        Self { in_plan: false, ..Self::in_plan([left, right], UNIT_DEPTH_ENDS) }
+    }
+
+    /// Element in plan: a rectangle of the surface by its ends along x and along y, m.
+    pub const fn in_plan([left, right]: [f64; 2], [front, back]: [f64; 2]) -> Self {
+        let corners = [[left, front, 0.0], [right, back, 0.0]];
+        Self { corners, directions: SURFACE_DIRECTIONS, in_plan: true, inside: 1.0 }
+    }
+
+    /// Sets the fraction of the area that is inside the outline of the base, above 0 and at most 1.
+    ///
+    /// Pressures, shear tractions and strengths of a simulation refer to the area inside. Tractions of a ground are
+    /// means over the whole element.
+    #[must_use]
+    pub const fn with_fraction_inside(self, inside: f64) -> Self {
+        Self { inside, ..self }
+    }
+
+    /// Left end, m.
+    pub const fn left(&self) -> f64 {
+        self.corners[0][0]
+    }
+
+    /// Right end, m.
+    pub const fn right(&self) -> f64 {
+        self.corners[1][0]
+    }
+
+    /// Front and back end along y, m; −½ and ½ in the plane.
+    pub const fn depth(&self) -> [f64; 2] {
+        [self.corners[0][1], self.corners[1][1]]
+    }
+
+    /// Lower and upper end along z, m; equal unless the element is of a wall.
+    pub const fn heights(&self) -> [f64; 2] {
+        let first = self.corners[0][2];
+        let last = self.corners[1][2];
+        // A zero without sign.
+        [first.min(last) + 0.0, first.max(last) + 0.0]
+    }
+
+    /// Ends along x and along y, m.
+    #[doc(hidden)]
+    pub const fn ends(&self) -> [[f64; 2]; 2] {
+        [[self.left(), self.right()], self.depth()]
+    }
+
+    /// Length along the first tangent, m.
+    pub fn length(&self) -> f64 {
+        self.sides()[0]
+    }
+
+    /// Places of both ends along the first tangent, m.
+    #[doc(hidden)]
+    pub fn span(&self) -> [f64; 2] {
+        self.corners.map(|corner| self.components(corner)[1])
+    }
+
+    /// Sides along the tangents, m; the second is one metre in the plane.
+    pub fn sides(&self) -> [f64; 2] {
+        let diagonal = [0, 1, 2].map(|k| self.corners[1][k] - self.corners[0][k]);
+        let components = self.components(diagonal);
+        [components[1], components[2]]
+    }
+
+    /// Centre `[x, y, z]`, m.
+    pub fn center(&self) -> [f64; 3] {
+        [0, 1, 2].map(|k| middle([self.corners[0][k], self.corners[1][k]]))
+    }
+
+    /// Unit vectors along which the element moves: the normal into the soil, and the tangents.
+    ///
+    /// One tangent in the plane, two in plan.
+    pub fn directions(&self) -> &[[f64; 3]] {
+        &self.directions[..2 + usize::from(self.in_plan)]
+    }
+
+    /// Whether the soil is below the element, not beside it.
+    #[doc(hidden)]
+    pub fn faces_down(&self) -> bool {
+        self.directions[0][2] < -0.5
+    }
+
+    /// Whether some of the elements are of walls.
+    #[doc(hidden)]
+    pub fn any_wall<'a>(elements: impl IntoIterator<Item = &'a Self>) -> bool {
+        elements.into_iter().any(|element| !element.faces_down())
+    }
+
+    /// Elements of the left wall, those that face down, and elements of the right wall, of a list along an outline.
+    #[doc(hidden)]
+    pub fn faces(elements: &[Self]) -> [Range<usize>; 3] {
+        let count = elements.len();
+        let first = elements.iter().position(Self::faces_down).unwrap_or(count);
+        let end = elements.iter().rposition(Self::faces_down).map_or(count, |last| last + 1);
+        [0..first, first..end, end..count]
+    }
+
+    /// Components of a vector `[x, y, z]` along the normal and both sides.
+    #[doc(hidden)]
+    pub fn components(&self, vector: [f64; 3]) -> [f64; 3] {
+        if self.faces_down() {
+            let [x, y, up] = vector;
+            return [0.0 - up, 0.0 + x, 0.0 + y];
+        }
+        self.directions.map(|unit| unit[0] * vector[0] + unit[1] * vector[1] + unit[2] * vector[2])
+    }
+
+    /// The vector `[x, y, z]` with these components along the normal and both sides.
+    #[doc(hidden)]
+    pub fn vector(&self, components: [f64; 3]) -> [f64; 3] {
+        if self.faces_down() {
+            let [normal, along, across] = components;
+            return [0.0 + along, 0.0 + across, 0.0 - normal];
+        }
+        let unit = self.directions;
+        [0, 1, 2].map(|k| {
+            unit[0][k] * components[0] + unit[1][k] * components[1] + unit[2][k] * components[2]
+        })
+    }
+
+    /// Fraction of the area that is inside the outline of the base.
+    pub const fn fraction_inside(&self) -> f64 {
+        self.inside
+    }
+
+    /// Area inside the outline of the base, m²; in the plane the length, m.
+    pub fn area(&self) -> f64 {
+        let sides = self.sides();
+        sides[0] * sides[1] * self.inside
+    }
+
+    /// Corners in order, m; in the plane both ends.
+    #[doc(hidden)]
+    pub fn outline(&self) -> impl Iterator<Item = [f64; 3]> {
+        // A coordinate changes along the first side, or else along the second.
+        let side = [0, 1, 2].map(|k| usize::from(self.directions[1][k] == 0.0));
+        let ends = [[0, 0], [1, 0], [1, 1], [0, 1]];
+        let corners = ends.map(|ends| [0, 1, 2].map(|k| self.corners[ends[side[k]]][k]));
+        corners.into_iter().take(2 * (self.directions().len() - 1))
+    }
+
+    /// Halves of the element; in plan its quarters: left front, right front, left back, right back.
+    #[doc(hidden)]
+    pub fn parts(&self) -> impl Iterator<Item = Self> {
+        let side_count = self.directions().len() - 1;
+        (0..1 << side_count).map(move |part: usize| {
+            (0..side_count).fold(*self, |element, side| element.half(1 + side, part >> side & 1))
+        })
+    }
+
+    /// First (0) or second (1) half along a direction.
+    fn half(mut self, direction: usize, half: usize) -> Self {
+        let center = self.center();
+        for k in (0..3).filter(|k| self.directions[direction][*k] != 0.0) {
+            self.corners[1 - half][k] = center[k];
+        }
+        self
+    }
+
+    /// Error unless ends are finite, the sides positive, and the fraction inside above 0 and at most 1.
+    pub(super) fn check(&self) -> Result<()> {
+        let ends = self.ends();
+        finite("left end of a contact element", ends[0][0])?;
+        finite("right end of a contact element", ends[0][1])?;
+        finite("front end of a contact element", ends[1][0])?;
+        finite("back end of a contact element", ends[1][1])?;
+        positive("length of a contact element", self.length())?;
+        positive("depth of a contact element", self.sides()[1])?;
+        let quantity = "fraction of an element inside the outline";
+        let fits = self.inside > 0.0 && self.inside <= 1.0;
+        require(quantity, self.inside, fits, "above 0 and at most 1").map(drop)
+    }
+
+    /// Fraction of an element's side by which neighbours may overlap, for the rounding of a common node.
+    pub(super) const MAX_OVERLAP_FRACTION: f64 = 1e-9;
+
+    /// Whether the ends of two elements along `axis` (x 0, y 1) overlap by more than rounding.
+    pub(super) fn overlaps(&self, other: &Self, axis: usize) -> bool {
+        let ends = self.ends()[axis];
+        let other_ends = other.ends()[axis];
+        let overlap = ends[1].min(other_ends[1]) - ends[0].max(other_ends[0]);
+        overlap > Self::MAX_OVERLAP_FRACTION * self.sides()[axis].min(other.sides()[axis])
+    }
+}
+
+impl ContactElement {
+    /// Element of a wall in the plane between two points `[x, z]`, m.
+    ///
+    /// The soil is on the right of the way from `start` to `end`.
+    #[doc(hidden)]
+    pub fn wall(start: [f64; 2], end: [f64; 2]) -> Self {
+        let step = [end[0] - start[0], end[1] - start[1]];
+        let length = step[0].hypot(step[1]);
+        let x = step[0] / length;
+        let z = step[1] / length;
+        let corners =
+            [[start[0], UNIT_DEPTH_ENDS[0], start[1]], [end[0], UNIT_DEPTH_ENDS[1], end[1]]];
+        let directions = [[z, 0.0, -x], [x, 0.0, z], [0.0, 1.0, 0.0]];
+        Self { corners, directions, in_plan: false, inside: 1.0 }
+    }
+}

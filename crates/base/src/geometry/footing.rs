@@ -1,0 +1,124 @@
+//! Shape of a foundation: outward edges of its outline, and lever arms about its centre.
+
+use std::ops::Range;
+
+use super::{Patch, far_ends, middle, span};
+
+/// Ratio of the two components of an edge's normal from which they count as equal.
+const EQUAL_COMPONENT_RATIO: f64 = 1.0 - 1e-9;
+
+/// Edge of a polygon whose corners go counter-clockwise.
+#[derive(Debug)]
+pub struct Edge {
+    /// Corner at which the edge begins.
+    start: [f64; 2],
+    /// Outward normal, as long as the edge.
+    pub normal: [f64; 2],
+}
+
+impl Edge {
+    /// Edges of the polygon with these corners; the last edge ends at the first corner.
+    pub fn all(corners: &[[f64; 2]]) -> impl Iterator<Item = Self> {
+        let pairs = corners.iter().zip(corners.iter().cycle().skip(1));
+        pairs.map(|(&a, b)| Self { start: a, normal: [b[1] - a[1], a[0] - b[0]] })
+    }
+
+    /// Edges of a base: of its outline, or without one its two ends along x.
+    pub fn of_base(outline: &[[f64; 2]], [left, right]: [f64; 2]) -> Vec<Self> {
+        if outline.is_empty() {
+            return vec![
+                Self { start: [left, 0.0], normal: [-1.0, 0.0] },
+                Self { start: [right, 0.0], normal: [1.0, 0.0] },
+            ];
+        }
+        Self::all(outline).collect()
+    }
+
+    /// Component of a vector along the normal, times the length of the edge.
+    pub fn outward(&self, vector: [f64; 2]) -> f64 {
+        self.normal[0] * vector[0] + self.normal[1] * vector[1]
+    }
+
+    /// Distance of the edge from a point inside the polygon, times the length of the edge.
+    pub fn reach(&self, point: [f64; 2]) -> f64 {
+        self.outward([0, 1].map(|axis| self.start[axis] - point[axis]))
+    }
+
+    /// Whether the normal has its larger component, or two equal ones, along `axis`.
+    fn faces_along(&self, axis: usize) -> bool {
+        self.normal[axis].abs() >= EQUAL_COMPONENT_RATIO * self.normal[1 - axis].abs()
+    }
+}
+
+/// Lever arms of a foundation about its centre: the middle of its elements, in plan of its outline.
+#[derive(Debug)]
+pub struct Footing {
+    /// Left and right end, front and back end, m; no depth in the plane.
+    pub ends: [[f64; 2]; 2],
+    /// Centre of the foundation relative to the point of the base moment, m.
+    pub center: [f64; 2],
+    /// Middle of each element relative to the foundation's centre, m.
+    pub arms: Vec<[f64; 3]>,
+    /// Sign of base moment and rotation relative to the right-hand rule about y.
+    ///
+    /// −1 in the plane, where they count counter-clockwise; 1 in plan.
+    pub turn: f64,
+    /// Edges that face along x, and along y, each with its [reach](Edge::reach) from the centre.
+    pub edges: [Vec<(Edge, f64)>; 2],
+}
+
+impl Footing {
+    /// Footing of these elements.
+    ///
+    /// `outline`: corners of the convex outline, counter-clockwise; empty in the plane. `origin`: point of
+    /// the base moment.
+    pub fn new(
+        patch: &Patch,
+        elements: Range<usize>,
+        outline: &[[f64; 2]],
+        origin: [f64; 2],
+    ) -> Self {
+        let ends = if outline.is_empty() {
+            let intervals = patch[elements.clone()].iter().map(|element| element.ends()[0]);
+            [far_ends(intervals), [0.0; 2]]
+        } else {
+            [0, 1].map(|axis| span(outline.iter().map(|corner| corner[axis])))
+        };
+        let center = ends.map(middle);
+        let mut edges = [vec![], vec![]];
+        for (axis, list) in edges.iter_mut().enumerate() {
+            for edge in Edge::of_base(outline, ends[0]) {
+                if edge.faces_along(axis) {
+                    let reach = edge.reach(center);
+                    list.push((edge, reach));
+                }
+            }
+        }
+        let bottom = patch[patch.floor().start].center()[2];
+        let mut arms = Vec::with_capacity(elements.len());
+        for element in &patch[elements] {
+            let position = element.center();
+            arms.push([position[0] - center[0], position[1] - center[1], position[2] - bottom]);
+        }
+        let turn = patch.layout().turn();
+        let center = [0, 1].map(|axis| center[axis] - origin[axis]);
+        Self { ends, center, arms, turn, edges }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A triangle with sides of 3, 4 and 5, whose inscribed circle has the radius 1 about (1, 1).
+    #[test]
+    fn edges_by_hand() {
+        let edges: Vec<Edge> = Edge::all(&[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]).collect();
+        let normals: Vec<_> = edges.iter().map(|edge| edge.normal).collect();
+        assert_eq!(normals, [[0.0, -4.0], [3.0, 4.0], [-3.0, 0.0]]);
+        let reaches: Vec<_> = edges.iter().map(|edge| edge.reach([1.0; 2])).collect();
+        assert_eq!(reaches, [4.0, 5.0, 3.0]);
+        let outward: Vec<_> = edges.iter().map(|edge| edge.outward([2.0, 1.0])).collect();
+        assert_eq!(outward, [-4.0, 10.0, -6.0]);
+    }
+}

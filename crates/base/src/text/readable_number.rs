@@ -1,0 +1,42 @@
+//! Numbers as engineers read them.
+
+/// Factor from an SI unit to the printed unit, and the printed unit; other units are unchanged.
+pub fn printed(unit: &str) -> (f64, &str) {
+    match unit {
+        "m" => (1e3, "mm"),
+        "rad" => (1e3, "mrad"),
+        "N/m" => (1e-3, "kN/m"),
+        "N·m/m" => (1e-3, "kN·m/m"),
+        other => (1.0, other),
+    }
+}
+
+/// Converts a unit per metre of thickness to the unit of the whole body in plan.
+pub fn of_body(unit: &str, in_plan: bool) -> &str {
+    unit.strip_suffix("/m").filter(|_| in_plan).unwrap_or(unit)
+}
+
+/// Limit, in printed units, below which a number counts as rounding.
+const ROUNDING_LIMIT: f64 = 1e-9;
+
+/// Prints five figures, with an exponent only for very small or large numbers, and no negative zero.
+pub fn number(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude < ROUNDING_LIMIT {
+        "0".to_owned()
+    } else if !(1e-3..1e6).contains(&magnitude) {
+        format!("{value:.3e}")
+    } else if magnitude >= 1e3 {
+        format!("{value:.1}")
+    } else if magnitude >= 1.0 {
+        format!("{value:.3}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
+/// A number with three decimals; no negative zero.
+pub fn thousandths(value: f64) -> String {
+    // A value that rounds to zero is written as zero.
+    format!("{:.3}", if value.abs() < 0.5e-3 { 0.0 } else { value })
+}

@@ -1,0 +1,201 @@
+//! Complex numbers: Laplace variables, moduli and the closed forms.
+
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub};
+
+use basemat_fourier::num_complex::Complex64;
+
+/// A complex number: a Laplace variable s, 1/s, or a modulus at it.
+///
+/// ```
+/// use basemat::Complex;
+/// let s = Complex::new(3.0, 4.0);
+/// assert_eq!(s.abs(), 5.0);
+/// assert_eq!(s.sqrt(), Complex::new(2.0, 1.0));
+/// assert_eq!(Complex::new(0.0, 2.0).inverse(), Complex::new(0.0, -0.5));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Complex {
+    /// Real part.
+    pub re: f64,
+    /// Imaginary part.
+    pub im: f64,
+}
+
+impl Complex {
+    /// `re` + i `im`.
+    pub const fn new(re: f64, im: f64) -> Self {
+        Self { re, im }
+    }
+
+    /// A real number.
+    pub const fn real(re: f64) -> Self {
+        Self { re, im: 0.0 }
+    }
+
+    /// `modulus` e^(i `angle`).
+    #[doc(hidden)]
+    pub fn polar(modulus: f64, angle: f64) -> Self {
+        Self::new(modulus * angle.cos(), modulus * angle.sin())
+    }
+
+    /// Absolute value.
+    pub fn abs(self) -> f64 {
+        let square = self.square();
+        // If the square leaves the range of f64, `hypot` is used, which is slower.
+        if square.is_normal() { square.sqrt() } else { self.re.hypot(self.im) }
+    }
+
+    /// |x|².
+    #[doc(hidden)]
+    pub fn square(self) -> f64 {
+        self.re * self.re + self.im * self.im
+    }
+
+    /// Complex conjugate.
+    #[must_use]
+    #[doc(hidden)]
+    pub const fn conj(self) -> Self {
+        Self::new(self.re, -self.im)
+    }
+
+    /// Product with a real number.
+    #[must_use]
+    #[doc(hidden)]
+    pub fn scale(self, factor: f64) -> Self {
+        Self::new(self.re * factor, self.im * factor)
+    }
+
+    /// 1/x.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        let square = self.square();
+        if square.is_normal() {
+            return self.conj().scale(1.0 / square);
+        }
+        let size = self.re.abs().max(self.im.abs());
+        let unit = self.scale(1.0 / size);
+        unit.conj().scale(1.0 / unit.square()).scale(1.0 / size)
+    }
+
+    /// Square root with a real part not below zero.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let size = self.abs();
+        if size == 0.0 {
+            return Self::default();
+        }
+        let large = (0.5 * (size + self.re.abs())).sqrt();
+        let small = 0.5 * self.im / large;
+        if self.re >= 0.0 {
+            Self::new(large, small)
+        } else {
+            Self::new(small.abs(), large.copysign(self.im))
+        }
+    }
+
+    /// e^x.
+    #[must_use]
+    pub fn exp(self) -> Self {
+        let size = self.re.exp();
+        if size == 0.0 {
+            return Self::default();
+        }
+        Self::polar(size, self.im)
+    }
+
+    /// Principal logarithm.
+    #[must_use]
+    pub fn ln(self) -> Self {
+        Self::new(self.abs().ln(), self.im.atan2(self.re))
+    }
+
+    /// Principal power with a real exponent.
+    #[must_use]
+    pub fn powf(self, exponent: f64) -> Self {
+        Self::polar(self.abs().powf(exponent), exponent * self.im.atan2(self.re))
+    }
+
+    /// Principal artanh; on the real axis beyond ±1, its real part.
+    #[doc(hidden)]
+    pub fn atanh(self) -> Self {
+        // |1 ± x|²; the lower limit 1e-30 replaces zero at the poles.
+        let plus = ((1.0 + self.re).powi(2) + self.im * self.im).max(1e-30);
+        let minus = ((1.0 - self.re).powi(2) + self.im * self.im).max(1e-30);
+        let re = if self.re.abs() < 0.5 * plus.min(minus) {
+            0.25 * (4.0 * self.re / minus).ln_1p()
+        } else {
+            0.25 * (plus / minus).ln()
+        };
+        if self.im == 0.0 {
+            return Self::real(re);
+        }
+        let square = self.re * self.re + self.im * self.im;
+        Self::new(re, 0.5 * (2.0 * self.im).atan2(1.0 - square))
+    }
+
+    /// This number in the type that transforms and matrices use.
+    #[doc(hidden)]
+    pub fn inner(self) -> Complex64 {
+        Complex64::new(self.re, self.im)
+    }
+
+    /// Whether both parts are finite.
+    #[doc(hidden)]
+    pub fn is_finite(self) -> bool {
+        self.re.is_finite() && self.im.is_finite()
+    }
+}
+
+impl Add for Complex {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self::new(self.re + other.re, self.im + other.im)
+    }
+}
+
+impl AddAssign for Complex {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Sub for Complex {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.re - other.re, self.im - other.im)
+    }
+}
+
+impl Mul for Complex {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self::new(self.re * other.re - self.im * other.im, self.re * other.im + self.im * other.re)
+    }
+}
+
+impl Mul<f64> for Complex {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        self.scale(factor)
+    }
+}
+
+impl Div for Complex {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let square = other.square();
+        if square.is_normal() {
+            return (self * other.conj()).scale(1.0 / square);
+        }
+        self * other.inverse()
+    }
+}
+
+impl Neg for Complex {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self::new(-self.re, -self.im)
+    }
+}

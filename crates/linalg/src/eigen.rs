@@ -1,0 +1,93 @@
+//! Eigenvalues of symmetric dense matrices.
+
+use crate::SparseMatrix;
+use faer::diag::Diag;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltError;
+use faer::linalg::evd::{
+    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
+};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Mat, MatRef, Par, Side, Spec};
+
+/// Row at which a symmetric row-major matrix fails to be positive definite; `None` if it is.
+pub fn indefinite_pivot(matrix: &[f64], order: usize) -> Option<usize> {
+    let matrix = MatRef::from_row_major_slice(matrix, order, order);
+    match matrix.llt(Side::Lower) {
+        Ok(_) => None,
+        Err(LltError::NonPositivePivot { index }) => Some(index),
+    }
+}
+
+/// Eigenvalues λ, ascending, and eigenvectors of K φ = λ M φ with Φᵀ M Φ = 1.
+///
+/// K is symmetric, M symmetric positive definite. Eigenvectors are columns of the row-major matrix returned.
+/// `None` if M is not positive definite or the iteration fails.
+///
+/// With M = L Lᵀ these are the eigenvalues of L⁻¹ K L⁻ᵀ, and Φ = L⁻ᵀ times its eigenvectors.
+pub fn generalised_modes(
+    stiffness: &SparseMatrix,
+    mass: &SparseMatrix,
+) -> Option<(Vec<f64>, Vec<f64>)> {
+    let factor = dense(mass).llt(Side::Lower).ok()?;
+    let mut reduced = dense(stiffness);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut(), Par::Seq);
+    solve_lower_triangular_in_place(factor.L(), reduced.as_mut().transpose_mut(), Par::Seq);
+    let (values, mut vectors) = symmetric_eigen(&reduced)?;
+    solve_upper_triangular_in_place(factor.L().transpose(), vectors.as_mut(), Par::Seq);
+    let vectors = by_rows(&vectors);
+    let finite = values.iter().chain(&vectors).all(|x| x.is_finite());
+    finite.then_some((values, vectors))
+}
+
+/// Eigenvalues, ascending, and eigenvectors of a symmetric row-major matrix.
+///
+/// Eigenvectors are columns of the row-major matrix returned. `None` if the iteration fails.
+pub fn symmetric_modes(matrix: &[f64], order: usize) -> Option<(Vec<f64>, Vec<f64>)> {
+    let matrix = MatRef::from_row_major_slice(matrix, order, order).to_owned();
+    let (values, vectors) = symmetric_eigen(&matrix)?;
+    Some((values, by_rows(&vectors)))
+}
+
+fn dense(matrix: &SparseMatrix) -> Mat<f64> {
+    let mut dense = Mat::<f64>::zeros(matrix.order(), matrix.order());
+    for (row, column, value) in matrix.entries() {
+        dense[(row, column)] = value;
+    }
+    dense
+}
+
+/// The values of a matrix, row-major.
+fn by_rows(matrix: &Mat<f64>) -> Vec<f64> {
+    let n = matrix.ncols();
+    (0..matrix.nrows()).flat_map(|i| (0..n).map(move |j| matrix[(i, j)])).collect()
+}
+
+fn symmetric_eigen(matrix: &Mat<f64>) -> Option<(Vec<f64>, Mat<f64>)> {
+    let n = matrix.nrows();
+    // faer does not accept an empty matrix.
+    if n == 0 {
+        return Some((Vec::new(), Mat::zeros(0, 0)));
+    }
+    let mut values = Diag::<f64>::zeros(n);
+    let mut vectors = Mat::<f64>::zeros(n, n);
+    // From order 128 on, faer uses divide and conquer by default. It left residuals of 6e-7 of the largest
+    // force (order 308, the containment of the examples); the QR iteration leaves residuals at rounding
+    // level.
+    let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+    parameters.recursion_threshold = usize::MAX;
+    let scratch =
+        self_adjoint_evd_scratch::<f64>(n, ComputeEigenvectors::Yes, Par::Seq, parameters);
+    self_adjoint_evd(
+        matrix.as_ref(),
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        parameters,
+    )
+    .ok()?;
+    Some(((0..n).map(|j| values.column_vector()[j]).collect(), vectors))
+}

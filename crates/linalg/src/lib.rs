@@ -1,0 +1,73 @@
+//! Linear algebra: the only crate that names faer.
+//!
+//! Everything runs sequentially. A factor allocates the workspace of its solves when it is made.
+#![forbid(unsafe_code)]
+#![allow(
+    missing_docs,
+    missing_debug_implementations,
+    clippy::len_without_is_empty,
+    clippy::missing_errors_doc,
+    clippy::missing_panics_doc,
+    clippy::return_self_not_must_use,
+    clippy::should_implement_trait,
+    reason = "helpers of basemat, which documents its public items"
+)]
+
+#[macro_use]
+extern crate basemat_base;
+
+mod block;
+mod complex;
+mod condition;
+mod dense;
+mod dissection;
+mod eigen;
+mod elimination;
+pub mod gauss;
+mod hermitian;
+mod lanes;
+mod lattice_product;
+mod lowest_modes;
+mod many_vectors;
+pub mod matrix;
+#[cfg(feature = "io")]
+mod matrix_market;
+#[cfg(feature = "io")]
+mod matrix_market_reader;
+mod matrix_scalar;
+mod number;
+pub mod orthonormal;
+mod partition;
+mod pivoted_cholesky;
+mod product;
+mod sparse;
+mod symmetry;
+mod thinned;
+mod triplets;
+
+pub use block::ComplexBlock;
+pub use complex::Complex;
+pub use condition::{condition_by_products, dense_condition, scale_by, sparse_condition};
+pub use dense::DenseFactor;
+pub use eigen::{generalised_modes, indefinite_pivot, symmetric_modes};
+pub use elimination::Elimination;
+pub use hermitian::hermitian_range;
+pub use lanes::Lanes;
+pub use lattice_product::{LatticeProduct, LatticeScratch, next_smooth_even};
+pub use lowest_modes::lowest_modes;
+pub use matrix::SparseMatrix;
+pub use matrix_scalar::MatrixScalar;
+pub use number::ComplexArithmetic;
+pub use partition::Partition;
+pub use pivoted_cholesky::pivoted_cholesky;
+pub use product::{
+    Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
+    dense_multiply_add, dot, largest, magnitude, mixed, mixing_weight, row_products,
+    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
+};
+pub use sparse::{SparseFactor, indefinite_row};
+pub use thinned::CompressedMatrix;
+pub use triplets::Triplets;
+
+use basemat_base::error;
+pub use basemat_base::{Error, Result};

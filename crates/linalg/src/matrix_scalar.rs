@@ -1,0 +1,180 @@
+//! Numbers of dense matrices, and the algorithms that are compiled for them.
+//!
+//! The matrix library is generic: a crate that calls it for a type compiles it for that type. The methods of this trait
+//! are not generic, so users of this crate do not.
+
+use basemat_fourier::num_complex::Complex64;
+use faer::diag::DiagMut;
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
+use faer::linalg::evd;
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
+use faer::traits::ComplexField;
+use faer::traits::math_utils::{add, conj, is_finite, mul_real, real};
+use faer::{Conj, MatMut, MatRef, Par, Spec};
+
+/// LU factors of a dense matrix, column by column, and its permutation of rows.
+pub struct LuFactors<'a, T> {
+    order: usize,
+    values: &'a [T],
+    forward: &'a [usize],
+    inverse: &'a [usize],
+}
+
+impl<'a, T> LuFactors<'a, T> {
+    pub(super) fn new(
+        order: usize,
+        values: &'a [T],
+        forward: &'a [usize],
+        inverse: &'a [usize],
+    ) -> Self {
+        Self { order, values, forward, inverse }
+    }
+}
+
+/// Real (`f64`) and complex (`Complex64`) numbers.
+pub trait MatrixScalar: ComplexField<Real = f64> + Copy {
+    /// Memory to factor matrices up to this order and to solve for up to this number of columns.
+    fn lu_scratch(order: usize, columns: usize) -> StackReq;
+
+    /// Factors the matrix in place; returns the number of row exchanges.
+    fn lu_factor(
+        matrix: &mut [Self],
+        forward: &mut [usize],
+        inverse: &mut [usize],
+        buffer: &mut MemBuffer,
+    ) -> usize;
+
+    /// Overwrites `right_side` with A⁻¹ times it.
+    fn lu_solve(factors: LuFactors<Self>, right_side: MatMut<'_, Self>, buffer: &mut MemBuffer);
+
+    /// Overwrites the one column of `right_side` with A⁻ᵀ times it.
+    fn lu_solve_transposed(factors: LuFactors<Self>, right_side: MatMut<'_, Self>);
+
+    /// Smallest and largest eigenvalue of the Hermitian part of a row-major matrix.
+    fn hermitian_range(matrix: &[Self], order: usize) -> Option<[f64; 2]>;
+}
+
+macro_rules! matrix_scalar {
+    ($type:ty) => {
+        impl MatrixScalar for $type {
+            fn lu_scratch(order: usize, columns: usize) -> StackReq {
+                lu_scratch::<Self>(order, columns)
+            }
+
+            fn lu_factor(
+                matrix: &mut [Self],
+                forward: &mut [usize],
+                inverse: &mut [usize],
+                buffer: &mut MemBuffer,
+            ) -> usize {
+                lu_factor(matrix, forward, inverse, buffer)
+            }
+
+            fn lu_solve(
+                factors: LuFactors<Self>,
+                right_side: MatMut<'_, Self>,
+                buffer: &mut MemBuffer,
+            ) {
+                lu_solve(&factors, right_side, buffer);
+            }
+
+            fn lu_solve_transposed(factors: LuFactors<Self>, right_side: MatMut<'_, Self>) {
+                lu_solve_transposed(&factors, right_side);
+            }
+
+            fn hermitian_range(matrix: &[Self], order: usize) -> Option<[f64; 2]> {
+                hermitian_range(matrix, order)
+            }
+        }
+    };
+}
+
+matrix_scalar! { f64 }
+matrix_scalar! { Complex64 }
+
+fn lu_scratch<T: ComplexField>(order: usize, columns: usize) -> StackReq {
+    let factor = factor::lu_in_place_scratch::<usize, T>(order, order, Par::Seq, Spec::default());
+    factor.or(solve::solve_in_place_scratch::<usize, T>(order, columns, Par::Seq))
+}
+
+fn lu_factor<T: ComplexField>(
+    matrix: &mut [T],
+    forward: &mut [usize],
+    inverse: &mut [usize],
+    buffer: &mut MemBuffer,
+) -> usize {
+    let order = forward.len();
+    let (info, _) = factor::lu_in_place(
+        MatMut::from_column_major_slice_mut(matrix, order, order),
+        forward,
+        inverse,
+        Par::Seq,
+        MemStack::new(buffer),
+        Spec::default(),
+    );
+    info.transposition_count
+}
+
+fn lu_solve<T: ComplexField>(
+    factors: &LuFactors<T>,
+    right_side: MatMut<'_, T>,
+    buffer: &mut MemBuffer,
+) {
+    let lu = MatRef::from_column_major_slice(factors.values, factors.order, factors.order);
+    let permutation = PermRef::new_checked(factors.forward, factors.inverse, factors.order);
+    let stack = MemStack::new(buffer);
+    solve::solve_in_place_with_conj(lu, lu, permutation, Conj::No, right_side, Par::Seq, stack);
+}
+
+fn lu_solve_transposed<T: ComplexField>(factors: &LuFactors<T>, right_side: MatMut<'_, T>) {
+    let lu = MatRef::from_column_major_slice(factors.values, factors.order, factors.order);
+    let permutation = PermRef::new_checked(factors.forward, factors.inverse, factors.order);
+    let scratch = solve::solve_transpose_in_place_scratch::<usize, T>(factors.order, 1, Par::Seq);
+    solve::solve_transpose_in_place_with_conj(
+        lu,
+        lu,
+        permutation,
+        Conj::No,
+        right_side,
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+    );
+}
+
+fn hermitian_range<T>(matrix: &[T], order: usize) -> Option<[f64; 2]>
+where
+    T: ComplexField<Real = f64> + Copy,
+{
+    let mut part = Vec::with_capacity(order * order);
+    for row in 0..order {
+        for column in 0..order {
+            let twin = conj(&matrix[column * order + row]);
+            part.push(mul_real(&add(&matrix[row * order + column], &twin), &0.5));
+        }
+    }
+    if order == 0 || !part.iter().all(is_finite) {
+        return None;
+    }
+    let mut values = part[..order].to_vec();
+    let mut buffer = MemBuffer::new(evd::self_adjoint_evd_scratch::<T>(
+        order,
+        evd::ComputeEigenvectors::No,
+        Par::Seq,
+        Spec::default(),
+    ));
+    evd::self_adjoint_evd(
+        MatRef::from_row_major_slice(&part, order, order),
+        DiagMut::from_slice_mut(&mut values),
+        None,
+        Par::Seq,
+        MemStack::new(&mut buffer),
+        Spec::default(),
+    )
+    .ok()?;
+    let range = values
+        .iter()
+        .map(real)
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+    Some(range)
+}

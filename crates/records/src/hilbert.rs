@@ -1,0 +1,122 @@
+//! Hilbert transform of samples over all time, not of their periodic continuation.
+//!
+//! (H f)(t) = 1/π ⨍ f(τ)/(t − τ) dτ takes cos to sin. For samples f_j with the step h, zero outside,
+//! it is at the samples
+//!
+//! (H f)_k = Σ_j f_j (1 − cos π(k−j))/(π(k−j)),
+//!
+//! exact if f is the band-limited function through them (Kak, "The discrete Hilbert transform", Proc. IEEE 58
+//! (1970), 585–586). A linear convolution, computed by Fourier transforms long enough that nothing wraps around.
+
+use std::f64::consts::PI;
+
+use super::Record;
+use super::filter::{signal, spectrum};
+use super::record::check_samples;
+use crate::error::{Result, not_negative};
+
+impl Record {
+    /// Record with zero acceleration for at least `before` and `after` (s) around it.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless both are finite and not negative,
+    /// [`Error::Memory`](crate::Error::Memory) for more samples than fit into memory.
+    pub fn padded(&self, before: f64, after: f64) -> Result<Self> {
+        let before = self.quiet_samples("quiet time before the record", before)?;
+        let after = self.quiet_samples("quiet time after the record", after)?;
+        check_samples((before + self.len() + after) as f64)?;
+        let mut padded = vec![0.0; before];
+        padded.extend_from_slice(self.accelerations());
+        padded.resize(padded.len() + after, 0.0);
+        Self::new(self.time_step(), padded)
+    }
+
+    /// Number of samples of a quiet time (s).
+    fn quiet_samples(&self, quantity: &'static str, time: f64) -> Result<usize> {
+        let count = (not_negative(quantity, time)? / self.time_step()).ceil();
+        check_samples(count + self.len() as f64)?;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
+        Ok(count as usize)
+    }
+
+    /// Shifts every harmonic of the acceleration by a quarter of a period: cos becomes sin.
+    ///
+    /// Exact for the band-limited function through the samples, zero outside them. The transform begins before the
+    /// record and ends after it. The part outside the record is lost, so add quiet time with [`Record::padded`].
+    /// As every record it is integrated from rest, so its displacement lacks the earlier motion:
+    /// `PlaneWave::field_from_horizontal` computes displacements.
+    ///
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) if a value is not finite.
+    pub fn hilbert_transform(&self) -> Result<Self> {
+        Self::new(self.time_step(), hilbert(self.accelerations(), 0)?)
+    }
+}
+
+/// The transform at the samples, and at `around` more times before and after.
+#[doc(hidden)]
+pub fn hilbert(samples: &[f64], around: usize) -> Result<Vec<f64>> {
+    let count = samples.len() + 2 * around;
+    // Index k of the kernel is a distance of output and input of k − zero_distance.
+    let zero_distance = around + samples.len() - 1;
+    let distances = count + samples.len() - 1;
+    let length = distances.next_power_of_two();
+    let mut kernel = vec![0.0; distances];
+    for (index, weight) in kernel.iter_mut().enumerate() {
+        if index.abs_diff(zero_distance) % 2 == 1 {
+            *weight = 2.0 / (PI * (index as f64 - zero_distance as f64));
+        }
+    }
+    let kernel = spectrum(&kernel, length)?;
+    let mut product = spectrum(samples, length)?;
+    for (value, factor) in product.iter_mut().zip(&kernel) {
+        *value *= factor;
+    }
+    let signal = signal(product, length)?;
+    // The first outputs contain the part that wraps around.
+    Ok(signal[samples.len() - 1..][..count].to_vec())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// H[1/(1+t²)] = t/(1+t²), and its tails outside the samples.
+    #[test]
+    fn lorentzian_has_its_closed_form() {
+        let half = 16_000;
+        let step = 0.125;
+        let times: Vec<f64> = (-half..=half).map(|k| f64::from(k) * step).collect();
+        let samples: Vec<f64> = times.iter().map(|t| 1.0 / (1.0 + t * t)).collect();
+        let found = hilbert(&samples, 0).unwrap();
+        for (t, found) in times.iter().zip(&found).filter(|(t, _)| t.abs() < 200.0) {
+            // The tails beyond T = 2000 s that the samples lack: 2t/(3πT³) at most.
+            // The part above the highest frequency of the samples: exp(−π/step).
+            let tolerance =
+                2.0 * (-PI / step).exp() + 2.1 * t.abs() / (3.0 * PI * 2000.0_f64.powi(3));
+            assert!((found - t / (1.0 + t * t)).abs() < tolerance, "{t}: {found}");
+        }
+    }
+
+    /// Against the sum itself, at the samples and around them.
+    #[test]
+    fn convolution_is_the_sum() {
+        let samples: Vec<f64> = (0..37).map(|k| f64::from(k * k % 17) - 7.0).collect();
+        for around in [0, 1, 50] {
+            let found = hilbert(&samples, around).unwrap();
+            assert_eq!(found.len(), 37 + 2 * around);
+            for (k, found) in found.iter().enumerate() {
+                let terms = samples.iter().enumerate().map(|(j, f)| {
+                    let distance = k as f64 - around as f64 - j as f64;
+                    if distance == 0.0 {
+                        0.0
+                    } else {
+                        f * (1.0 - (PI * distance).cos()) / (PI * distance)
+                    }
+                });
+                assert!((found - terms.sum::<f64>()).abs() < 1e-12, "{around} {k}");
+            }
+        }
+    }
+}

@@ -1,0 +1,17 @@
+//! Straight beams and columns, in the plane and in space.
+
+mod axes;
+mod axial_force;
+mod bar;
+mod bending;
+mod end_frame;
+mod plane;
+mod releases;
+mod section;
+mod space;
+
+#[doc(hidden)]
+pub use end_frame::EndFrame;
+pub use plane::Beam;
+pub use section::BeamSection;
+pub use space::SpaceBeam;

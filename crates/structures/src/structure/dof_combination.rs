@@ -1,0 +1,190 @@
+//! Weighted sums of degrees of freedom.
+
+use std::ops::{Add, AddAssign, Deref, Mul, Neg, Sub, SubAssign};
+
+use crate::error::{Result, finite, in_bounds};
+
+/// A weighted sum of a structure's degrees of freedom.
+///
+/// Examples: a displacement of a point, a drift, a rotation.
+///
+/// It stores (degree of freedom, weight) terms in the order given. A degree of freedom that occurs more than
+/// once counts with the sum of its weights. A function that takes a combination also takes a bare degree of
+/// freedom (with weight one), a term, or a list of terms.
+///
+/// ```
+/// use basemat::structure::DofCombination;
+///
+/// let roof = DofCombination::from(7);
+/// assert_eq!(roof[..], [(7, 1.0)]);
+/// let mut drift = DofCombination::from(7) - DofCombination::from(6);
+/// drift += 3.0 * DofCombination::from(2);
+/// assert_eq!(drift, DofCombination::from([(7, 1.0), (6, -1.0), (2, 3.0)]));
+/// let dofs = [0.0, 0.0, 0.01, 0.0, 0.0, 0.0, 0.1, 0.2];
+/// assert!((drift.value(&dofs) - 0.13).abs() < 1e-15);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+pub struct DofCombination(Vec<(usize, f64)>);
+
+impl DofCombination {
+    /// The sum for these values of all degrees of freedom.
+    ///
+    /// `dofs`: displacements, velocities or accelerations; degrees of freedom beyond their end count as zero.
+    pub fn value(&self, dofs: &[f64]) -> f64 {
+        let at = |index: usize| dofs.get(index).copied().unwrap_or(0.0);
+        self.0.iter().map(|&(index, weight)| weight * at(index)).sum()
+    }
+
+    /// This sum with other numbers of its degrees of freedom.
+    #[doc(hidden)]
+    pub fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
+        self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
+    }
+
+    /// Error for a weight that is not finite, or a degree of freedom at `bound` or beyond.
+    ///
+    /// `quantity`: name of the degree of freedom in the error.
+    #[doc(hidden)]
+    pub fn check(&self, quantity: &'static str, bound: usize) -> Result<()> {
+        for &(index, weight) in &self.0 {
+            finite("weight of a degree of freedom", weight)?;
+            in_bounds(quantity, index, bound)?;
+        }
+        Ok(())
+    }
+}
+
+impl From<usize> for DofCombination {
+    /// Sum of one degree of freedom, with weight one.
+    fn from(dof: usize) -> Self {
+        Self(vec![(dof, 1.0)])
+    }
+}
+
+impl From<(usize, f64)> for DofCombination {
+    fn from(term: (usize, f64)) -> Self {
+        Self(vec![term])
+    }
+}
+
+impl From<Vec<(usize, f64)>> for DofCombination {
+    fn from(terms: Vec<(usize, f64)>) -> Self {
+        Self(terms)
+    }
+}
+
+impl From<&[(usize, f64)]> for DofCombination {
+    fn from(terms: &[(usize, f64)]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl<const N: usize> From<[(usize, f64); N]> for DofCombination {
+    fn from(terms: [(usize, f64); N]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl<const N: usize> From<&[(usize, f64); N]> for DofCombination {
+    fn from(terms: &[(usize, f64); N]) -> Self {
+        Self(terms.to_vec())
+    }
+}
+
+impl From<&DofCombination> for DofCombination {
+    fn from(row: &DofCombination) -> Self {
+        row.clone()
+    }
+}
+
+impl FromIterator<(usize, f64)> for DofCombination {
+    fn from_iter<I: IntoIterator<Item = (usize, f64)>>(terms: I) -> Self {
+        Self(terms.into_iter().collect())
+    }
+}
+
+/// The (degree of freedom, weight) terms.
+impl Deref for DofCombination {
+    type Target = [(usize, f64)];
+
+    fn deref(&self) -> &Self::Target {
+        &self.0
+    }
+}
+
+impl AsRef<[(usize, f64)]> for DofCombination {
+    fn as_ref(&self) -> &[(usize, f64)] {
+        &self.0
+    }
+}
+
+impl AddAssign for DofCombination {
+    fn add_assign(&mut self, other: Self) {
+        for (index, weight) in other.0 {
+            match self.0.iter_mut().find(|term| term.0 == index) {
+                Some(term) => term.1 += weight,
+                None => self.0.push((index, weight)),
+            }
+        }
+    }
+}
+
+impl SubAssign for DofCombination {
+    fn sub_assign(&mut self, other: Self) {
+        *self += -other;
+    }
+}
+
+impl Add for DofCombination {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
+
+impl Neg for DofCombination {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        -1.0 * self
+    }
+}
+
+impl Sub for DofCombination {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul<DofCombination> for f64 {
+    type Output = DofCombination;
+
+    fn mul(self, mut row: DofCombination) -> DofCombination {
+        row.0.iter_mut().for_each(|term| term.1 *= self);
+        row
+    }
+}
+
+impl IntoIterator for DofCombination {
+    type Item = (usize, f64);
+    type IntoIter = std::vec::IntoIter<(usize, f64)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}
+
+impl<'a> IntoIterator for &'a DofCombination {
+    type Item = &'a (usize, f64);
+    type IntoIter = std::slice::Iter<'a, (usize, f64)>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.iter()
+    }
+}

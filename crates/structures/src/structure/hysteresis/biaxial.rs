@@ -1,0 +1,95 @@
+//! Spring in a plane, whose two force components share one limit.
+
+use super::BiaxialResponse;
+use super::coupled_bouc_wen::CoupledBoucWen;
+use super::coupled_slider::CoupledSlider;
+use crate::error::Result;
+use crate::structure::InternalEnergy;
+
+/// A hysteretic spring with a deformation in two directions at a right angle.
+///
+/// Made by [`Bilinear::coupled`](crate::structure::Bilinear::coupled),
+/// [`FrictionPendulum::coupled`](crate::structure::FrictionPendulum::coupled),
+/// [`LeadRubber::coupled`](crate::structure::LeadRubber::coupled) and
+/// [`BoucWen::coupled`](crate::structure::BoucWen::coupled). The limit of its force is a circle, the same in every
+/// direction: if the axes and the deformation turn, the force turns with them. Along a straight line through the
+/// origin it is the uniaxial spring. Two uniaxial springs along x and y have a square limit instead, and carry up
+/// to √2 times the force on its diagonals.
+///
+/// Deformations are in m, forces in N. The spring stores the last **committed** deformation; trial deformations
+/// change nothing, as for [`Hysteresis`](crate::structure::Hysteresis).
+///
+/// ```
+/// use basemat::structure::FrictionPendulum;
+///
+/// // 50 kN of friction, and 500 kN/m to climb.
+/// let bearing = FrictionPendulum::new(1.0e6, 2.0, 0.05)?.coupled();
+/// let [x, y] = bearing.response([0.06, 0.08]).force;
+/// assert!((x - 0.6 * 100.0e3).abs() < 1e-6 && (y - 0.8 * 100.0e3).abs() < 1e-6);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct BiaxialSpring {
+    law: Law,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Law {
+    Slider(CoupledSlider),
+    BoucWen(CoupledBoucWen),
+}
+
+impl From<CoupledSlider> for BiaxialSpring {
+    fn from(law: CoupledSlider) -> Self {
+        Self { law: Law::Slider(law) }
+    }
+}
+
+impl From<CoupledBoucWen> for BiaxialSpring {
+    fn from(law: CoupledBoucWen) -> Self {
+        Self { law: Law::BoucWen(law) }
+    }
+}
+
+/// Calls a function of the law, whichever it is.
+macro_rules! of_law {
+    ($law:expr, $variant:ident => $call:expr) => {
+        match $law {
+            Law::Slider($variant) => $call,
+            Law::BoucWen($variant) => $call,
+        }
+    };
+}
+
+impl BiaxialSpring {
+    /// Force and tangent at `deformation` (m), reached straight from the last committed one.
+    pub fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
+        of_law!(&self.law, law => law.response(deformation))
+    }
+
+    /// Stored and dissipated energy (J) at `deformation`, on a straight path to it.
+    ///
+    /// Their sum is the work of the force along the path.
+    pub fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
+        of_law!(&self.law, law => law.energy(deformation))
+    }
+
+    /// Accepts a step that ended with `deformation`.
+    pub fn commit(&mut self, deformation: [f64; 2]) {
+        of_law!(&mut self.law, law => law.commit(deformation));
+    }
+
+    /// The internal variables that [`commit`](BiaxialSpring::commit) changes; their number is constant.
+    pub fn save(&self) -> Vec<f64> {
+        of_law!(&self.law, law => law.save())
+    }
+
+    /// Restores the variables that [`save`](BiaxialSpring::save) returned.
+    ///
+    /// # Errors
+    /// `CheckpointError::Corrupt` for impossible values; the spring
+    /// stays unchanged.
+    pub fn restore(&mut self, values: &[f64]) -> Result<()> {
+        of_law!(&mut self.law, law => law.restore(values))
+    }
+}

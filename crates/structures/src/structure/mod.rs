@@ -1,0 +1,266 @@
+//! Structures: the trait that users implement, implementations of it, and hysteretic springs.
+
+/// Forwards the methods of [`Structure`] that a wrapper leaves unchanged.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! forward_structure {
+    ($wrapper:ident.$inner:ident) => {
+        forward! {
+            $wrapper.$inner;
+            fn dofs(&$wrapper) -> usize;
+            fn base(&$wrapper) -> $crate::structure::Base;
+            fn mass(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::Result<()>;
+            fn geometric_stiffness(&$wrapper, matrix: &mut $crate::structure::Triplets) -> $crate::Result<()>;
+            fn has_active_damping(&$wrapper) -> bool;
+            fn has_active_stiffness(&$wrapper) -> bool;
+            fn description(&$wrapper) -> $crate::structure::StructureDescription;
+            fn describe(&$wrapper, dofs: &[usize]) -> Option<String>;
+            fn load(&$wrapper, time: f64, load: &mut [f64]) -> $crate::Result<()>;
+        }
+    };
+}
+
+mod base;
+mod base_motion;
+mod base_node;
+mod description;
+mod detached;
+mod dof_combination;
+mod held_base;
+mod hysteresis;
+mod matrix_checks;
+mod modal_damping;
+mod models;
+mod nonlinear;
+#[doc(hidden)]
+pub mod probe;
+mod rayleigh_damping;
+mod reduction;
+mod rigid_motions;
+mod section_rows;
+
+#[doc(inline)]
+pub use crate::error::StructureError;
+#[doc(inline)]
+pub use crate::linalg::Triplets;
+pub use base::Base;
+pub use base_node::BaseNode;
+#[doc(hidden)]
+pub use base_node::{check_line, from_the_left};
+pub use description::StructureDescription;
+#[doc(hidden)]
+pub use detached::{check_attached, numbers as unknown_numbers};
+pub use dof_combination::DofCombination;
+#[doc(hidden)]
+pub use held_base::{HeldBase, stiffest};
+pub use hysteresis::{
+    BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
+    PendulumBearing, SpringResponse, WithSprings,
+};
+#[doc(hidden)]
+pub use matrix_checks::{
+    NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, combination, massless,
+};
+pub use modal_damping::{ModalDamping, WithModalDamping};
+#[cfg(feature = "embedded")]
+pub use models::WithWalls;
+pub use models::{
+    BeamEndRows, BeamRows, FemModel, IsolationLevel, MatrixModel, PlanStorey, RigidBlock,
+    RigidBody, Section, ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding,
+    StructureGroup,
+};
+pub use nonlinear::{InternalEnergy, NonlinearForce};
+#[doc(hidden)]
+pub use nonlinear::{
+    Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state, restore_variables, save_variables,
+};
+pub use rayleigh_damping::RayleighDamping;
+pub use reduction::{CraigBampton, Recovery, ReducedModel};
+pub use section_rows::SectionRows;
+
+use std::any::Any;
+
+use crate::error::Result;
+
+/// A structure for the integrator: implement this for your own model.
+///
+/// Four methods are needed: [`dofs`](Structure::dofs), [`base`](Structure::base), [`mass`](Structure::mass) and
+/// [`stiffness`](Structure::stiffness). This is a rigid base that carries a mass 6 m up on a column:
+/// ```
+/// use basemat::prelude::*;
+///
+/// /// Degrees of freedom: base to the right, base up, rotation of the base, mass to the right.
+/// struct Tower;
+///
+/// impl Structure for Tower {
+///     fn dofs(&self) -> usize {
+///         4
+///     }
+///     fn base(&self) -> Base {
+///         BaseNode::rigid_base(-2.0, 2.0, [0, 1, 2]).into()
+///     }
+///     fn mass(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+///         for (dof, mass) in [10.0e3, 30.0e3, 40.0e3, 20.0e3].into_iter().enumerate() {
+///             matrix.add(dof, dof, mass);
+///         }
+///         Ok(())
+///     }
+///     // The column's deformation is u₃ − u₀ + 6 u₂.
+///     fn stiffness(&self, matrix: &mut Triplets) -> basemat::Result<()> {
+///         matrix.add_outer([(3, 1.0), (0, -1.0), (2, 6.0)], 4.0e6);
+///         Ok(())
+///     }
+/// }
+///
+/// let simulation = Simulation::builder(0.005)
+///     .ground(ElasticGround::under(Soil::new(120.0e6, 0.33, 1900.0)?, &Tower, 8)?)
+///     .structure(Tower)
+///     .interface(Coulomb::new(0.4)?)
+///     .motion(el_centro_1940())
+///     .build()?;
+/// // The ground carries the vertical mass.
+/// assert!((simulation.state().normal_force - 30.0e3 * STANDARD_GRAVITY).abs() < 1.0);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// A structure has `n` degrees of freedom, displacements and rotations (m, rad; x to the right, y up,
+/// rotations counter-clockwise), measured from the unloaded state. Its matrices refer to **absolute**
+/// displacements. A translation strains nothing. The force f is therefore evaluated, and a step committed, at
+/// displacements from which the mean translation of the base (of each connected part) is subtracted; static
+/// displacements are included. The structure obeys
+///
+/// ```text
+/// M a + C v_rel + K u + f(u) = p(t) + weight + contact forces
+/// ```
+///
+/// where `v_rel` is the velocity relative to the free field (so that mass-proportional damping does not act
+/// on the translation with the ground) and f the optional [`NonlinearForce`].
+///
+/// No support is fixed; the ground holds the structure up. Neither K nor the tangent of f at rest may resist
+/// a rigid translation to the right or upwards. Building a simulation returns
+/// [`StructureError::Restrained`] for stiffness to a fixed point. It returns
+/// [`StructureError::Detached`] for a part that has mass or stiffness but is not connected by
+/// stiffness to the degrees of freedom of a contact node. Modal and other base-relative coordinates are
+/// allowed: their own stiffness holds them, and mass couples them to the base.
+///
+/// All forces are per metre of thickness, except for a structure in plan ([`Base::Faces`]), which moves in
+/// three directions: x to the right, y away from the reader, z up. Matrices and loads may return an error, for
+/// a reason of your own by [`Error::part`](crate::Error::part). The error ends the build, or the step with
+/// nothing of it committed.
+///
+/// Every structure is [`Any`], so that `Simulation::structure` leads back to
+/// your own type and its current internal variables.
+#[auto_impl::auto_impl(Box)]
+pub trait Structure: Any + Send {
+    /// Number of degrees of freedom n.
+    fn dofs(&self) -> usize;
+
+    /// Base of the structure: the nodes that touch the ground.
+    ///
+    /// In the plane: nodes from left to right, `nodes.into()`, straight between neighbours. A rigid base needs
+    /// its two ends ([`BaseNode::rigid_base`]). [`Base::Lines`] are several foundations; [`Base::Faces`] put the
+    /// structure in plan. Every call returns the same base.
+    fn base(&self) -> Base;
+
+    /// Adds the mass matrix (n × n, kg/m) to `matrix`.
+    ///
+    /// It is symmetric and positive semi-definite.
+    ///
+    /// Degrees of freedom without mass are allowed. Rounding is accepted: entries on the diagonal down to
+    /// −10⁻¹² of the largest entry of the matrix, and eigenvalues down to −10⁻⁶ of the matrix scaled to a
+    /// diagonal of one. Beyond that `build` returns [`Error::Indefinite`](crate::Error::Indefinite).
+    ///
+    /// # Errors
+    /// Any: `build` returns it.
+    fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+
+    /// Adds the stiffness matrix (n × n, N/m per metre) to `matrix`.
+    ///
+    /// Symmetric, unless [`has_active_stiffness`](Structure::has_active_stiffness) returns `true`; otherwise
+    /// `build` returns [`Error::Unsymmetric`](crate::Error::Unsymmetric). The stiffness of a linear structure
+    /// must be positive semi-definite with the base held, up to rounding (10⁻¹² of its largest entry on the
+    /// diagonal); otherwise `build` returns [`Error::Indefinite`](crate::Error::Indefinite). Lagrange
+    /// multipliers are excepted: a degree of freedom with exactly zero on the diagonal, no mass and no
+    /// damping, but coefficients cⱼ in its row and column, is the force that keeps Σ cⱼ uⱼ = 0. The rest must
+    /// be positive semi-definite for the displacements that this constraint leaves.
+    ///
+    /// # Errors
+    /// Any: `build` returns it.
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+
+    /// Adds the viscous damping matrix (n × n) to `matrix`. Default: none.
+    ///
+    /// Symmetric and positive semi-definite, up to rounding as for the mass; otherwise `build` returns
+    /// [`Error::Unsymmetric`](crate::Error::Unsymmetric) or [`Error::Indefinite`](crate::Error::Indefinite).
+    /// A structure whose [`has_active_damping`](Structure::has_active_damping) returns `true` is not checked.
+    ///
+    /// # Errors
+    /// Any: `build` returns it.
+    fn damping(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+
+    /// Adds the part of the stiffness that comes from the forces at rest (P–Δ), n × n, to `matrix`. Default: none.
+    ///
+    /// [`stiffness`](Structure::stiffness) contains it. With it, errors name the load factor at which the structure
+    /// buckles, and `build` refuses a structure that buckles on its ground
+    /// (`StabilityError::Buckling`), even one that is upright.
+    ///
+    /// # Errors
+    /// Any; `build` returns it.
+    fn geometric_stiffness(&self, _matrix: &mut Triplets) -> Result<()> {
+        Ok(())
+    }
+
+    /// Whether the damping matrix may be unsymmetric or feed energy in. Default: no.
+    ///
+    /// Gyroscopes and active dampers have such a matrix. It is then not checked.
+    fn has_active_damping(&self) -> bool {
+        false
+    }
+
+    /// Whether the stiffness matrix may be unsymmetric. Default: no.
+    ///
+    /// Follower forces have such a stiffness. It is then not checked. Its work is not in the energy balance,
+    /// which stays open by that amount.
+    fn has_active_stiffness(&self) -> bool {
+        false
+    }
+
+    /// Facts by which a run warns of probable mistakes, such as numbers in another unit. Default: none.
+    fn description(&self) -> StructureDescription {
+        StructureDescription::default()
+    }
+
+    /// Name of these degrees of freedom for errors, by nodes or storeys.
+    ///
+    /// Default: `None`; errors then give their numbers.
+    fn describe(&self, _dofs: &[usize]) -> Option<String> {
+        None
+    }
+
+    /// Adds the external load at `time` (n, N/m), without the weight, to `load`. Default: none.
+    ///
+    /// # Errors
+    /// Any: at t = 0 `build` returns it; later it is the source of
+    /// `StepError::Part`.
+    fn load(&self, _time: f64, _load: &mut [f64]) -> Result<()> {
+        Ok(())
+    }
+
+    /// The nonlinear force f(u). Default: `None`, for a linear structure.
+    ///
+    /// A structure that implements [`NonlinearForce`] itself returns `Some(self)`, here and in
+    /// [`nonlinear_mut`](Structure::nonlinear_mut).
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        None
+    }
+
+    /// Nonlinear force of the structure, to commit a step or restore a state.
+    ///
+    /// If only one of this method and [`nonlinear`](Structure::nonlinear) returns a force, `build` returns
+    /// [`Error::Scene`](crate::Error::Scene).
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        None
+    }
+}

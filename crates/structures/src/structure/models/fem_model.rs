@@ -1,0 +1,390 @@
+//! Structure made of finite elements.
+
+use super::dof_names::describe;
+use super::feet::{self, Foot};
+use super::rigid_links::RigidLinks;
+use crate::error::{Error, Result, in_bounds, same_length};
+use crate::fem::{Direction, Element, MassKind, MatrixKind, Mesh, Numbering, assemble};
+use crate::structure::{Base, BaseNode, DofCombination, RayleighDamping, Structure, Triplets};
+
+/// Finite-element structure on a flat base, in the plane or in space.
+///
+/// Degrees of freedom are numbered node by node, within a node in the order of
+/// [`Mesh::directions`](crate::fem::Mesh::directions), as far as an element there has them; [`row`](FemModel::row) returns the degree of freedom of a node. Default: consistent mass, no Rayleigh
+/// damping.
+///
+/// Elements act on each other through common nodes. A part without a node in common with the part on the ground
+/// must be tied to it by rigid links or [springs](crate::structure::WithSprings). Otherwise `build` returns
+/// [`StructureError::Detached`](crate::structure::StructureError::Detached), which names the nodes, and nodes at the same place that were not merged.
+///
+/// ```
+/// use basemat::fem::{Direction, Layer, Material, Mesh};
+/// use basemat::structure::{FemModel, Structure};
+///
+/// let concrete = Material::new(30.0e9, 0.2, 2400.0)?;
+/// let mesh = Mesh::layered_block(-5.0..5.0, 8, &[Layer::new(20.0, 16, concrete)])?;
+/// let model = FemModel::on_base(mesh)?;
+/// assert_eq!(model.dofs(), 2 * 9 * 17);
+/// assert_eq!(model.base().nodes().count(), 9);
+/// let roof = model.mesh().node_at(0.0, 20.0)?;
+/// assert_eq!(model.row(roof, Direction::X)?[..], [(2 * (16 * 9 + 4), 1.0)]);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct FemModel {
+    pub(super) mesh: Mesh,
+    pub(super) numbering: Numbering,
+    pub(super) links: Option<RigidLinks>,
+    /// Points that touch the ground, line by line or face by face.
+    pub(super) feet: Vec<Vec<Foot>>,
+    base: Base,
+    pub(super) mass_kind: MassKind,
+    pub(super) damping: RayleighDamping,
+    active_damping: bool,
+    active_stiffness: bool,
+    /// Acceleration of gravity for the axial forces of P–Δ.
+    pub(super) p_delta: Option<f64>,
+    /// Geometric stiffness of P–Δ by rigid links and by the reactions at the base.
+    pub(super) base_reactions: Vec<(usize, usize, f64)>,
+}
+
+impl FemModel {
+    /// Structure that touches the ground with the nodes `contact`, from left to right.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for fewer than two contact nodes, [`Error::Index`] for a node that does not exist,
+    /// [`Error::Input`] when the nodes do not run to the right at one height, [`Error::Scene`] when no element
+    /// displaces one of them, or for a mesh in space.
+    pub fn new(mesh: Mesh, contact: &[usize]) -> Result<Self> {
+        let feet = feet::of_lines(&mesh, &[contact])?;
+        Self::standing(mesh, feet)
+    }
+
+    /// Structure on feet that are given line by line or face by face.
+    pub(super) fn standing(mesh: Mesh, feet: Vec<Vec<Foot>>) -> Result<Self> {
+        let model = Self {
+            numbering: Numbering::new(&mesh),
+            mesh,
+            links: None,
+            feet,
+            base: Base::Lines(Vec::new()),
+            mass_kind: MassKind::default(),
+            damping: RayleighDamping::default(),
+            active_damping: false,
+            active_stiffness: false,
+            p_delta: None,
+            base_reactions: Vec::new(),
+        };
+        Ok(Self { base: model.base_of_feet()?, ..model })
+    }
+
+    /// The base, by the present degrees of freedom.
+    fn base_of_feet(&self) -> Result<Base> {
+        let parts = self.feet.iter();
+        let parts = parts
+            .map(|feet| feet.iter().map(|foot| self.base_node(*foot)).collect())
+            .collect::<Result<Vec<Vec<_>>>>()?;
+        Ok(if self.mesh.has_depth() { Base::Faces(parts) } else { Base::Lines(parts) })
+    }
+
+    /// Motion of a foot.
+    fn base_node(&self, foot: Foot) -> Result<BaseNode> {
+        let has_depth = self.mesh.has_depth();
+        let unmoved = Error::Scene {
+            quantity: "contact node",
+            needed: if has_depth {
+                "must have three displacements, and rotations on a shell, from some element"
+            } else {
+                "must have horizontal and vertical degrees of freedom from some element"
+            },
+        };
+        let row = |direction| self.foot_row(foot, direction).map_err(|_| unmoved.clone());
+        let place = self.mesh.nodes()[foot.node];
+        let mut node = BaseNode {
+            x: place[0],
+            z: foot.height,
+            horizontal: row(Direction::X)?,
+            vertical: row(self.mesh.upwards())?,
+            ..BaseNode::default()
+        };
+        if has_depth {
+            node.y = place[1];
+            node.z = 0.0;
+            node.across = row(Direction::Y)?;
+        }
+        Ok(node)
+    }
+
+    /// Displacement of a foot, which hangs below its node, in `direction`.
+    fn foot_row(&self, foot: Foot, direction: Direction) -> Result<DofCombination> {
+        let mut row = self.row(foot.node, direction)?;
+        for &motion in self.mesh.directions().iter().filter(|motion| motion.is_rotation()) {
+            let weight = direction.in_rigid_motion(motion, [0.0, 0.0, -foot.depth]);
+            if weight != 0.0 {
+                row += weight * self.row(foot.node, motion)?;
+            }
+        }
+        Ok(row)
+    }
+
+    /// Structure on separate foundations.
+    ///
+    /// Each foundation touches the ground with the nodes of one line, from left to right. Between two lines there
+    /// is no base.
+    ///
+    /// ```
+    /// use basemat::fem::{Beam, Mesh};
+    /// use basemat::structure::{Base, FemModel, Structure};
+    ///
+    /// // A portal frame on two strips 2 m wide (the example `portal_frame` shakes one).
+    /// let mut mesh = Mesh::new();
+    /// let mut lines = Vec::new();
+    /// let mut tops = Vec::new();
+    /// for x in [-4.0, 4.0] {
+    ///     let line = [x - 1.0, x, x + 1.0].map(|x| mesh.add_node(x, 0.0));
+    ///     let line = line.into_iter().collect::<Result<Vec<_>, _>>()?;
+    ///     let top = mesh.add_node(x, 5.0)?;
+    ///     for ends in [[line[0], line[1]], [line[1], line[2]], [line[1], top]] {
+    ///         mesh.add(Beam::new(ends, 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    ///     }
+    ///     lines.push(line);
+    ///     tops.push(top);
+    /// }
+    /// mesh.add(Beam::new([tops[0], tops[1]], 30.0e9, 0.5, 0.01, 2400.0)?)?;
+    /// let frame = FemModel::on_foundations(mesh, &lines)?;
+    /// assert!(matches!(frame.base(), Base::Lines(lines) if lines.len() == 2));
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`FemModel::new`], for each line and for all lines in a row; [`Error::Size`] without lines.
+    pub fn on_foundations(mesh: Mesh, lines: &[Vec<usize>]) -> Result<Self> {
+        let lines: Vec<&[usize]> = lines.iter().map(Vec::as_slice).collect();
+        let feet = feet::of_lines(&mesh, &lines)?;
+        Self::standing(mesh, feet)
+    }
+
+    /// Structure in space that touches the ground with these faces, each given by its corner nodes.
+    ///
+    /// Faces lie at one height and do not overlap, as [`Base::Faces`]. A shell touches the ground with its
+    /// underside: a face with the corners of a shell ([`ElementFace::thickness`](crate::fem::ElementFace::thickness))
+    /// moves like the points half the thickness below its nodes. For a face over several shells the thickest one
+    /// counts. Another face moves like its nodes, such as the outline of nodes that a rigid link ties together.
+    ///
+    /// # Errors
+    /// [`Error::Scene`] for a mesh in the plane, or when no element moves a corner in all directions;
+    /// [`Error::Size`] without faces or for fewer than three corners; [`Error::Index`] for a node that does not
+    /// exist; [`Error::Input`] for corners at different heights.
+    pub fn on_faces(mesh: Mesh, faces: &[Vec<usize>]) -> Result<Self> {
+        let feet = feet::of_faces(&mesh, faces)?;
+        Self::standing(mesh, feet)
+    }
+
+    /// Structure that touches the ground with all its lowest nodes, in space with all faces at the lowest height.
+    ///
+    /// In space these are horizontal shells and sides of solids ([`Element::faces`](crate::fem::Element::faces)), as
+    /// for [`FemModel::on_faces`].
+    ///
+    /// # Errors
+    /// As for [`FemModel::new`] and [`FemModel::on_faces`]; [`Error::Scene`] for a mesh in space without a face at its
+    /// lowest height.
+    pub fn on_base(mesh: Mesh) -> Result<Self> {
+        if mesh.has_depth() {
+            let feet = feet::of_lowest_faces(&mesh)?;
+            return Self::standing(mesh, feet);
+        }
+        let contact = mesh.nodes_at_height(mesh.lowest(), mesh.tolerance())?;
+        Self::new(mesh, &contact)
+    }
+
+    /// Replaces the kind of mass matrix.
+    #[must_use]
+    pub fn with_mass(self, mass_kind: MassKind) -> Self {
+        Self { mass_kind, ..self }
+    }
+
+    /// Replaces the Rayleigh damping, which adds to the elements' own damping.
+    ///
+    /// The geometric stiffness of P–Δ does not contribute to it.
+    #[must_use]
+    pub fn with_rayleigh(self, damping: RayleighDamping) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// Allows elements whose damping matrices are unsymmetric or feed energy in ([`Structure::has_active_damping`]).
+    ///
+    /// Otherwise `build` returns an error for such an element.
+    #[must_use]
+    pub fn with_active_damping(self) -> Self {
+        Self { active_damping: true, ..self }
+    }
+
+    /// Allows elements whose stiffness matrices are unsymmetric ([`Structure::has_active_stiffness`]).
+    ///
+    /// Otherwise `build` returns an error for such an element.
+    #[must_use]
+    pub fn with_active_stiffness(self) -> Self {
+        Self { active_stiffness: true, ..self }
+    }
+
+    /// The nodes and elements.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Height of the surface in the mesh, m.
+    #[doc(hidden)]
+    pub fn surface_height(&self) -> f64 {
+        let foot = self.feet.iter().flatten().next();
+        foot.map_or(0.0, |foot| self.mesh.nodes()[foot.node][self.mesh.up()] - foot.height)
+    }
+
+    /// The model with other links; base and axial forces of P–Δ follow.
+    pub(super) fn with_links(self, links: RigidLinks) -> Result<Self> {
+        let linked = Self { links: Some(links), ..self };
+        let linked = Self { base: linked.base_of_feet()?, ..linked };
+        match linked.p_delta {
+            Some(gravity) => linked.with_p_delta(gravity),
+            None => Ok(linked),
+        }
+    }
+
+    /// Index of the degree of freedom of `node` in `direction`.
+    ///
+    /// `None` for a node without its own, such as a follower of a rigid link. Probes and springs take the node's
+    /// [`row`](FemModel::row).
+    pub fn dof(&self, node: usize, direction: Direction) -> Option<usize> {
+        let dof = self.numbering.dof(node, direction)?;
+        self.links.as_ref().map_or(Some(dof), |links| links.remaining(node, direction, dof))
+    }
+
+    /// Motion of `node` in `direction` as a weighted sum of degrees of freedom.
+    ///
+    /// The degree of freedom itself, or for a follower of a rigid link a sum of its leader's degrees of freedom.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for a node that does not exist, [`Error::Part`] for a node that no element moves in this
+    /// direction.
+    pub fn row(&self, node: usize, direction: Direction) -> Result<DofCombination> {
+        in_bounds("node", node, self.mesh.nodes().len())?;
+        let dof = self.numbering.dof(node, direction);
+        let dof = dof.ok_or_else(|| {
+            let reason = format!(
+                "it has no degree of freedom in direction {direction}: no element needs one there"
+            );
+            Error::part(format!("node {node}"), reason)
+        })?;
+        Ok(self.remaining_row(vec![(dof, 1.0)]))
+    }
+
+    /// A weighted sum of the mesh's degrees of freedom by the remaining ones.
+    pub(super) fn remaining_row(&self, terms: Vec<(usize, f64)>) -> DofCombination {
+        match &self.links {
+            Some(links) => links.row(&terms).into(),
+            None => terms.into(),
+        }
+    }
+
+    /// Displacements of an element's degrees of freedom, in the order of its matrices.
+    ///
+    /// For [`Shell::resultants`](crate::fem::Shell::resultants), or the forces of an element of your own.
+    /// `displacement` holds all degrees of freedom of the model, such as
+    /// `State::displacement`. A follower of a rigid link or a diaphragm moves
+    /// with its leader. The element need not belong to the mesh.
+    ///
+    /// # Errors
+    /// [`Error::Size`] for a displacement of another length; as for [`row`](FemModel::row).
+    pub fn element_displacements(
+        &self,
+        element: &dyn Element,
+        displacement: &[f64],
+    ) -> Result<Vec<f64>> {
+        same_length("displacement of the model", displacement.len(), self.dofs())?;
+        let mut values = Vec::with_capacity(element.order());
+        for &node in element.nodes() {
+            for &direction in element.directions() {
+                values.push(self.row(node, direction)?.value(displacement));
+            }
+        }
+        Ok(values)
+    }
+
+    /// Adds matrices of all elements, each times its factor, for the remaining degrees of freedom.
+    pub(super) fn add(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
+        match &self.links {
+            None => self.add_elements(matrix, parts),
+            Some(links) => {
+                let mut mesh_matrix = Triplets::new(self.numbering.dofs());
+                self.add_elements(&mut mesh_matrix, parts);
+                links.add_condensed(&mesh_matrix, matrix);
+            }
+        }
+        for (kind, factor) in parts {
+            if matches!(kind, MatrixKind::GeometricStiffness) {
+                let entries = self.base_reactions.iter();
+                matrix.extend(entries.map(|&(row, column, value)| (row, column, factor * value)));
+            }
+        }
+    }
+
+    /// Adds matrices of all elements for the degrees of freedom of the mesh.
+    fn add_elements(&self, matrix: &mut Triplets, parts: &[(MatrixKind, f64)]) {
+        for &(kind, factor) in parts {
+            assemble(&self.mesh, &self.numbering, kind, factor, |_| true, matrix);
+        }
+    }
+}
+
+impl Structure for FemModel {
+    fn dofs(&self) -> usize {
+        self.links.as_ref().map_or(self.numbering.dofs(), RigidLinks::dofs)
+    }
+
+    fn base(&self) -> Base {
+        self.base.clone()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add(matrix, &[(MatrixKind::Mass(self.mass_kind), 1.0)]);
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add(matrix, &[(MatrixKind::Stiffness, 1.0), (MatrixKind::GeometricStiffness, 1.0)]);
+        Ok(())
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add(matrix, &[(MatrixKind::GeometricStiffness, 1.0)]);
+        Ok(())
+    }
+
+    /// Nodes with their places, and a node at the same place that is not merged with one of them.
+    fn describe(&self, dofs: &[usize]) -> Option<String> {
+        describe(self.mesh(), &|node, direction| self.dof(node, direction), dofs)
+    }
+
+    fn has_active_damping(&self) -> bool {
+        self.active_damping
+    }
+
+    fn has_active_stiffness(&self) -> bool {
+        self.active_stiffness
+    }
+
+    fn description(&self) -> crate::structure::StructureDescription {
+        let faces_off_ground = feet::uncovered(&self.mesh, &self.feet);
+        crate::structure::StructureDescription::of_mesh(&self.mesh, faces_off_ground)
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        let mut parts = vec![
+            (MatrixKind::Mass(self.mass_kind), self.damping.mass()),
+            (MatrixKind::Stiffness, self.damping.stiffness()),
+            (MatrixKind::Damping, 1.0),
+        ];
+        parts.retain(|(_, factor)| *factor > 0.0);
+        self.add(matrix, &parts);
+        Ok(())
+    }
+}

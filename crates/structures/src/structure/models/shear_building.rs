@@ -1,0 +1,400 @@
+//! Shear building on a rigid base.
+
+use crate::error::{
+    Result, at_least, damping_ratio, finite, in_bounds, not_negative, positive, require,
+};
+use crate::structure::hysteresis::HystereticSprings;
+use crate::structure::{
+    Base, BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
+};
+use std::f64::consts::{PI, TAU};
+
+/// Storey of a [`ShearBuilding`]: columns and their floor, per metre of thickness.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Storey {
+    /// Height of the columns, m.
+    pub height: f64,
+    /// Mass of the floor on top, kg.
+    pub mass: f64,
+    /// Rotary inertia of the floor about its centre, kg m².
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub rotary_inertia: f64,
+    /// Sway stiffness of the columns, N/m.
+    pub stiffness: f64,
+    /// Dashpot between the floors, N s/m.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub damping: f64,
+}
+
+impl Storey {
+    /// Storey without rotary inertia and damping.
+    pub fn new(height: f64, mass: f64, stiffness: f64) -> Self {
+        Self { height, mass, rotary_inertia: 0.0, stiffness, damping: 0.0 }
+    }
+}
+
+/// Shear building: rigid floors on flexible columns on a rigid base.
+///
+/// Degrees of freedom: `[u_x, u_y, θ]` of the base, then the **absolute** horizontal displacement of each floor,
+/// from below. The columns neither shorten nor bend out of the building's frame: all floors rise and rotate with
+/// the base. A storey's drift is the relative displacement of its floors without the part caused by the rotation,
+/// `d_j = u_j − u_(j−1) + h_j θ`.
+///
+/// Storeys may follow a [`Hysteresis`](crate::structure::Hysteresis) law ([`with_law`](ShearBuilding::with_law)), and
+/// the building may stand on isolators ([`isolated`](ShearBuilding::isolated)).
+///
+/// ```
+/// use basemat::structure::{ShearBuilding, Storey, Structure};
+///
+/// let storeys = [Storey::new(3.0, 20.0e3, 40.0e6); 5];
+/// let building = ShearBuilding::new(10.0, 50.0e3, 4.0e5, &storeys)?.with_stiffness_damping(0.05)?;
+/// assert_eq!(building.dofs(), 8);
+/// // 2 √(k/m) sin(π/22) rad/s on a fixed base
+/// assert!((building.fixed_base_frequency() - 2.02589).abs() < 1e-5);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct ShearBuilding {
+    width: f64,
+    base_mass: f64,
+    base_inertia: f64,
+    pub(super) storeys: Vec<Storey>,
+    /// First tangent of the law that replaces a storey's stiffness.
+    pub(super) tangents: Vec<Option<f64>>,
+    /// The laws, as springs that deform by the drifts of their storeys.
+    pub(super) springs: HystereticSprings,
+    /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
+    pub(super) isolated: bool,
+    center: f64,
+    stiffness_damping: f64,
+    gravity: f64,
+}
+
+short_debug! { ShearBuilding; self; storeys: self.storeys, laws: self.springs.len() }
+
+impl ShearBuilding {
+    // Degrees of freedom of the base; the floors follow.
+    const BASE_HORIZONTAL: usize = 0;
+    const BASE_VERTICAL: usize = 1;
+    const BASE_ROTATION: usize = 2;
+
+    /// Building on a rigid base, with storeys listed from below.
+    ///
+    /// The base has `width` (m), mass (kg/m) and rotary inertia about the middle of its underside (kg m²/m). The
+    /// columns of the first storey stand at height 0.
+    ///
+    /// # Errors
+    /// [`Error::Size`](crate::Error::Size) without storeys; [`Error::Input`](crate::Error::Input) unless width, base
+    /// mass and each storey's height, mass and stiffness are positive and inertias and dashpots not negative, or when
+    /// nothing resists rotation.
+    pub fn new(width: f64, base_mass: f64, base_inertia: f64, storeys: &[Storey]) -> Result<Self> {
+        positive("width of the base", width)?;
+        positive("mass of the base", base_mass)?;
+        not_negative("rotary inertia of the base", base_inertia)?;
+        at_least("storeys", storeys.len(), 1)?;
+        for storey in storeys {
+            positive("height of a storey", storey.height)?;
+            positive("mass of a floor", storey.mass)?;
+            not_negative("rotary inertia of a floor", storey.rotary_inertia)?;
+            positive("stiffness of a storey", storey.stiffness)?;
+            not_negative("damping of a storey", storey.damping)?;
+        }
+        let building = Self {
+            width,
+            base_mass,
+            base_inertia,
+            storeys: storeys.to_vec(),
+            tangents: vec![None; storeys.len()],
+            springs: HystereticSprings::default(),
+            isolated: false,
+            center: 0.0,
+            stiffness_damping: 0.0,
+            gravity: 0.0,
+        };
+        finite("mass of the building", building.total_mass())?;
+        let inertias = storeys.iter().map(|storey| storey.mass * storey.height.powi(2));
+        finite("rotary inertia of the building, by masses and heights", inertias.sum())?;
+        let stiffnesses = storeys.iter().map(|storey| storey.stiffness * storey.height.powi(2));
+        finite("stiffness in rotation, by storeys and heights", stiffnesses.sum())?;
+        positive("rotary inertia of base and floors", building.rotary_inertia())?;
+        Ok(building)
+    }
+
+    /// Moves the middle of the base to `center` (m) on the surface.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless it is finite.
+    pub fn centered_at(self, center: f64) -> Result<Self> {
+        Ok(Self { center: finite("middle of the base", center)?, ..self })
+    }
+
+    /// Adds stiffness-proportional damping with this ratio in the first fixed-base mode.
+    ///
+    /// It adds to the storeys' dashpots. In higher modes the ratio grows with the frequency: `ratio · f_n/f_1`.
+    /// Five equal storeys with 5 % in the first mode have 15 %, 23 %, 30 % and 34 % in the others, which damps the
+    /// upper floors' accelerations heavily. [`ModalDamping`](crate::structure::ModalDamping) sets the ratio of
+    /// each mode.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `ratio` is from 0 to below 1.
+    pub fn with_stiffness_damping(self, ratio: f64) -> Result<Self> {
+        damping_ratio("damping ratio", ratio)?;
+        let frequency = self.fixed_base_frequency();
+        positive("first frequency of the building, by masses and stiffnesses", frequency)?;
+        let stiffness_damping = ratio / (PI * frequency);
+        finite("stiffness-proportional damping", stiffness_damping)?;
+        Ok(Self { stiffness_damping, ..self })
+    }
+
+    /// Adds the P–Δ effect of the floors' weight.
+    ///
+    /// Columns do not shorten, so they lower the weight above by `(u_j − u_(j−1))²/(2 h_j)`. This reduces the
+    /// stiffness of a storey that carries the weight W by W/h.
+    ///
+    /// # Errors
+    /// [`Error::Input`](crate::Error::Input) unless `gravity` (m/s²) is finite and not negative and every storey
+    /// stands: the height of its columns must be above W/k, at which they would buckle. k is the storey's
+    /// stiffness, or the first tangent of its law.
+    pub fn with_p_delta(self, gravity: f64) -> Result<Self> {
+        let building = Self { gravity: not_negative("acceleration of gravity", gravity)?, ..self };
+        (0..building.storeys.len()).try_for_each(|storey| building.carries_its_weight(storey))?;
+        Ok(building)
+    }
+
+    /// The storeys, from below.
+    #[doc(hidden)]
+    pub fn storeys(&self) -> &[Storey] {
+        &self.storeys
+    }
+
+    /// Mass of base and floors, kg per metre of thickness.
+    pub fn total_mass(&self) -> f64 {
+        self.base_mass + self.storeys.iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    /// Index of the horizontal displacement of the floor on top of `storey`.
+    ///
+    /// Storeys count from 0, the lowest.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
+    pub fn floor(&self, storey: usize) -> Result<usize> {
+        Ok(in_bounds("storey", storey, self.storeys.len())? + 3)
+    }
+
+    /// Index of the horizontal displacement of the highest floor.
+    pub fn roof(&self) -> usize {
+        self.storeys.len() + 2
+    }
+
+    /// Drift of `storey` (0: the lowest): `u_j − u_(j−1) + h_j θ`.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
+    pub fn drift(&self, storey: usize) -> Result<DofCombination> {
+        self.floor(storey)?;
+        Ok(self.drift_terms(storey).into())
+    }
+
+    /// Displacement of the floor on `storey` minus the base's rigid motion there.
+    ///
+    /// `u_j − u_x + H_j θ` with the height `H_j` of the floor: the sum of the drifts below. Storeys count from 0.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
+    pub fn total_drift(&self, storey: usize) -> Result<DofCombination> {
+        let floor = self.floor(storey)?;
+        let height = self.storeys[..=storey].iter().map(|storey| storey.height).sum();
+        Ok([(floor, 1.0), (Self::BASE_HORIZONTAL, -1.0), (Self::BASE_ROTATION, height)].into())
+    }
+
+    /// Horizontal force of the floor on top of `storey` on the part below, N.
+    ///
+    /// Positive to the right: the base shear for storey 0. It acts through the columns or isolators. With P–Δ it
+    /// is the horizontal part of the columns' force, including −P/h times the floors' relative displacement. The
+    /// force of a law is not a weighted sum of displacements. In a storey that follows a law, the force is therefore
+    /// computed from the inertia of the floors above, which is exact for any law; with the midpoint rule it is
+    /// then the mean over the step.
+    ///
+    /// # Errors
+    /// [`Error::Index`](crate::Error::Index) when there is no such storey.
+    pub fn shear(&self, storey: usize) -> Result<SectionRows> {
+        self.floor(storey)?;
+        if self.tangents[storey].is_some() {
+            let floors = self.storeys.iter().enumerate().skip(storey);
+            let acceleration = floors.map(|(index, floor)| (index + 3, -floor.mass)).collect();
+            return Ok(SectionRows { acceleration, ..SectionRows::default() });
+        }
+        let Storey { height, stiffness, .. } = self.storeys[storey];
+        let scaled = |factor: f64| self.drift_terms(storey).map(|(index, w)| (index, factor * w));
+        let mut displacement = scaled(stiffness);
+        if self.gravity > 0.0 {
+            let sway = self.weight_on(storey) / height;
+            // The first two entries of a drift are the floors' relative displacement.
+            for entry in displacement.iter_mut().zip(Self::sway_row(storey)) {
+                entry.0.1 -= sway * entry.1.1;
+            }
+        }
+        let velocity = scaled(self.dashpot(storey)).into();
+        Ok(SectionRows { displacement: displacement.into(), velocity, ..SectionRows::default() })
+    }
+
+    /// Frequency of the first mode on a fixed base, without P–Δ, Hz.
+    pub fn fixed_base_frequency(&self) -> f64 {
+        let mut shape = vec![1.0; self.storeys.len()];
+        let mut square = 0.0;
+        // Inverse iteration: the shape under the inertia forces of the last shape. The limit only matters for
+        // nearly equal frequencies, where the quotient is accurate long before.
+        for _ in 0..10_000 {
+            let mut shear: f64 = self.inertia_forces(&shape).sum();
+            let mut sway = 0.0;
+            let mut next = Vec::with_capacity(shape.len());
+            for (storey, force) in self.storeys.iter().zip(self.inertia_forces(&shape)) {
+                sway += shear / storey.stiffness;
+                shear -= force;
+                next.push(sway);
+            }
+            let work: f64 = self.inertia_forces(&shape).zip(&next).map(|(f, u)| f * u).sum();
+            let inertia: f64 = self.inertia_forces(&next).zip(&next).map(|(f, u)| f * u).sum();
+            let quotient = work / inertia;
+            let change = (quotient - square).abs();
+            square = quotient;
+            shape = next.iter().map(|u| u / sway).collect();
+            if change <= 1e-15 * quotient {
+                break;
+            }
+        }
+        square.sqrt() / TAU
+    }
+
+    fn inertia_forces<'a>(&'a self, shape: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.storeys.iter().zip(shape).map(|(storey, u)| storey.mass * u)
+    }
+
+    /// `u_j − u_(j−1)`, including the part caused by the base's rotation.
+    fn sway_row(storey: usize) -> [(usize, f64); 2] {
+        let below = if storey == 0 { Self::BASE_HORIZONTAL } else { storey + 2 };
+        [(storey + 3, 1.0), (below, -1.0)]
+    }
+
+    /// Terms of the drift of a storey that exists.
+    fn drift_terms(&self, storey: usize) -> [(usize, f64); 3] {
+        let sway = Self::sway_row(storey);
+        [sway[0], sway[1], (Self::BASE_ROTATION, self.storeys[storey].height)]
+    }
+
+    /// Weight that the columns of `storey` carry, N.
+    fn weight_on(&self, storey: usize) -> f64 {
+        self.gravity * self.storeys[storey..].iter().map(|storey| storey.mass).sum::<f64>()
+    }
+
+    /// Error unless the columns of a storey carry the weight above.
+    ///
+    /// On a fixed base K is a chain of storeys, positive definite if every link k − W/h is positive.
+    pub(super) fn carries_its_weight(&self, storey: usize) -> Result<()> {
+        let Storey { height, stiffness, .. } = self.storeys[storey];
+        let stiffness = self.tangents[storey].unwrap_or(stiffness);
+        let carries = self.gravity == 0.0
+            || self.isolated && storey == 0
+            || stiffness * height > self.weight_on(storey);
+        let needed = "above W/k, the weight it carries over its stiffness: its columns buckle";
+        require("height of a storey with P–Δ", height, carries, needed).map(drop)
+    }
+
+    /// Adds the curvature of the weight's potential.
+    ///
+    /// Columns lower the weight by half the square of the floors' relative displacement over their height. Isolators
+    /// are no columns: a slider moves along the plane of the rotated base, which lifts the weight W by d θ − h θ²/2 for
+    /// a drift d at the height h. The term in d² is part of the law: W/R, or rubber as measured under its load.
+    fn add_p_delta(&self, matrix: &mut Triplets) {
+        for (index, storey) in self.storeys.iter().enumerate().filter(|_| self.gravity > 0.0) {
+            let weight = self.weight_on(index);
+            if self.isolated && index == 0 {
+                for (dof, sign) in Self::sway_row(0) {
+                    matrix.add(dof, Self::BASE_ROTATION, sign * weight);
+                    matrix.add(Self::BASE_ROTATION, dof, sign * weight);
+                }
+                // d = u_1 − u_0 + h θ, so d θ contains another h θ².
+                matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, weight * storey.height);
+            } else {
+                matrix.add_outer(Self::sway_row(index), -weight / storey.height);
+            }
+        }
+    }
+
+    fn rotary_inertia(&self) -> f64 {
+        self.base_inertia + self.storeys.iter().map(|storey| storey.rotary_inertia).sum::<f64>()
+    }
+
+    /// The storey's dashpot, plus the stiffness-proportional damping of its columns.
+    ///
+    /// The latter uses the stiffness in [`Storey`], even if a law replaces it. Isolators have none.
+    fn dashpot(&self, storey: usize) -> f64 {
+        let Storey { stiffness, damping, .. } = self.storeys[storey];
+        let isolates = self.isolated && storey == 0;
+        damping + if isolates { 0.0 } else { self.stiffness_damping * stiffness }
+    }
+
+    /// Adds lᵀl of each storey's drift times `factor(storey)`.
+    fn add_drifts(&self, matrix: &mut Triplets, factor: impl Fn(usize) -> f64) {
+        for storey in 0..self.storeys.len() {
+            matrix.add_outer(self.drift_terms(storey), factor(storey));
+        }
+    }
+}
+
+impl Structure for ShearBuilding {
+    fn dofs(&self) -> usize {
+        3 + self.storeys.len()
+    }
+
+    fn description(&self) -> crate::structure::StructureDescription {
+        crate::structure::StructureDescription::of_storeys(
+            self.storeys.iter().map(|storey| storey.height),
+        )
+    }
+
+    fn base(&self) -> Base {
+        let left = self.center - 0.5 * self.width;
+        let right = self.center + 0.5 * self.width;
+        let dofs = [Self::BASE_HORIZONTAL, Self::BASE_VERTICAL, Self::BASE_ROTATION];
+        BaseNode::rigid_base(left, right, dofs).into()
+    }
+
+    fn mass(&self, matrix: &mut Triplets) -> Result<()> {
+        matrix.add(Self::BASE_HORIZONTAL, Self::BASE_HORIZONTAL, self.base_mass);
+        matrix.add(Self::BASE_VERTICAL, Self::BASE_VERTICAL, self.total_mass());
+        matrix.add(Self::BASE_ROTATION, Self::BASE_ROTATION, self.rotary_inertia());
+        for (index, storey) in self.storeys.iter().enumerate() {
+            matrix.add(index + 3, index + 3, storey.mass);
+        }
+        Ok(())
+    }
+
+    fn stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add_drifts(matrix, |storey| {
+            if self.tangents[storey].is_some() { 0.0 } else { self.storeys[storey].stiffness }
+        });
+        self.geometric_stiffness(matrix)
+    }
+
+    fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add_p_delta(matrix);
+        Ok(())
+    }
+
+    fn damping(&self, matrix: &mut Triplets) -> Result<()> {
+        self.add_drifts(matrix, |storey| self.dashpot(storey));
+        Ok(())
+    }
+
+    fn nonlinear(&self) -> Option<&dyn NonlinearForce> {
+        self.springs.nonlinear()
+    }
+
+    fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce> {
+        self.springs.nonlinear_mut()
+    }
+}

@@ -1,0 +1,196 @@
+//! Forces and moments of a model's shells as weighted sums of its degrees of freedom.
+
+use std::any::Any;
+use std::collections::BTreeMap;
+
+use crate::error::{Error, Result, in_bounds};
+use crate::fem::{Element, Mesh, Shell, ShellResultants};
+use crate::structure::{FemModel, SectionRows};
+
+/// Forces and moments of shells per metre at a node, as rows over displacements.
+///
+/// A `Probe::section` records one of them at every step, as a change from the
+/// static state. The static part is the row's value for
+/// `Simulation::static_displacement`. The rows contain the elastic forces,
+/// without damping.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShellRows {
+    /// The node.
+    pub node: usize,
+    /// Axes e1, e2, n of the resultants as rows, the means of the elements' axes.
+    pub axes: [[f64; 3]; 3],
+    /// Membrane forces n_11, n_22, n_12, N/m; tension is positive.
+    pub membrane: [SectionRows; 3],
+    /// Moments m_11, m_22, m_12, Nm/m; positive with tension on the side of −n.
+    pub moments: [SectionRows; 3],
+    /// Shear forces q_1, q_2, N/m: on a section whose outward normal is e1 or e2, along n.
+    pub shears: [SectionRows; 2],
+}
+
+impl ShellRows {
+    /// The resultants for these values of all degrees of freedom.
+    ///
+    /// Degrees of freedom beyond the end of `displacement` count as zero, as for [`SectionRows::value`];
+    /// [`FemModel::shell_resultants`] checks the number.
+    pub fn value(&self, displacement: &[f64]) -> ShellResultants {
+        let value = |rows: &SectionRows| rows.displacement.value(displacement);
+        ShellResultants {
+            axes: self.axes,
+            membrane: self.membrane.each_ref().map(value),
+            moments: self.moments.each_ref().map(value),
+            shears: self.shears.each_ref().map(value),
+        }
+    }
+}
+
+impl FemModel {
+    /// Forces and moments of a shell at its nodes, in its own axes.
+    ///
+    /// As [`Shell::resultants`]. `element`: index of the shell, from [`Mesh::add`]. `displacement` holds all degrees
+    /// of freedom. `State::displacement` gives changes from the static state.
+    ///
+    /// # Errors
+    /// [`Error::Index`] when there is no such element, [`Error::Part`] when it is another one than a [`Shell`],
+    /// [`Error::Size`] for a displacement of another length, [`Error::NotFinite`] for one that is not finite.
+    pub fn shell_resultants(
+        &self,
+        element: usize,
+        displacement: &[f64],
+    ) -> Result<Vec<ShellResultants>> {
+        let shell = shell(&self.mesh, element)?;
+        let shell_displacement = self.element_displacements(shell, displacement)?;
+        shell.resultants(&self.mesh.coordinates(shell.nodes()), &shell_displacement)
+    }
+
+    /// Rows of the forces and moments at every node of some shells, in ascending order of nodes.
+    ///
+    /// At each node they are means over the given shells. Give the shells of one mat or one wall: where it meets
+    /// another, the moments differ. `elements` are indices from [`Mesh::add`].
+    ///
+    /// `axes` returns [along, outward] at a place [x, y, z]: e1 is the part of `along` in the plane of a shell, and
+    /// the normal n is on the side of `outward`, as for [`ShellResultants::in_axes`].
+    ///
+    /// ```
+    /// use basemat::coupled::Probe;
+    /// use basemat::fem::{Direction, Material, Mesh, Shell};
+    /// use basemat::structure::FemModel;
+    ///
+    /// let concrete = Material::new(30.0e9, 0.2, 2500.0)?;
+    /// let mut mesh = Mesh::in_space();
+    /// let grid = mesh.add_grid(3, 5, |row, column| [column as f64, row as f64, 0.0])?;
+    /// let mut mat = Vec::new();
+    /// for (_, cell) in grid.cells() {
+    ///     mat.push(mesh.add(Shell::new(cell, concrete, 0.8)?)?);
+    /// }
+    /// let model = FemModel::on_base(mesh)?;
+    /// let rows = model.shell_rows(&mat, |_| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])?;
+    /// let middle = model.mesh().node_at_point([2.0, 1.0, 0.0])?;
+    /// let node_rows = rows.iter().find(|rows| rows.node == middle).unwrap();
+    /// // Tension below is positive.
+    /// let probe = Probe::section("moment along x", &node_rows.moments[0]);
+    /// assert_eq!(probe.unit, "N·m/m");
+    /// // The largest moment in the mat in any direction, for any displacement.
+    /// let rest = model.rigid_motion(Direction::Z, [0.0; 3]);
+    /// let moments = rows.iter().flat_map(|rows| rows.value(&rest).principal_moments());
+    /// assert!(moments.fold(0.0, |largest: f64, moment| largest.max(moment.abs())) < 1e-3);
+    /// # Ok::<(), basemat::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`shell_resultants`](FemModel::shell_resultants) and [`ShellResultants::in_axes`].
+    pub fn shell_rows(
+        &self,
+        elements: &[usize],
+        axes: impl Fn([f64; 3]) -> [[f64; 3]; 2],
+    ) -> Result<Vec<ShellRows>> {
+        let mut sums: BTreeMap<usize, Sum> = BTreeMap::new();
+        let mut indices = Vec::new();
+        for &element in elements {
+            let shell = shell(&self.mesh, element)?;
+            let points = self.mesh.coordinates(shell.nodes());
+            self.numbering.of_element(shell, &mut indices);
+            let mut unit = vec![0.0; indices.len()];
+            for (k, &dof) in indices.iter().enumerate() {
+                unit[k] = 1.0;
+                let all = shell.resultants(&points, &unit)?;
+                unit[k] = 0.0;
+                let nodes = shell.nodes().iter().zip(&points);
+                for ((&node, &point), resultants) in nodes.zip(&all) {
+                    let [along, outward] = axes(point);
+                    let turned = resultants.in_axes(along, outward);
+                    let turned = turned.map_err(|fault| fault.within(item(element)))?;
+                    sums.entry(node).or_default().add(k == 0, dof, &turned);
+                }
+            }
+        }
+        Ok(sums.into_iter().map(|(node, sum)| self.mean_rows(node, sum)).collect())
+    }
+
+    /// Means of the resultants at a node, by the remaining degrees of freedom.
+    fn mean_rows(&self, node: usize, sum: Sum) -> ShellRows {
+        let count = sum.count;
+        let mut means = sum.rows.into_iter().map(|row| {
+            self.remaining_row(row.into_iter().map(|(dof, value)| (dof, value / count)).collect())
+        });
+        let mut next = |unit| SectionRows {
+            unit,
+            displacement: means.next().unwrap_or_default(),
+            ..SectionRows::default()
+        };
+        ShellRows {
+            node,
+            axes: ShellResultants::mean_axes(sum.axes),
+            membrane: ["N/m"; 3].map(&mut next),
+            moments: ["N·m/m"; 3].map(&mut next),
+            shears: ["N/m"; 2].map(&mut next),
+        }
+    }
+}
+
+/// Sums over the shells at a node.
+#[derive(Default)]
+struct Sum {
+    /// Number of shells.
+    count: f64,
+    axes: [[f64; 3]; 3],
+    /// Values of the resultants by each degree of freedom of the mesh.
+    rows: [BTreeMap<usize, f64>; 8],
+}
+
+impl Sum {
+    /// Adds the resultants of a shell for a unit displacement, and the shell itself with the first one.
+    fn add(&mut self, is_first: bool, dof: usize, resultants: &ShellResultants) {
+        if is_first {
+            self.count += 1.0;
+            let components = resultants.axes.iter().flatten();
+            for (sum, value) in self.axes.iter_mut().flatten().zip(components) {
+                *sum += value;
+            }
+        }
+        for (row, value) in self.rows.iter_mut().zip(resultants.values()) {
+            if value != 0.0 {
+                *row.entry(dof).or_insert(0.0) += value;
+            }
+        }
+    }
+}
+
+/// The shell of this index.
+fn shell(mesh: &Mesh, element: usize) -> Result<&Shell> {
+    in_bounds("element", element, mesh.elements().len())?;
+    let shell = mesh.elements().nth(element).and_then(as_shell);
+    shell.ok_or_else(|| Error::part(item(element), "it is not a shell"))
+}
+
+/// The element as a shell, also from a box.
+fn as_shell(element: &dyn Element) -> Option<&Shell> {
+    let any: &dyn Any = element;
+    match any.downcast_ref::<Box<dyn Element>>() {
+        Some(inner) => as_shell(inner.as_ref()),
+        None => any.downcast_ref(),
+    }
+}
+
+fn item(element: usize) -> String {
+    format!("element {element}")
+}

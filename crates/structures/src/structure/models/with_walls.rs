@@ -1,0 +1,85 @@
+//! A structure whose rigid base has walls up to the surface.
+
+use crate::error::{Error, Result, positive};
+use crate::structure::{Base, BaseNode, NonlinearForce, Structure, StructureDescription, Triplets};
+
+/// Structure in the ground: its rigid base lies at a depth and has walls up to the surface.
+///
+/// The structure is the same as on the surface: its heights count from the base. The ground is a
+/// `TrenchGround` of this width and depth. A structure whose base bends lists the
+/// nodes of base and walls itself: down the left wall, along the base, up the right wall.
+///
+/// ```
+/// use basemat::structure::{RigidBlock, Structure, WithWalls};
+///
+/// let block = WithWalls::new(RigidBlock::new(12.0, 20.0, 900.0)?, 5.0)?;
+/// let base = block.base();
+/// let places: Vec<_> = base.nodes().map(|node| [node.x, node.z]).collect();
+/// assert_eq!(places, [[-6.0, 0.0], [-6.0, -5.0], [6.0, -5.0], [6.0, 0.0]]);
+/// // The upper end of a wall moves by u_x − 5 θ.
+/// let turned = base.nodes().next().unwrap().horizontal.value(&[0.0, 0.0, 1.0]);
+/// assert!((turned + 5.0).abs() < 1e-14);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+pub struct WithWalls {
+    structure: Box<dyn Structure>,
+    nodes: Vec<BaseNode>,
+}
+
+short_debug! { WithWalls; self; dofs: self.structure.dofs(), nodes: self.nodes.len() }
+
+impl WithWalls {
+    /// Puts the base of `structure` at a `depth`, m.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a depth that is not positive; [`Error::Scene`] for a base that is in plan, has several
+    /// foundations, walls already, or can bend.
+    pub fn new(structure: impl Structure + 'static, depth: f64) -> Result<Self> {
+        positive("depth of the base", depth)?;
+        let refused = Error::Scene {
+            quantity: "structure",
+            needed: "one rigid base in the plane, on the surface",
+        };
+        let Base::Lines(mut lines) = structure.base() else { return Err(refused) };
+        let Some(mut nodes) = lines.pop().filter(|line| lines.is_empty() && line.len() > 1) else {
+            return Err(refused);
+        };
+        if !BaseNode::are_flat(&nodes) || nodes.iter().any(|node| node.z != 0.0) {
+            return Err(refused);
+        }
+        let first = nodes[0].clone();
+        let last = nodes[nodes.len() - 1].clone();
+        let rotation =
+            (1.0 / (last.x - first.x)) * (last.vertical.clone() - first.vertical.clone());
+        for node in &mut nodes {
+            node.z = -depth;
+        }
+        let left_top = first.horizontal - depth * rotation.clone();
+        let right_top = last.horizontal - depth * rotation;
+        nodes.insert(0, BaseNode { horizontal: left_top, ..first });
+        nodes.push(BaseNode { horizontal: right_top, ..last });
+        Ok(Self { structure: Box::new(structure), nodes })
+    }
+}
+
+impl Structure for WithWalls {
+    forward! {
+        self.structure;
+        fn dofs(&self) -> usize;
+        fn mass(&self, matrix: &mut Triplets) -> Result<()>;
+        fn stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn geometric_stiffness(&self, matrix: &mut Triplets) -> Result<()>;
+        fn damping(&self, matrix: &mut Triplets) -> Result<()>;
+        fn has_active_damping(&self) -> bool;
+        fn has_active_stiffness(&self) -> bool;
+        fn description(&self) -> StructureDescription;
+        fn describe(&self, dofs: &[usize]) -> Option<String>;
+        fn load(&self, time: f64, load: &mut [f64]) -> Result<()>;
+        fn nonlinear(&self) -> Option<&dyn NonlinearForce>;
+        fn nonlinear_mut(&mut self) -> Option<&mut dyn NonlinearForce>;
+    }
+
+    fn base(&self) -> Base {
+        self.nodes.clone().into()
+    }
+}
