@@ -337,7 +337,7 @@ impl PySimulation {
         let duration = duration.or(self.duration).ok_or_else(|| input_error(needed))?;
         take_exception();
         let found = py.detach(|| {
-            step_result(basemat::coupled::interaction(duration, || {
+            step_result(basemat::analyses::interaction(duration, || {
                 let parts = Python::attach(|py| self.parts.builder_parts(py));
                 parts.map(|parts| parts.builder).map_err(|error| user_code_error("scene", error))
             }))

@@ -283,7 +283,7 @@ impl SimulationBuilder {
     ///
     /// Codes and fixed-base models assume this. Ground and interface law are ignored, except for the places of the
     /// contact elements; base shear, moment and tractions then act on the support.
-    /// [`interaction`](crate::coupled::interaction()) compares the run with the run on the ground.
+    /// [`interaction`](crate::analyses::interaction()) compares the run with the run on the ground.
     ///
     /// ```
     /// use basemat::bem::ElasticGround;
