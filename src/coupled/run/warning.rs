@@ -148,19 +148,6 @@ pub enum Warning {
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         axis: Option<char>,
     },
-    /// Triangles of a doubly curved thin shell with sides above √(R t), for the radius R and the thickness t.
-    ///
-    /// Their membrane resists bending. The load points of a pinched hemisphere move by 0.93 of their displacement with
-    /// sides of 1.4 √(R t), and by half of it with 2.8 √(R t).
-    #[error(
-        "triangles of {side:.2} m are too stiff on a doubly curved thin shell: take quadrilaterals, or sides of {longest:.2} m"
-    )]
-    LongTriangles {
-        /// Mean side of the triangles, m.
-        side: f64,
-        /// √(R t), m.
-        longest: f64,
-    },
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.
@@ -184,20 +171,6 @@ pub enum Warning {
         checked: usize,
         /// All cells.
         cells: usize,
-    },
-    /// Coarse cells at an outline oblique to them make the rocking stiffness of a mat wrong by more than 1 %.
-    ///
-    /// The error is estimated from the length of oblique edges, the area and the cells. The vertical stiffness has about
-    /// a fourth of it.
-    #[error(
-        "rocking stiffness off by about {:.1} %: outline oblique to the cells; take {factor:.1} times as many cells",
-        100.0 * error
-    )]
-    ObliqueOutline {
-        /// Estimated relative error of the rocking stiffness.
-        error: f64,
-        /// Multiple of the cells along a side with an error of 1 %.
-        factor: f64,
     },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
     ///
