@@ -75,9 +75,12 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         made: f64,
     },
-    /// The base shear vibrates with a period that the time step does not resolve.
-    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, period {period:.2e} s; \
-         take {needed:.1e} s", 100.0 * error)]
+    /// The base shear vibrates with a period that the time step does not resolve: fewer than twelve steps a period.
+    ///
+    /// Five steps are enough where the base shear follows the ground. [`refine`](crate::analyses::refine()) finds the error.
+    #[error(
+        "steps of {time_step:.2e} s for a base shear of period {period:.2e} s: take {needed:.1e} s"
+    )]
     UnresolvedPeriod {
         /// Root-mean-square period of the base shear, s.
         period: f64,
@@ -85,14 +88,11 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated relative error of the largest base shear, from frequencies alone.
-        ///
-        /// In nine cases of ten it is at least half the true error. A run with half the step shows the true one.
-        error: f64,
     },
-    /// Ground and base shear vary faster than the time step resolves.
-    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, ground {frequency:.3} Hz; \
-         take {needed:.1e} s", 100.0 * error)]
+    /// Ground and base shear vary faster than the time step resolves: fewer than five steps a period.
+    #[error(
+        "steps of {time_step:.2e} s for a ground motion of {frequency:.3} Hz: take {needed:.1e} s"
+    )]
     UnresolvedMotion {
         /// Root-mean-square frequency of the ground acceleration, Hz.
         frequency: f64,
@@ -100,8 +100,6 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated relative error of the largest base shear: see [`UnresolvedPeriod`](Self::UnresolvedPeriod).
-        error: f64,
     },
     /// In plan, shear waves cross the base of a vibrating body in less than four steps.
     ///
