@@ -339,7 +339,6 @@ impl Ground for ElasticGround {
         GroundDescription {
             soils: self.profile().soils().map(|(soil, _)| soil).collect(),
             sampled_cells: self.source.plan.as_ref().and_then(passivity_sample),
-            outline_error: self.source.plan.as_ref().map_or(0.0, Plan::outline_error),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

@@ -71,6 +71,7 @@ pub struct SimulationBuilder {
     pub(crate) rotation_limit: f64,
     /// Whether the base is held instead of standing on the ground.
     pub(crate) held: bool,
+    pub(crate) label: String,
     pub(crate) observer: Box<dyn FnMut(Progress) -> ControlFlow<()> + Send>,
 }
 
@@ -112,6 +113,7 @@ impl SimulationBuilder {
             serviceability: Serviceability::default(),
             rotation_limit: ROTATION_LIMIT,
             held: false,
+            label: String::new(),
             observer: Box::new(unobserved),
         }
     }

@@ -49,6 +49,8 @@ pub(crate) struct Scene {
     /// Number of the gravity stage, and sums over the initial displacement and velocity, for comparison with a
     /// checkpoint.
     pub(crate) start: [f64; 3],
+    /// The builder's label, for comparison with a checkpoint.
+    pub(crate) label: String,
     /// Shared data for results of the scene's states.
     pub(crate) context: Arc<Context>,
 }
@@ -122,6 +124,7 @@ impl Scene {
                 mixed(&given.displacement),
                 mixed(&given.velocity),
             ],
+            label: std::mem::take(&mut given.label),
             context: Arc::new(context),
             model,
             base,

@@ -2,9 +2,9 @@
 //! SCENE: a block on a law that is never content with steps longer than some limit.
 //! REFERENCE: the limit.
 
+use basemat::analyses::largest_convergent_step;
 use basemat::bem::SpringGround;
 use basemat::coupled::StepError;
-use basemat::coupled::largest_convergent_step;
 use basemat::interface::{Coulomb, Mode, PreviousContact};
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
@@ -31,7 +31,7 @@ fn scene(step: f64, limit: f64) -> Result<Simulation> {
 fn the_longest_step_that_gets_through_is_found() {
     let error = scene(0.02, 0.003).unwrap().run(10, |_| {}).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Step { source: StepError::Contact { .. }, .. }), "{error}");
-    assert!(error.to_string().contains("`coupled::largest_convergent_step`"), "{error}");
+    assert!(error.to_string().contains("`analyses::largest_convergent_step`"), "{error}");
     for (limit, wanted) in [(0.02, Some(0.02)), (0.003, Some(0.0025)), (1e-6, None)] {
         let mut tried = 0;
         let found = largest_convergent_step(0.02, 0.1, |step| {

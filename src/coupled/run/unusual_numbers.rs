@@ -53,8 +53,6 @@ const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
 const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
 const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
-/// Largest height of a storey, m.
-const MAX_STOREY_HEIGHT: f64 = 100.0;
 /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
 const GRAVITIES: [f64; 2] = [1.5, 30.0];
 /// Time steps per mean period of a record that a warning recommends, and per period of a structure.
@@ -118,7 +116,6 @@ impl Warning {
         if is_to_scale {
             warnings.extend(Self::of_weight(weight, soils, scene.base.elements().has_walls()));
         }
-        warnings.extend(Self::of_triangles(description.triangle_sides));
         warnings.extend(Self::of_faces_off_ground(description.faces_off_ground));
     }
 
@@ -158,8 +155,6 @@ impl Warning {
             weak.reduce(f64::min)
                 .map(|strength| Self::Mistake(Mistake::WeakBond { strength, pressure })),
         );
-        let tall = description.tallest_storey.filter(|height| *height > MAX_STOREY_HEIGHT);
-        warnings.extend(tall.map(|height| Self::Mistake(Mistake::TallStorey { height })));
         let densities = description.densities.into_iter().flatten();
         let unusual = densities.filter(|density| !within(MATERIAL_DENSITIES, *density));
         warnings.extend(

@@ -61,8 +61,6 @@ pub use mesh::Mesh;
 pub use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
-#[doc(hidden)]
-pub use shell::triangle_sides;
 pub use shell::{Shell, ShellResultants};
 pub use spring::{Dashpot, Spring};
 pub use truss::Truss;

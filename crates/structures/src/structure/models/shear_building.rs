@@ -350,12 +350,6 @@ impl Structure for ShearBuilding {
         3 + self.storeys.len()
     }
 
-    fn description(&self) -> crate::structure::StructureDescription {
-        crate::structure::StructureDescription::of_storeys(
-            self.storeys.iter().map(|storey| storey.height),
-        )
-    }
-
     fn base(&self) -> Base {
         let left = self.center - 0.5 * self.width;
         let right = self.center + 0.5 * self.width;

@@ -5,9 +5,7 @@ use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
 use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, HystereticSprings};
-use crate::structure::{
-    Base, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
-};
+use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
@@ -319,10 +317,6 @@ fn sway([lower, upper]: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
 impl Structure for StoreyBuilding {
     fn dofs(&self) -> usize {
         6 + 3 * self.storeys.len()
-    }
-
-    fn description(&self) -> StructureDescription {
-        StructureDescription::of_storeys(self.storeys.iter().map(|storey| storey.height))
     }
 
     fn base(&self) -> Base {

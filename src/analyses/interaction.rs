@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-use crate::coupled::free_vibration::{FixedBaseMode, free_vibration};
-use crate::coupled::parts::SimulationBuilder;
+use crate::analyses::free_vibration::{FixedBaseMode, free_vibration};
+use crate::coupled::SimulationBuilder;
 use crate::coupled::run::quantity::ShownIn;
-use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
+use crate::results::{Extremes, Quantity, Run};
 use crate::text::readable_number::{number, of_body, printed};
 use crate::text::table::Table;
 
@@ -74,8 +74,9 @@ pub struct Interaction {
 /// series confirm the period: T̃/T = √(1 + k/k_x + k h²/k_θ).
 ///
 /// ```
+/// use basemat::analyses::interaction;
 /// use basemat::bem::ElasticGround;
-/// use basemat::coupled::{Probe, interaction};
+/// use basemat::coupled::Probe;
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::results::Quantity;

@@ -10,10 +10,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::coupled::gravity_stage::GravityStage;
-use crate::coupled::model::load::Load;
-use crate::coupled::parts::SimulationBuilder;
-use crate::coupled::scheme::Midpoint;
+use crate::coupled::{GravityStage, Load, Midpoint, SimulationBuilder};
 use crate::error::{Error, Result};
 use crate::interface::Bonded;
 use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
