@@ -8,6 +8,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::statics::compliance::{
     Compliance, Floating, PROXIMAL_SPRING_FRACTION, STATIC_STIFFNESS_NAME, springs,
 };
+use crate::coupled::statics::convergence::{Measure, extrapolation, has_converged, rounding};
 use crate::coupled::statics::static_state::StaticState;
 use crate::error::{Error, Result, StepError};
 use crate::interface::{ContactState, InterfaceLaw, PreviousContacts};
@@ -20,32 +21,16 @@ const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
 const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 /// Largest number of proximal iterations.
 const MAX_PROXIMAL_ITERATIONS: usize = 500;
-/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding
-/// lets a very stiff structure converge no further.
-const LATE_ITERATION_COUNT: usize = 100;
-const LATE_CHANGE: f64 = 1e-8;
-/// Largest unbalanced force of a steady drift, relative to the load.
-const STEADY_DRIFT_TOLERANCE: f64 = 1e-8;
 /// Softest springs, as a fraction of their initial stiffness.
 const MIN_SPRING_FRACTION: f64 = 1e-9;
 /// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
-/// than [`SPRING_FORCE_ROUNDING`] of the load: a structure far softer than the ground deforms only slowly against springs that
+/// than `SPRING_FORCE_ROUNDING` of the load: a structure far softer than the ground deforms only slowly against springs that
 /// are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
 /// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
-/// Force of the springs, relative to the load, below which rounding may stop its decrease.
-const SPRING_FORCE_ROUNDING: f64 = 1e-6;
-/// Iterations after which only a slow decrease that the condition explains counts as rounding. Even a force below
-/// [`SPRING_FORCE_ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
-const ROUNDING_CHECK_ITERATION: usize = 20;
 /// Iterations on springs that must stay stiff (P–Δ) from one extrapolation to the next.
 const EXTRAPOLATION_INTERVAL: usize = 20;
-/// Smallest ratio of two successive steps from which they are extrapolated; with a smaller one they converge soon.
-const MIN_EXTRAPOLATED_RATIO: f64 = 0.5;
-/// Smallest squared cosine between two successive steps that are extrapolated.
-const COLLINEARITY_THRESHOLD: f64 = 0.9999;
-
 /// A structure on a soil at rest.
 pub(crate) struct Standing<'a> {
     pub(crate) assembled: &'a Assembled,
@@ -223,12 +208,12 @@ impl Standing<'_> {
     }
 
     /// The springs of the shared compliance, or the initial ones.
-    fn springs(&self) -> Result<Springs> {
+    fn springs(&self) -> Result<FictitiousSprings> {
         let stiffness = match &*self.shared.borrow() {
             Some(compliance) if self.assembled.linear => compliance.floating.springs,
             _ => springs(self.assembled, self.soil)?,
         };
-        Ok(Springs { stiffness, softest: MIN_SPRING_FRACTION * stiffness })
+        Ok(FictitiousSprings { stiffness, softest: MIN_SPRING_FRACTION * stiffness })
     }
 
     /// Compliance with springs stiff enough to hold a structure that leans without the ground.
@@ -238,7 +223,7 @@ impl Standing<'_> {
     /// multipliers), or rounding is the cause, they stay unchanged.
     fn stiffened(
         &self,
-        springs: &mut Springs,
+        springs: &mut FictitiousSprings,
         tangent: &SparseMatrix,
         initial_stiffness: f64,
     ) -> Result<Compliance> {
@@ -260,7 +245,7 @@ impl Standing<'_> {
         while stiffness <= MAX_STIFFENING_FACTOR * initial_stiffness {
             let stiffer = self.compliance(tangent, stiffness)?;
             if stiffer.floating.factor.is_positive_definite() {
-                *springs = Springs { stiffness, softest: stiffness };
+                *springs = FictitiousSprings { stiffness, softest: stiffness };
                 return Ok(stiffer);
             }
             stiffness *= 10.0;
@@ -276,14 +261,14 @@ impl Standing<'_> {
 }
 
 /// Fictitious springs ε M between two iterates.
-struct Springs {
+struct FictitiousSprings {
     /// ε.
     stiffness: f64,
     /// ε down to which the springs are softened.
     softest: f64,
 }
 
-impl Springs {
+impl FictitiousSprings {
     /// Force of the springs between two displacements.
     fn force(&self, assembled: &Assembled, to: &[f64], from: &[f64]) -> Vec<f64> {
         let moved = difference(to, from);
@@ -309,47 +294,6 @@ impl Springs {
 
 fn difference(to: &[f64], from: &[f64]) -> Vec<f64> {
     to.iter().zip(from).map(|(a, b)| a - b).collect()
-}
-
-/// Further steps to the limit of a geometric series with these two steps, in multiples of the last one (Aitken 1926).
-///
-/// Zero for steps that are no such series yet, grow, or become small quickly. Contact that opens on the way moves the limit
-/// further away, so that the series does not pass an equilibrium from which the structure falls over.
-fn extrapolation(mass: &SparseMatrix, before: &[f64], last: &[f64]) -> f64 {
-    if before.len() != last.len() {
-        return 0.0;
-    }
-    let square_before = mass.form(before, before);
-    let square_last = mass.form(last, last);
-    let product = mass.form(before, last);
-    let ratio = product / square_before;
-    let is_collinear = product * product > COLLINEARITY_THRESHOLD * square_before * square_last;
-    let is_series = product > 0.0 && is_collinear;
-    let is_slow = ratio > MIN_EXTRAPOLATED_RATIO && ratio < 1.0 - f64::EPSILON.sqrt();
-    if is_series && is_slow { ratio / (1.0 - ratio) } else { 0.0 }
-}
-
-/// Whether the last two forces of the springs show convergence.
-fn has_converged(previous: f64, change: f64, iterations: usize, current: &Compliance) -> bool {
-    // The force of the springs has the accuracy of the solution.
-    let has_stalled = change <= 1e-10 && change >= 0.5 * previous;
-    // A motion that nothing resists (a frictionless base along the ground) drifts for ever by the same amount under
-    // the rounding of the sums of K, a fraction that grows with its size.
-    let drifts = change <= STEADY_DRIFT_TOLERANCE && (change - previous).abs() <= 1e-3 * change;
-    if change <= 1e-13 || has_stalled || drifts {
-        return true;
-    }
-    iterations > LATE_ITERATION_COUNT
-        && change <= LATE_CHANGE
-        && change <= current.floating.condition() * f64::EPSILON
-}
-
-/// Force of the springs, relative to the load, that counts as rounding after so many iterations.
-fn rounding(iterations: usize, current: &Compliance) -> f64 {
-    match iterations {
-        0..ROUNDING_CHECK_ITERATION => SPRING_FORCE_ROUNDING,
-        _ => SPRING_FORCE_ROUNDING.min(current.floating.condition() * f64::EPSILON),
-    }
 }
 
 /// Relative force imbalance: K resists no translation, so tractions alone must carry the resultants of the load.
@@ -378,35 +322,4 @@ fn out_of_balance(
     let force = nonlinear_state(structure, &state.displacement)?.0;
     residual.iter_mut().zip(&force).for_each(|(r, f)| *r -= f);
     Ok(residual)
-}
-
-/// Size of a force relative to the load: each component over the square root of its mass, so that forces and
-/// moments compare in any units.
-struct Measure {
-    weights: Vec<f64>,
-    scale: f64,
-}
-
-impl Measure {
-    fn new(assembled: &Assembled, load: &[f64]) -> Self {
-        let mut weights = assembled.mass.diagonal();
-        for weight in &mut weights {
-            *weight = if *weight > 0.0 { weight.sqrt().recip() } else { 0.0 };
-        }
-        let weighted = weights.iter().zip(load).map(|(w, f)| w * f.abs());
-        let scale = weighted.fold(0.0_f64, f64::max);
-        if scale > 0.0 && scale.is_finite() {
-            return Self { weights, scale };
-        }
-        // Only massless degrees of freedom are loaded.
-        let weights = vec![1.0; load.len()];
-        Self { scale: largest(load).max(f64::MIN_POSITIVE), weights }
-    }
-
-    fn norm(&self, force: &[f64]) -> f64 {
-        let weighted = self.weights.iter().zip(force).map(|(w, f)| w * f.abs());
-        // Unlike `max`, the sum keeps NaN.
-        let sum: f64 = force.iter().sum();
-        if sum.is_finite() { weighted.fold(0.0, f64::max) / self.scale } else { f64::INFINITY }
-    }
 }
