@@ -17,7 +17,7 @@ use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::probe::Probe;
 use crate::structure::{
-    DofCombination, HeldBase, Structure, Triplets, mass_and_stiffness, stiffest,
+    DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
 /// Stiffness of the springs that hold the base, relative to the largest stiffness.
@@ -59,7 +59,7 @@ impl FixedBaseMode {
     /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
     pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
-        let [mass, stiffness] = mass_and_stiffness(structure)?;
+        let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure)?;
         let damping = SparseMatrix::assembled("damping matrix", &mut Triplets::new(n), &|m| {
             structure.damping(m)
         })?;

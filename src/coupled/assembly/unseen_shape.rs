@@ -35,7 +35,7 @@ pub(super) struct UnseenShape {
 /// A foundation without walls is one face.
 pub(super) fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
     base.foundations().enumerate().flat_map(|(foundation, (nodes, under))| {
-        let faces = ContactElement::faces(base.elements()).into_iter();
+        let faces = ContactElement::faces(base.elements()).in_order().into_iter();
         let parts = faces.map(move |face| face.start.max(under.start)..face.end.min(under.end));
         parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
     })

@@ -12,7 +12,7 @@ use crate::coupled::run::peak::Peak;
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::column;
-use crate::text::readable_number::{of_body, printed};
+use crate::text::readable_number::{PrintedUnit, of_body, printed};
 use crate::text::words::unknown;
 
 /// Row of the table: name of a quantity, and where it is shown in addition to its time series.
@@ -300,15 +300,13 @@ impl Quantity {
         column(self.row().word, self.unit(in_plan))
     }
 
-    /// Factor and unit for printing.
-    pub(crate) fn printed(self, in_plan: bool) -> (f64, &'static str) {
-        match self.row().scale {
-            Scale::Percent => (1e2, of_body("%", in_plan)),
-            Scale::Unit | Scale::Safety(_) => {
-                let (factor, unit) = printed(self.row().unit);
-                (factor, of_body(unit, in_plan))
-            }
-        }
+    /// Unit in which values are printed.
+    pub(crate) fn printed(self, in_plan: bool) -> PrintedUnit<'static> {
+        let unit = match self.row().scale {
+            Scale::Percent => PrintedUnit { factor: 1e2, symbol: "%" },
+            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
+        };
+        PrintedUnit { symbol: of_body(unit.symbol, in_plan), ..unit }
     }
 
     /// The label of the limit one, for a factor of safety.

@@ -72,7 +72,8 @@ pub use models::{
 pub use nonlinear::{InternalEnergy, NonlinearForce};
 #[doc(hidden)]
 pub use nonlinear::{
-    Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state, restore_variables, save_variables,
+    MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
+    restore_variables, save_variables,
 };
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
