@@ -163,6 +163,7 @@
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
+//! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |

@@ -267,7 +267,7 @@ impl ElasticGround {
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
     /// let weights = ground.weights(0.01)?;
     /// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
-    /// weights.coefficients(0, 1, [&mut normal, &mut tangential, &mut coupling])?;
+    /// weights.coefficients(0, 1, &mut [&mut normal, &mut tangential, &mut coupling])?;
     /// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
     /// # Ok::<(), basemat::Error>(())
     /// ```

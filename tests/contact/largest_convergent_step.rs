@@ -5,7 +5,7 @@
 use basemat::analyses::largest_convergent_step;
 use basemat::bem::SpringGround;
 use basemat::coupled::StepError;
-use basemat::interface::{Coulomb, Mode, PreviousContact};
+use basemat::interface::{Coulomb, InPlane, Mode, PreviousContact};
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
@@ -22,7 +22,7 @@ fn scene(step: f64, limit: f64) -> Result<Simulation> {
     Simulation::builder(step)
         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
         .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
-        .interface(Wayward { law: Coulomb::new(0.5)?, next })
+        .interface(InPlane(Wayward { law: Coulomb::new(0.5)?, next }))
         .motion(el_centro_1940())
         .build()
 }

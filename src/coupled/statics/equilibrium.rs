@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
+use crate::contact::{ContactInput, ContactSearch, ContactSolver};
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::statics::compliance::{
     Compliance, Floating, PROXIMAL_SPRING_FRACTION, STATIC_STIFFNESS_NAME, springs,
@@ -63,8 +63,8 @@ impl Standing<'_> {
         let base = &assembled.base;
         let mut springs = self.springs()?;
         let initial_stiffness = springs.stiffness;
-        let mut solver = ContactSolver::new(base.layout());
-        let mut search = ModeSearch::new(base.layout(), base.areas(), false, ContactSearch::Robust);
+        let mut solver =
+            ContactSolver::new(base.layout(), base.areas(), false, ContactSearch::Robust);
         let measure = Measure::new(assembled, load);
         let mut tangent = Tangent::new(assembled.dofs());
         let mut compliance = None::<Compliance>;
@@ -82,22 +82,22 @@ impl Standing<'_> {
                 }
             };
             let current = compliance.insert(current);
-            let next =
-                self.next(current, &mut search, &mut solver, (laws, start), load, &mut state)?;
+            let next = self.next(current, &mut solver, (laws, start), load, &mut state)?;
             let Some(displacement) = next else { break };
             let spring_force = springs.force(assembled, &displacement, &state.displacement);
             let previous = std::mem::replace(&mut change, measure.norm(&spring_force));
             let step = difference(&displacement, &state.displacement);
             state.displacement = displacement;
-            state.traction.copy_from_slice(&solver.traction);
+            state.traction.copy_from_slice(&solver.response().traction);
             if has_converged(previous, change, iterations, current) {
                 // The springs may have no force without an equilibrium, if K u is only rounding.
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
                     self.share(compliance, initial_stiffness);
-                    state.stand_in = solver.substituted_friction.or(state.stand_in);
-                    state.close_gaps(laws, start, &solver.states)?;
-                    return Ok((state, solver.states));
+                    state.stand_in = solver.substituted_friction().or(state.stand_in);
+                    let states = &solver.response().states;
+                    state.close_gaps(laws, start, states)?;
+                    return Ok((state, states.clone()));
                 }
                 change = residual;
                 break;
@@ -157,14 +157,13 @@ impl Standing<'_> {
     fn next(
         &self,
         current: &Compliance,
-        search: &mut ModeSearch,
         solver: &mut ContactSolver,
         (laws, start): (&[Box<dyn InterfaceLaw>], &PreviousContacts),
         load: &[f64],
         state: &mut StaticState,
     ) -> Result<Option<Vec<f64>>> {
         let mut displacement = self.without_traction(current, load, state)?;
-        let mut means = vec![0.0; solver.traction.len()];
+        let mut means = vec![0.0; solver.response().traction.len()];
         self.assembled.base.means(&displacement, &mut means);
         let mut free_jump: Vec<f64> = means.iter().map(|mean| -mean).collect();
         free_jump.iter_mut().zip(self.offset).for_each(|(jump, offset)| *jump += offset);
@@ -178,12 +177,13 @@ impl Standing<'_> {
             bonds: &[],
             frictionless: self.frictionless,
         };
-        match search.solve(solver, &input, &mut state.modes) {
+        match solver.solve(&input, &mut state.modes) {
             Ok(_) => {}
             Err(StepError::Law(error)) => return Err(Error::Law(error)),
             Err(_) => return Ok(None),
         }
-        transposed_multiply_add(&current.columns, -1.0, &solver.traction, &mut displacement);
+        let traction = &solver.response().traction;
+        transposed_multiply_add(&current.columns, -1.0, traction, &mut displacement);
         Ok(Some(displacement))
     }
 
