@@ -213,9 +213,10 @@ pub mod structure;
 pub mod sweep;
 
 pub use coupled::simulation::Simulation;
+#[allow(deprecated, reason = "the path stays for one release")]
+pub use error::set_memory_limit;
 pub use error::{
-    Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit,
-    set_memory_limit, unobserved,
+    Error, FileError, FileFault, MemoryError, Observer, Progress, Result, memory_limit, unobserved,
 };
 pub use linalg::Complex;
 pub use soil::Soil;

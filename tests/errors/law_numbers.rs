@@ -226,7 +226,7 @@ impl InterfaceLaw for Memorious {
 
 #[test]
 fn more_numbers_than_memory_holds_are_refused() {
-    for many in [134_217_729, usize::MAX / 3, usize::MAX] {
+    for many in [268_435_457, usize::MAX / 3, usize::MAX] {
         let builder = scene(SI, 0.6).structure(block(SI)).interface(Memorious(many));
         let built = builder.build().map(drop);
         let host = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![Box::new(Memorious(many))]);
