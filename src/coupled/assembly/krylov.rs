@@ -16,7 +16,7 @@
 use std::cell::Cell;
 use std::rc::Rc;
 
-use crate::coupled::assembly::held_responses::HeldResponses;
+use crate::coupled::assembly::fixed_base_results::FixedBaseResponses;
 use crate::coupled::assembly::step_response::{ResponseRows, StepResponses};
 use crate::coupled::assembly::subspace::{REDUCED_COORDINATES_NAME, Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
@@ -66,7 +66,7 @@ pub(crate) struct Reduction<'a> {
     pub(super) coefficients: &'a SchemeCoefficients,
     /// Factors K_eff.
     pub(super) factored: &'a Factored<'a>,
-    pub(super) held: HeldResponses,
+    pub(super) fixed_base: FixedBaseResponses,
     /// Factored K + εM, until it is used.
     pub(super) floating: Cell<Option<Rc<Floating>>>,
     /// β and α of a damping in proportion to mass and to the stiffness without P–Δ.
@@ -86,19 +86,23 @@ impl<'a> Reduction<'a> {
     pub(crate) fn new(
         parts: &'a Parts,
         assembled: &'a Assembled,
-        (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
+        (fixed_base, floating, factored): (
+            FixedBaseResponses,
+            Option<Rc<Floating>>,
+            &'a Factored<'a>,
+        ),
         steps: usize,
     ) -> Result<Self> {
-        let given = &parts.given;
+        let builder = &parts.builder;
         let base = &assembled.base;
         let coefficients = &parts.coefficients;
         let n = assembled.dofs();
         let size = base.layout().len();
         let mut rows = ResponseRows::default();
-        for load in &given.loads {
+        for load in &builder.loads {
             push_nonzero(&mut rows.all, spread(load.row(), n));
         }
-        let duration = steps as f64 * given.time_step;
+        let duration = steps as f64 * builder.time_step;
         for k in 0..=LOAD_SAMPLE_COUNT {
             let mut load = vec![0.0; n];
             let loaded = parts
@@ -124,7 +128,7 @@ impl<'a> Reduction<'a> {
             push_nonzero(&mut rows.all, force);
         }
         let mut motions = Vec::new();
-        for motion in [&given.displacement, &given.velocity] {
+        for motion in [&builder.displacement, &builder.velocity] {
             for motion in motion.chunks_exact(n) {
                 let mut force = vec![0.0; n];
                 assembled.mass.multiply_add(1.0, motion, &mut force);
@@ -133,12 +137,12 @@ impl<'a> Reduction<'a> {
             motions.extend_from_slice(motion);
         }
         rows.force_count = rows.all.len() / n;
-        rows.probes = vec![[None; 3]; given.probes.len()];
+        rows.probes = vec![[None; 3]; builder.probes.len()];
         for kind in 0..3 {
             if kind == 2 {
                 rows.first_acceleration = rows.all.len() / n;
             }
-            for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
+            for (probe, places) in builder.probes.iter().zip(&mut rows.probes) {
                 let place = rows.all.len() / n;
                 let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[kind], n));
                 places[kind] = is_nonzero.then_some(place);
@@ -157,7 +161,7 @@ impl<'a> Reduction<'a> {
             assembled,
             coefficients,
             factored,
-            held,
+            fixed_base,
             floating,
             without_p_delta,
             steps,
@@ -195,7 +199,7 @@ impl<'a> Reduction<'a> {
         if let Some(proportional) = self.without_p_delta {
             space = space.with_proportional_damping(proportional);
         }
-        space.extend(self.held.rotations.clone(), FINAL_MIN_NEW_FRACTION);
+        space.extend(self.fixed_base.rotations.clone(), FINAL_MIN_NEW_FRACTION);
         space
     }
 
@@ -311,7 +315,7 @@ impl<'a> Reduction<'a> {
         let c = self.coefficients;
         let scheme_shift =
             (c.acceleration[0] / c.displacement[0]).sqrt().min(SHIFT_RATIO * max_shift);
-        let lowest = self.held.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
+        let lowest = self.fixed_base.lowest.max(MIN_SHIFT_RATIO * scheme_shift);
         let first_below = scheme_shift / SHIFT_RATIO;
         let below = std::iter::successors(Some(first_below), |shift| Some(shift / SHIFT_RATIO))
             .take_while(move |shift| *shift > lowest);

@@ -20,24 +20,23 @@ const FORCE_BALANCE_TOLERANCE: f64 = 1e-7;
 const MAX_ACCEPTED_CONDITION: f64 = 1e10;
 /// Largest number of proximal iterations.
 const MAX_PROXIMAL_ITERATIONS: usize = 500;
-/// Iterations after which a change of up to [`LATE_CHANGE`] is accepted if the condition explains it: rounding
-/// lets a very stiff structure converge no further.
+/// Iterations after which a change of up to [`LATE_CHANGE`] counts as rounding if the condition explains it.
 const LATE_ITERATION_COUNT: usize = 100;
 const LATE_CHANGE: f64 = 1e-8;
 /// Largest unbalanced force of a steady drift, relative to the load.
 const STEADY_DRIFT_TOLERANCE: f64 = 1e-8;
 /// Softest springs, as a fraction of their initial stiffness.
 const MIN_SPRING_FRACTION: f64 = 1e-9;
-/// Decrease of their force in an iteration above which they are softened tenfold, as long as the force is more
-/// than [`SPRING_FORCE_ROUNDING`] of the load: a structure far softer than the ground deforms only slowly against springs that
-/// are stiffer than itself.
+/// Decrease of their force in an iteration above which they are softened tenfold while it exceeds [`SPRING_FORCE_ROUNDING`]:
+/// a structure far softer than the ground deforms only slowly against springs that are stiffer than itself.
 const SLOW_DECREASE_RATIO: f64 = 0.2;
 /// Largest factor by which the springs are stiffened to hold a structure that leans (P–Δ) without the ground.
 const MAX_STIFFENING_FACTOR: f64 = 1e4;
 /// Force of the springs, relative to the load, below which rounding may stop its decrease.
 const SPRING_FORCE_ROUNDING: f64 = 1e-6;
-/// Iterations after which only a slow decrease that the condition explains counts as rounding. Even a force below
-/// [`SPRING_FORCE_ROUNDING`] can make an element of little pressure switch its mode back and forth, and with it a large shear.
+/// Iterations after which only a slow decrease that the condition explains counts as rounding.
+///
+/// A force below [`SPRING_FORCE_ROUNDING`] can still switch the mode of an element of little pressure back and forth.
 const ROUNDING_CHECK_ITERATION: usize = 20;
 /// Iterations on springs that must stay stiff (P–Δ) from one extrapolation to the next.
 const EXTRAPOLATION_INTERVAL: usize = 20;
@@ -110,7 +109,8 @@ impl Standing<'_> {
                 // The springs may have no force without an equilibrium, if K u is only rounding.
                 let residual = imbalance(assembled, load, &state.traction);
                 if residual <= FORCE_BALANCE_TOLERANCE {
-                    state.stand_in = solver.substituted_friction.or(state.stand_in);
+                    state.substituted_friction =
+                        solver.substituted_friction.or(state.substituted_friction);
                     shared.replace(compliance.filter(|compliance| {
                         assembled.linear && compliance.floating.springs == initial_stiffness
                     }));
