@@ -73,6 +73,7 @@
 pub(crate) mod assembly;
 pub(crate) mod base;
 mod bed_compliance;
+mod builder;
 mod checkpoint;
 mod conditioning;
 mod coordinates;
@@ -95,6 +96,7 @@ mod step;
 #[doc(inline)]
 pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepError};
 pub use crate::structure::probe::Probe;
+pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use conditioning::Conditioning;
 pub use coordinates::Coordinates;
@@ -103,7 +105,6 @@ pub use former_paths::*;
 pub use gravity_stage::GravityStage;
 pub use identity::Change;
 pub use model::load::Load;
-pub use parts::SimulationBuilder;
 pub use run::mistake::Mistake;
 pub use run::warning::Warning;
 pub use scheme::{

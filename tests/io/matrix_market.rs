@@ -146,12 +146,12 @@ fn bad_files_are_refused_with_line_and_reason() {
     };
     let too_large = |asked, needed| {
         let quantity = "rows of the matrix";
-        let remedy = "`set_memory_limit` allows more";
+        let remedy = "for one part of a model";
         FileFault::Memory(MemoryError {
             quantity,
             asked,
             needed,
-            limit: 4.0 * 1024.0_f64.powi(3),
+            limit: 8.0 * 1024.0_f64.powi(3),
             remedy,
         })
     };

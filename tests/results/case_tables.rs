@@ -442,7 +442,7 @@ fn parameters_and_columns_are_checked() {
         |error| matches!(error, Error::Memory(MemoryError { asked, .. }) if asked > 1e8);
     assert!(too_large(grid(many.collect())));
     // Countable, but not in memory.
-    let large = ["a", "b"].map(|name| Parameter::numbers(name, (0..10_500).map(f64::from)));
+    let large = ["a", "b"].map(|name| Parameter::numbers(name, (0..15_000).map(f64::from)));
     assert!(too_large(grid(large.to_vec())));
     let table =
         |columns| sweep().table(columns, |_| -> Result<[f64; 2]> { unreachable!("columns") });

@@ -210,7 +210,7 @@ impl Reduction<'_> {
         }
         let min_shift = STATIC_SHIFT_RANGE[0] * scheme_shift;
         let max_shift = STATIC_SHIFT_RANGE[1] * scheme_shift;
-        let shift = self.held.lowest.clamp(min_shift, max_shift);
+        let shift = self.fixed_base.lowest.clamp(min_shift, max_shift);
         Floating::new(self.assembled, &SparseMatrix::default(), shift * shift).map(Rc::new)
     }
 }
