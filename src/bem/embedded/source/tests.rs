@@ -2,6 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
+use crate::history::PairClasses;
 use crate::soil::{KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
