@@ -194,6 +194,7 @@ use basemat_linalg as linalg;
 pub mod bem;
 pub mod contact;
 pub mod coupled;
+pub mod fem;
 pub mod fundamental;
 pub mod history;
 pub mod interface;
@@ -208,10 +209,9 @@ pub mod reference;
 pub mod results;
 pub mod site;
 pub mod soil;
+pub mod structure;
 pub mod sweep;
 
-#[doc(inline)]
-pub use basemat_structures::{fem, structure};
 pub use coupled::simulation::Simulation;
 #[doc(inline)]
 pub use error::{

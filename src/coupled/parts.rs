@@ -24,8 +24,8 @@ use crate::interface::{
 use crate::linalg::CompressedMatrix;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
-use crate::structure::probe::Probe;
-use crate::structure::{Structure, is_nonlinear, probe};
+use crate::structure::Probe;
+use crate::structure::{Structure, check_probes, is_nonlinear};
 
 /// Tolerance below which a negative eigenvalue of the ground's matrix counts as rounding.
 ///
@@ -190,7 +190,7 @@ impl Parts {
         given.safety_friction = safety_friction(&given.laws, given.safety_friction, count)?;
         let dofs = structure.dofs();
         check_dofs(dofs, layout.len())?;
-        probe::check(&given.probes, dofs)?;
+        check_probes(&given.probes, dofs)?;
         check_motion(&given, dofs)?;
         let coefficients = given.scheme.coefficients(time_step);
         coefficients.check()?;

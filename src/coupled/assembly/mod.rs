@@ -57,8 +57,8 @@ use crate::coupled::step::solver::Solver;
 use crate::error::{Progress, Result};
 use crate::interface::InterfaceLaw;
 use crate::motion::FreeField;
+use crate::structure::Probe;
 use crate::structure::Structure;
-use crate::structure::probe::Probe;
 
 impl Simulation {
     /// Starts a simulation with steps of `time_step` seconds.

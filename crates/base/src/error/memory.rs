@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A size that needs more memory than is allowed; nothing was allocated.
 ///
-/// The limit is [`memory_limit`](crate::memory_limit), for a convolution history
+/// The limit is [`memory_limit`], for a convolution history
 /// `HistoryOptions::memory`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(

@@ -13,8 +13,7 @@ mod triangle_membrane;
 mod triangle_sides;
 
 pub use resultants::ShellResultants;
-#[doc(hidden)]
-pub use triangle_sides::triangle_sides;
+pub(crate) use triangle_sides::triangle_sides;
 
 use std::collections::HashSet;
 

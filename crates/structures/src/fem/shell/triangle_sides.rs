@@ -106,7 +106,7 @@ impl TriangleMesh {
 /// `None` without such triangles.
 ///
 /// A side counts if both of its ends are surrounded by triangles: at the pole of a dome no side counts.
-pub fn triangle_sides(mesh: &Mesh) -> Option<[f64; 2]> {
+pub(crate) fn triangle_sides(mesh: &Mesh) -> Option<[f64; 2]> {
     let triangles = TriangleMesh::new(mesh);
     let inner = triangles.inner_nodes();
     let mut total_length = 0.0;
