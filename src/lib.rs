@@ -197,6 +197,7 @@ pub mod analyses;
 pub mod bem;
 pub mod contact;
 pub mod coupled;
+pub mod fem;
 pub mod fundamental;
 pub mod history;
 pub mod interface;
@@ -211,10 +212,9 @@ pub mod reference;
 pub mod results;
 pub mod site;
 pub mod soil;
+pub mod structure;
 pub mod sweep;
 
-#[doc(inline)]
-pub use basemat_structures::{fem, structure};
 pub use coupled::simulation::Simulation;
 #[allow(deprecated, reason = "the path stays for one release")]
 #[doc(inline)]

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use crate::interface::Bonded;
 use crate::linalg::{Complex, Eigenpairs, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
-use crate::structure::probe::Probe;
+use crate::structure::Probe;
 use crate::structure::{
     DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
 };

@@ -12,8 +12,8 @@ use crate::coupled::serviceability::Serviceability;
 use crate::error::{Progress, unobserved};
 use crate::interface::InterfaceLaw;
 use crate::motion::{AtRest, FreeField, STANDARD_GRAVITY};
+use crate::structure::Probe;
 use crate::structure::Structure;
-use crate::structure::probe::Probe;
 
 /// From this number of steps on, a run counts as a run without a known end.
 pub(crate) const MIN_ENDLESS_STEPS: usize = match 1_usize.checked_shl(40) {

@@ -95,7 +95,8 @@ mod step;
 
 #[doc(inline)]
 pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepError};
-pub use crate::structure::probe::Probe;
+#[doc(inline)]
+pub use basemat_structures::internal::Probe;
 pub use builder::SimulationBuilder;
 pub use checkpoint::Checkpoint;
 pub use conditioning::Conditioning;

@@ -20,7 +20,7 @@ use crate::interface::{
 use crate::linalg::CompressedMatrix;
 use crate::linalg::{indefinite_pivot, matrix};
 use crate::motion::FreeField;
-use crate::structure::{Structure, is_nonlinear, probe};
+use crate::structure::{Structure, check_probes, is_nonlinear};
 
 /// Tolerance below which a negative eigenvalue of the ground's matrix counts as rounding.
 ///
@@ -88,7 +88,7 @@ impl Parts {
         builder.safety_friction = safety_friction(&builder.laws, builder.safety_friction, count)?;
         let dofs = structure.dofs();
         check_dofs(dofs, layout.len())?;
-        probe::check(&builder.probes, dofs)?;
+        check_probes(&builder.probes, dofs)?;
         check_motion(&builder, dofs)?;
         let coefficients = builder.scheme.coefficients(time_step);
         coefficients.check()?;
@@ -245,7 +245,7 @@ fn check_limits(builder: &SimulationBuilder) -> Result<()> {
     })
 }
 
-/// Coefficients for the factor of safety against sliding: those of the builder, or of the laws.
+/// Coefficients for the factor of safety against sliding: by the builder, otherwise by the laws.
 ///
 /// One for all elements, or one each; empty unless all laws have one.
 fn safety_friction(

@@ -18,7 +18,7 @@ use crate::geometry::{ContactLayout, Footing};
 use crate::interface::{InterfaceLaw, Mode, PreviousContacts, law_of};
 use crate::linalg::matrix::spread;
 use crate::linalg::{CompressedMatrix, mixed};
-use crate::structure::probe::Probe;
+use crate::structure::Probe;
 
 /// Structure, base, laws and static state for steps; read-only once built.
 ///

@@ -18,8 +18,8 @@ use crate::error::{Error, Result, StepError, in_bounds, unobserved};
 use crate::geometry::Patch;
 use crate::interface::Mode;
 use crate::motion::FreeField;
+use crate::structure::Probe;
 use crate::structure::Structure;
-use crate::structure::probe::Probe;
 
 /// A structure on a ground, ready for time steps.
 ///

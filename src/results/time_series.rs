@@ -12,7 +12,7 @@ use crate::coupled::{EnergyBalance, Probe, State};
 use crate::coupled::{Face, FaceForces};
 use crate::error::{MemoryError, Result, memory_limit, require};
 use crate::geometry::ContactLayout;
-use crate::structure::probe::probe_index;
+use crate::structure::probe_index;
 
 /// Selects results to keep beyond a [`Run`](super::Run).
 ///

@@ -5,6 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 use super::Complex;
 
 /// Complex number, or several of them, one in each lane.
+#[doc(hidden)]
 pub trait ComplexArithmetic:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> + 'static
 {

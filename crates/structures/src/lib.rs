@@ -14,3 +14,21 @@ pub mod fem;
 pub use basemat_base::{Error, Result};
 use basemat_base::{error, geometry, text};
 use basemat_linalg as linalg;
+
+/// Steps of `basemat` with structures, which may change with any version.
+#[doc(hidden)]
+pub mod internal {
+    pub use crate::fem::coincident::first_at_place;
+    pub use crate::structure::base_node::{check_line, from_the_left};
+    pub use crate::structure::detached::{check_attached, numbers as unknown_numbers};
+    pub use crate::structure::held_base::{HeldBase, stiffest};
+    pub use crate::structure::matrix_checks::{
+        NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, combination,
+        massless,
+    };
+    pub use crate::structure::nonlinear::{
+        MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
+        restore_variables, save_variables,
+    };
+    pub use crate::structure::probe::{Probe, check as check_probes, probe_index};
+}

@@ -219,12 +219,12 @@ impl<'a> Subspace<'a> {
         let free = count - fixed;
         let rows = (fixed..count).flat_map(|i| &stiffness[i * count + fixed..(i + 1) * count]);
         let rows: Vec<f64> = rows.copied().collect();
-        let Some(free_modes) = symmetric_modes(&rows, free) else {
+        let Some(Eigenpairs { mut values, vectors: free_modes }) = symmetric_modes(&rows, free)
+        else {
             let needed = "it must be finite in the subspace";
             let error = Error::Scene { quantity: "stiffness matrix", needed };
             return Err(error.within(REDUCED_COORDINATES_NAME));
         };
-        let Eigenpairs { mut values, vectors: free_modes } = free_modes;
         let top = largest(&values);
         values
             .iter_mut()

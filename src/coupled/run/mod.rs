@@ -41,7 +41,7 @@ use crate::coupled::state::sequence::Sequence;
 use crate::coupled::{EnergyBalance, Mistake, State, Warning};
 use crate::error::Result;
 use crate::motion::FreeField;
-use crate::structure::probe::probe_index;
+use crate::structure::probe_index;
 
 /// Steps whose contact modes the first search did not find, by method.
 ///

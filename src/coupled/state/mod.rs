@@ -17,8 +17,8 @@ use crate::error::Result;
 use crate::geometry::resultant;
 use crate::geometry::{Footing, Patch};
 use crate::interface::{ContactState, Mode, PreviousContacts};
-use crate::structure::probe::Probe;
-use crate::structure::probe::probe_index;
+use crate::structure::Probe;
+use crate::structure::probe_index;
 
 /// A change of contact mode.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,4 +1,4 @@
-//! The forcing of eq. 21 as printed: [K]{δᶠ} of the contact nodes beside the soil's part.
+//! The forcing of eq. 21 as printed: `[K]{δᶠ}` of the contact nodes beside the soil's part.
 
 use basemat::motion::Record;
 use basemat::structure::{Base, FemModel, Structure, Triplets};

@@ -54,7 +54,7 @@ pub(crate) struct Reading {
     /// Friction in slip over that which slip must overcome.
     #[arg(long, default_value_t = 1.0)]
     pub(crate) kinetic: f64,
-    /// Add the free field's [K]{δ} to the forces, as eq. 21 is printed.
+    /// Add the free field's `[K]{δ}` to the forces, as eq. 21 is printed.
     #[arg(long)]
     pub(crate) printed_forcing: bool,
     /// Elements along the base.

@@ -2,7 +2,7 @@
 
 /// A size that needs more memory than is allowed; nothing was allocated.
 ///
-/// The limit is [`memory_limit`](crate::memory_limit), for a convolution history
+/// The limit is [`memory_limit`], for a convolution history
 /// `HistoryOptions::memory`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
@@ -35,7 +35,7 @@ fn bytes_text(number: f64) -> String {
     }
 }
 
-/// Largest memory of one part, bytes: more than parts of usual models take, and less than a mistyped number asks for.
+/// Largest memory of one part, bytes: more than parts of usual models take, and less than a mistyped number needs.
 const MEMORY_LIMIT: u64 = 8 << 30;
 
 /// Memory limit for the size of one mesh, matrix, ground, record or sweep: 8 GiB, in bytes.

@@ -9,12 +9,10 @@ use crate::linalg::Triplets;
 
 /// Kind of element matrix to assemble.
 #[derive(Debug, Clone, Copy)]
-pub enum MatrixKind {
+pub(crate) enum MatrixKind {
     /// Stiffness without the geometric stiffness.
     Stiffness,
-    /// Geometric stiffness under the static state.
     GeometricStiffness,
-    /// Mass of this kind.
     Mass(MassKind),
     /// Damping of the elements, without Rayleigh damping.
     Damping,
@@ -25,7 +23,7 @@ pub enum MatrixKind {
 /// `is_included` selects elements by the coordinates of their nodes.
 ///
 /// `numbering` must belong to `mesh`; otherwise `matrix` gets indices out of range.
-pub fn assemble(
+pub(crate) fn assemble(
     mesh: &Mesh,
     numbering: &Numbering,
     quantity: MatrixKind,
@@ -77,7 +75,7 @@ pub fn assemble(
 ///
 /// # Errors
 /// [`Error::Scene`](crate::Error::Scene) for an element whose new version has other nodes or directions.
-pub fn set_static_state(
+pub(crate) fn set_static_state(
     mesh: &mut Mesh,
     displacements: &[Vec<f64>],
     gravity: f64,

@@ -8,7 +8,7 @@ use crate::geometry::Direction;
 ///
 /// Directions that no element uses at a node have no number.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Numbering {
+pub(crate) struct Numbering {
     /// Directions of the mesh.
     directions: &'static [Direction],
     /// Numbers of each node in these directions.

@@ -39,6 +39,7 @@ impl DofCombination {
 
     /// This sum with other numbers of its degrees of freedom.
     #[doc(hidden)]
+    #[must_use]
     pub fn map_dofs(&self, number: impl Fn(usize) -> usize) -> Self {
         self.0.iter().map(|&(index, weight)| (number(index), weight)).collect()
     }

@@ -22,18 +22,17 @@ macro_rules! forward_structure {
 
 mod base;
 mod base_motion;
-mod base_node;
+pub(crate) mod base_node;
 mod description;
-mod detached;
+pub(crate) mod detached;
 mod dof_combination;
-mod held_base;
+pub(crate) mod held_base;
 mod hysteresis;
-mod matrix_checks;
+pub(crate) mod matrix_checks;
 mod modal_damping;
 mod models;
-mod nonlinear;
-#[doc(hidden)]
-pub mod probe;
+pub(crate) mod nonlinear;
+pub(crate) mod probe;
 mod rayleigh_damping;
 mod reduction;
 mod rigid_motions;
@@ -45,21 +44,12 @@ pub use crate::error::StructureError;
 pub use crate::linalg::Triplets;
 pub use base::Base;
 pub use base_node::BaseNode;
-#[doc(hidden)]
-pub use base_node::{check_line, from_the_left};
 pub use description::StructureDescription;
-#[doc(hidden)]
-pub use detached::{check_attached, numbers as unknown_numbers};
 pub use dof_combination::DofCombination;
-#[doc(hidden)]
-pub use held_base::{HeldBase, stiffest};
+pub(crate) use held_base::{HeldBase, stiffest};
 pub use hysteresis::{
     BiaxialResponse, BiaxialSpring, Bilinear, BoucWen, FrictionPendulum, Hysteresis, LeadRubber,
     PendulumBearing, SpringResponse, WithSprings,
-};
-#[doc(hidden)]
-pub use matrix_checks::{
-    NEGLIGIBLE_SQUARED_FREQUENCY, check_damping, check_mass, check_stiffness, combination, massless,
 };
 pub use modal_damping::{ModalDamping, WithModalDamping};
 #[cfg(feature = "embedded")]
@@ -70,11 +60,7 @@ pub use models::{
     StructureGroup,
 };
 pub use nonlinear::{InternalEnergy, NonlinearForce};
-#[doc(hidden)]
-pub use nonlinear::{
-    MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
-    restore_variables, save_variables,
-};
+pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use section_rows::SectionRows;

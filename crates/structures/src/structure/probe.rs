@@ -119,7 +119,10 @@ impl Probe {
     }
 }
 
-/// Error for probes of degrees of freedom that do not exist, and for two probes of one name.
+/// Checks the degrees of freedom and the names of probes.
+///
+/// # Errors
+/// For degrees of freedom that do not exist, and [`Error::DuplicateName`] for two probes of one name.
 pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
     let mut names = std::collections::BTreeSet::new();
     for probe in probes {
@@ -136,6 +139,9 @@ pub fn check(probes: &[Probe], dofs: usize) -> Result<()> {
 }
 
 /// Place of the probe called `name` in a list.
+///
+/// # Errors
+/// [`Error::Name`] with the names in the list.
 pub fn probe_index<T>(
     list: &[T],
     name: &str,

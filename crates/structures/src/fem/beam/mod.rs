@@ -10,8 +10,7 @@ mod releases;
 mod section;
 mod space;
 
-#[doc(hidden)]
-pub use end_frame::EndFrame;
+pub(crate) use end_frame::EndFrame;
 pub use plane::Beam;
 pub use section::BeamSection;
 pub use space::SpaceBeam;
