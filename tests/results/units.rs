@@ -1,10 +1,11 @@
 //! Numbers in another unit earn a warning of the run, and usual numbers none; every page states its ground motion.
 
 use basemat::bem::ElasticGround;
-use basemat::coupled::{SimulationBuilder, Warning};
+use basemat::coupled::{Mistake, SimulationBuilder, Warning};
 use basemat::motion::{AtRest, FreeFieldFn, TravellingWave, VerticalIncidence};
 use basemat::prelude::*;
 use basemat::results::Run;
+use basemat::soil::SoilProfile;
 use basemat::structure::{MatrixModel, Triplets};
 
 use super::resolution::bonded_run;
