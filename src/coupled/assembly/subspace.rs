@@ -218,9 +218,8 @@ impl<'a> Subspace<'a> {
         let fixed = self.translations;
         let free = count - fixed;
         let rows = (fixed..count).flat_map(|i| &stiffness[i * count + fixed..(i + 1) * count]);
-        let rows: Vec<f64> = rows.copied().collect();
-        let Some(Eigenpairs { mut values, vectors: free_modes }) = symmetric_modes(&rows, free)
-        else {
+        let found = symmetric_modes(&rows.copied().collect::<Vec<f64>>(), free);
+        let Some(Eigenpairs { mut values, vectors: free_modes }) = found else {
             let needed = "it must be finite in the subspace";
             let error = Error::Scene { quantity: "stiffness matrix", needed };
             return Err(error.within(REDUCED_COORDINATES_NAME));
