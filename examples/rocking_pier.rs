@@ -9,7 +9,7 @@
 //! step that differs by 1 %, or on fewer cells, has others. The page names it, and `sensitivity` finds the peaks that
 //! can be quoted.
 
-use basemat::coupled::sensitivity;
+use basemat::analyses::sensitivity;
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::structure::RigidBody;

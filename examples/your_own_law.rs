@@ -6,8 +6,8 @@
 //!
 //! A law handles one contact element at a time. It needs one method: the limits of the element's tractions in a
 //! step ([`InterfaceLaw::limits`]). Sticking, sliding and opening follow from them, in the plane and in plan. A
-//! law of the plane that no limits describe has its own modes and conditions instead
-//! ([`InterfaceLaw::conditions`]).
+//! law of the plane that no limits describe states its modes and conditions instead
+//! ([`PlaneLaw`](basemat::interface::PlaneLaw)).
 //!
 //! The end of the previous step is in [`PreviousContact`]; here the law uses the speed at which the element
 //! slid. Values that a law needs for longer are its state variables ([`InterfaceLaw::state_variables`]).

@@ -112,6 +112,7 @@
 //! |---|---|
 //! | [`prelude`] | what most programs name, in one `use` |
 //! | [`coupled`] | [`Simulation`], its builder, time schemes, results, energy balance |
+//! | [`analyses`] | errors of mesh and step, digits of peaks, comparison with a fixed base, static push-over |
 //! | [`results`] | time series, peaks, envelopes, factors of safety, tables for reports |
 //! | [`sweep`] | [`sweep::Sweep`]: many simulations over parameters, on all processors with the feature `rayon`; their table, shards |
 //! | [`structure`] | finite-element model, shear and storey buildings, rigid block and body, given matrices, reduction, hysteretic springs, and the trait for your own |
@@ -162,6 +163,7 @@
 //! | finite element | [`fem::Element`] | 4 |
 //! | spring with a memory | [`structure::Hysteresis`] | 6 |
 //! | law between base and soil | [`interface::InterfaceLaw`] | 1 |
+//! | law of the plane that no limits describe | [`interface::PlaneLaw`] | 3 |
 //! | ground motion | [`motion::FreeField`], or a closure in [`motion::FreeFieldFn`] | 1 |
 //! | soil | [`bem::Ground`] | 6 |
 //! | soil that has convolution weights | [`bem::WeightsSource`] and [`history::ConvolutionWeights`] | 2 each |
@@ -191,6 +193,7 @@ extern crate basemat_structures;
 use basemat_base::{error, geometry, text};
 use basemat_linalg as linalg;
 
+pub mod analyses;
 pub mod bem;
 pub mod contact;
 pub mod coupled;

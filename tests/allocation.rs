@@ -11,7 +11,7 @@ use basemat::bem::plan::Plan;
 use basemat::bem::{ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Coordinates, Load, Probe, SimulationBuilder, Theta};
 use basemat::history::{HistoryMethod, HistoryOptions};
-use basemat::interface::{Bonded, Cohesive, InterfaceLaw, Yielding};
+use basemat::interface::{Bonded, Cohesive, InPlane, InterfaceLaw, Yielding};
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::results::Recorder;
 use basemat::structure::{
@@ -158,7 +158,10 @@ fn steps_do_not_allocate() {
         ("direct history", direct().structure(block(SI)).interface(friction(0.3))),
         ("spring bed", base().ground(bed()).structure(block(SI)).interface(friction(0.3))),
         ("memory", base().ground(bed()).structure(block(SI)).interface(weakening)),
-        ("bonded pads with memory", base().ground(bed()).structure(block(SI)).interface(pads)),
+        (
+            "bonded pads with memory",
+            base().ground(bed()).structure(block(SI)).interface(InPlane(pads)),
+        ),
         (
             "loads, yielding",
             base()

@@ -228,14 +228,14 @@ impl Points {
 }
 
 /// Points in rows and columns: anything that numpy takes for an array of shape (rows, columns, 3).
-pub(crate) struct Surface {
+pub(crate) struct PointGrid {
     /// Numbers of rows and columns.
     pub(crate) shape: [usize; 2],
     /// Row after row.
     pub(crate) points: Vec<[f64; 3]>,
 }
 
-extracts!(Surface, object => {
+extracts!(PointGrid, object => {
     let shape = "(rows, columns, 3)";
     let array = real_array::<Ix3>(&object, shape)?;
     let array = array.as_array();

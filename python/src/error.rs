@@ -132,7 +132,7 @@ pub(crate) fn lock_error<T>(reason: TryLockError<T>) -> PyErr {
 pub(crate) fn in_python_words(mut text: String) -> String {
     for (core, python) in [
         (
-            "`coupled::largest_convergent_step` finds a time step that gets through",
+            "`analyses::largest_convergent_step` finds a time step that gets through",
             "a shorter step may get through",
         ),
         ("GeneralizedMaxwell::constant_q", "DampingLaw.constant_q"),

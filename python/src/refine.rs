@@ -1,6 +1,6 @@
 //! Error against run time.
 
-use basemat::coupled::{PeakTwins, Refinement, Refinements, Sensitivity};
+use basemat::analyses::{PeakTwins, Refinement, Refinements, Sensitivity};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -37,7 +37,7 @@ pub(crate) fn refine(
 ) -> PyResult<Py<PyAny>> {
     let mut form = ResultForm::Unknown;
     let found = raise_user_exceptions(|| {
-        let refinement = basemat::coupled::refine(elements, time_step, |elements, time_step| {
+        let refinement = basemat::analyses::refine(elements, time_step, |elements, time_step| {
             let result = scene.call1(py, (elements, time_step));
             let values = result.and_then(|result| form.values(result.bind(py)));
             values.map_err(|error| user_code_error("scene", error))
@@ -114,7 +114,7 @@ pub(crate) fn sensitivity(
     scene: Py<PyAny>,
 ) -> PyResult<PySensitivity> {
     raise_user_exceptions(|| {
-        let sensitivity = basemat::coupled::sensitivity(elements, time_step, |elements, step| {
+        let sensitivity = basemat::analyses::sensitivity(elements, time_step, |elements, step| {
             let result = scene.call1(py, (elements, step));
             let peaks = result.and_then(|result| peaks(result.bind(py)));
             peaks.map_err(|error| user_code_error("scene", error))

@@ -47,9 +47,9 @@ def plan(law: Any = None, motion: Any = RECORD, load: float = 1e3, **others: Any
 
 
 OTHERS = [
-    ("interface law", "interface_law", {"law": bm.Coulomb(0.31)}),
-    ("ground motion", "ground_motion", {"motion": RECORD.scaled(1.01)}),
-    ("load", "load", {"load": 1.1e3}),
+    ("label", "interface_law", {"law": bm.Coulomb(0.31), "results": bm.ResultOptions(label="friction 0.31")}),
+    ("label", "ground_motion", {"motion": RECORD.scaled(1.01), "results": bm.ResultOptions(label="101 %")}),
+    ("label", "load", {"load": 1.1e3, "results": bm.ResultOptions(label="1.1 kN")}),
     ("gravity stage", "gravity_stage", {"initial": bm.InitialConditions(gravity_stage="frictional")}),
 ]
 

@@ -267,7 +267,7 @@ impl ElasticGround {
     /// let ground = ElasticGround::new(profile, Strip::uniform(-5.0..5.0, 4)?)?;
     /// let weights = ground.weights(0.01)?;
     /// let [mut normal, mut tangential, mut coupling] = [[0.0; 20]; 3];
-    /// weights.coefficients(0, 1, [&mut normal, &mut tangential, &mut coupling])?;
+    /// weights.coefficients(0, 1, &mut [&mut normal, &mut tangential, &mut coupling])?;
     /// assert!(normal[0] > 0.0 && coupling[0].abs() < 1e-12 * normal[0]);
     /// # Ok::<(), basemat::Error>(())
     /// ```
@@ -339,7 +339,6 @@ impl Ground for ElasticGround {
         GroundDescription {
             soils: self.profile().soils().map(|(soil, _)| soil).collect(),
             sampled_cells: self.source.plan.as_ref().and_then(passivity_sample),
-            outline_error: self.source.plan.as_ref().map_or(0.0, Plan::outline_error),
             history: description.history.map(|history| HistoryChoice { stages, ..history }),
             ..description
         }

@@ -152,12 +152,12 @@ impl PairInfluence<'_> {
     /// # Errors
     /// [`Error::Size`](crate::Error::Size) unless the slices have one length; [`Error::Input`](crate::Error::Input)
     /// if `first` is 0.
-    pub(super) fn fill(&self, first: usize, values: [&mut [f64]; STRIP_KINDS]) -> Result<()> {
+    pub(super) fn fill(&self, first: usize, values: &mut [&mut [f64]; STRIP_KINDS]) -> Result<()> {
         let [zz, xx, zx] = values;
         require("first lag", first as f64, first > 0, "at least 1")?;
         same_length("xx coefficients", xx.len(), zz.len())?;
         same_length("zx coefficients", zx.len(), zz.len())?;
-        for (i, ((zz, xx), zx)) in zz.iter_mut().zip(xx).zip(zx).enumerate() {
+        for (i, ((zz, xx), zx)) in zz.iter_mut().zip(&mut **xx).zip(&mut **zx).enumerate() {
             let influence = self.coefficients(first.saturating_add(i));
             *zz = influence.zz;
             *xx = influence.xx;

@@ -243,10 +243,6 @@ pub struct GroundDescription {
     /// If only a sample is checked, a run warns:
     /// [`Warning::SampledPassivity`](crate::coupled::Warning::SampledPassivity).
     pub sampled_cells: Option<[usize; 2]>,
-    /// Estimated relative error of a rigid mat's rocking stiffness by an oblique outline; zero without one.
-    ///
-    /// Above 1 % a run warns: [`Warning::ObliqueOutline`](crate::coupled::Warning::ObliqueOutline).
-    pub outline_error: f64,
     /// Pressure of the soil at rest on each element over gravity, kg/m²; empty for a ground without walls.
     ///
     /// It acts on the walls of a structure in the ground before the run. Pressures below its base count for

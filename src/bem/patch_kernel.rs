@@ -3,7 +3,7 @@
 use super::InfluenceKernel;
 use crate::error::Result;
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, LateWeights, PairClasses, STRIP_KINDS, SharedSpectra};
+use crate::history::{ConvolutionWeights, LateWeights, PairClasses, SharedSpectra, by_kind};
 use crate::soil::Soil;
 
 /// [`ConvolutionWeights`] of the half-plane for a patch of surface elements, in closed form.
@@ -37,13 +37,14 @@ impl ConvolutionWeights for PatchKernel {
         &self,
         class: usize,
         first_lag: usize,
-        mut values: [&mut [f64]; STRIP_KINDS],
+        values: &mut [&mut [f64]],
     ) -> Result<()> {
+        let values = by_kind(values)?;
         let [source, receiver] = self.classes.representative(class)?;
         let pair = self.kernel.pair(receiver, source)?;
-        pair.fill(first_lag, values.each_mut().map(|kind| &mut **kind))?;
+        pair.fill(first_lag, values)?;
         let length = receiver.length();
-        for value in values.into_iter().flatten() {
+        for value in values.iter_mut().flat_map(|kind| kind.iter_mut()) {
             *value *= length;
         }
         Ok(())

@@ -18,7 +18,8 @@ const MAX_STORED_KERNELS: usize = 8;
 /// [`WeightsGround::with_shared_kernels`](super::WeightsGround::with_shared_kernels)) compute and store them once. The
 /// store holds the eight combinations of soil, mesh and step used last. Results are the same to the last bit.
 /// [`WeightsSource::identity`] decides whether two soils are the same. A thread that needs weights another thread is
-/// computing waits for them. A source may take other weights from the same store while it computes its own.
+/// computing waits for them. A source may take the weights of other sources from the same store while it computes
+/// its own; sources of several threads that take each other's weights wait for ever.
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Ground, SharedKernels, Strip};
@@ -56,8 +57,6 @@ struct KernelTable {
     entries: Vec<StoredKernel>,
     /// Kernels that are being computed, each with its thread.
     in_progress: Vec<(Arc<KernelKey>, ThreadId)>,
-    /// Threads that wait, each with the kernel for which it waits.
-    waiting: Vec<(Arc<KernelKey>, ThreadId)>,
 }
 
 /// Soil, time step and elements that determine a kernel.
@@ -80,18 +79,6 @@ impl KernelTable {
     /// Thread that is computing the kernel of `key`.
     fn computing_thread(&self, key: &KernelKey) -> Option<ThreadId> {
         self.in_progress.iter().find(|(other, _)| **other == *key).map(|(_, thread)| *thread)
-    }
-
-    /// Whether `waiting` is `thread`, or waits for it directly or through other threads.
-    fn waits_for(&self, mut waiting: ThreadId, thread: ThreadId) -> bool {
-        while waiting != thread {
-            let entry = self.waiting.iter().find(|(_, other)| *other == waiting);
-            match entry.and_then(|(key, _)| self.computing_thread(key)) {
-                Some(next) => waiting = next,
-                None => return false,
-            }
-        }
-        true
     }
 }
 
@@ -169,15 +156,13 @@ impl SharedKernels {
                 kernels.in_progress.push((Arc::clone(key), this_thread));
                 return Ok(None);
             };
-            if kernels.waits_for(computing, this_thread) {
+            if computing == this_thread {
                 return Err(Error::Scene {
                     quantity: "kernel source",
                     needed: "must not ask the shared kernels for the kernel that it is making",
                 });
             }
-            kernels.waiting.push((Arc::clone(key), this_thread));
             kernels = self.store.ended.wait(kernels).unwrap_or_else(PoisonError::into_inner);
-            kernels.waiting.retain(|(_, thread)| *thread != this_thread);
         }
     }
 }

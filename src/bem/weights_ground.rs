@@ -21,7 +21,7 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 /// use std::sync::Arc;
 ///
 /// use basemat::bem::{ContactElement, WeightsGround, WeightsSource, Strip};
-/// use basemat::history::{ConvolutionWeights, PairClasses};
+/// use basemat::history::{ConvolutionWeights, PairClasses, by_kind};
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
@@ -49,9 +49,9 @@ use crate::history::{ChosenHistory, ConvolutionHistory, ConvolutionWeights, Hist
 ///         &self,
 ///         class: usize,
 ///         first_lag: usize,
-///         values: [&mut [f64]; 3],
+///         values: &mut [&mut [f64]],
 ///     ) -> Result<()> {
-///         let [normal, tangential, coupling] = values;
+///         let [normal, tangential, coupling] = by_kind(values)?;
 ///         let Bed { stiffness, dashpots } = self.bed;
 ///         let rate = stiffness * self.time_step / dashpots;
 ///         let [source, receiver] = self.classes.representative(class)?;

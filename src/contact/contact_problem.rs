@@ -1,6 +1,7 @@
 //! Contact problem for codes with a time integrator of their own.
 
-use super::{ContactInput, ContactSearch, ContactSolver, Delassus, ModeSearch, SearchMethod};
+use super::search::ModeSearch;
+use super::{ContactInput, ContactSearch, Delassus, SearchMethod};
 use crate::error::{Error, Result, finite, positive, same_length};
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{
@@ -49,7 +50,6 @@ pub struct ContactProblem {
     delassus: Delassus,
     laws: Vec<Box<dyn InterfaceLaw>>,
     static_traction: Vec<f64>,
-    solver: ContactSolver,
     search: ModeSearch,
     modes: Vec<Mode>,
     /// For each element, the end of its law's state variables in the list; empty if no law has any.
@@ -138,8 +138,7 @@ impl ContactProblem {
             delassus: delassus.into(),
             laws,
             static_traction: vec![0.0; layout.len()],
-            solver: ContactSolver::new(layout),
-            search: ModeSearch::new(layout, &[], true, ContactSearch::default()),
+            search: ModeSearch::new(count, ContactSearch::default()),
             modes: vec![Mode::Stick; count],
             steps: 0,
         })
@@ -164,7 +163,7 @@ impl ContactProblem {
         same_length("Delassus operator", delassus.len(), self.delassus.len())?;
         check_finite("Delassus operator", delassus)?;
         self.delassus.set(delassus);
-        self.solver.invalidate();
+        self.search.solver.invalidate();
         Ok(())
     }
 
@@ -224,12 +223,13 @@ impl ContactProblem {
         };
         let step = self.steps + 1;
         let time = step as f64 * start.time_step();
-        let found = self.search.solve(&mut self.solver, &input, &mut self.modes);
+        let found = self.search.solve(&input, &mut self.modes);
         let (trials, method) = found.map_err(|source| Error::Step { step, time, source })?;
         self.steps = step;
+        let response = &self.search.solver.response;
         Ok(ContactSolution {
-            traction: &self.solver.traction,
-            states: &self.solver.states,
+            traction: &response.traction,
+            states: &response.states,
             modes: &self.modes,
             trials,
             method,

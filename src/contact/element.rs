@@ -1,26 +1,28 @@
 //! The contact problem of one element, with the tractions of the others fixed.
 
-use super::problem::{ContactInput, ContactSolver};
-use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
+use super::problem::ContactInput;
+use super::response::ContactResponse;
+use crate::error::LawError;
 use crate::interface::{Condition, ContactState, Mode, Tolerance};
 
 /// Solves element `e` with all other tractions fixed, and returns its mode.
 pub(super) fn local_mode(
-    solver: &mut ContactSolver,
+    response: &mut ContactResponse,
     input: &ContactInput<'_>,
     e: usize,
     current: Mode,
-) -> Mode {
-    let layout = ContactLayout::new(COMPONENTS_IN_PLANE, solver.states.len());
+) -> Result<Mode, LawError> {
+    let layout = response.layout;
     let size = layout.len();
     let [n, t] = layout.places(e);
     let rows = [n, t].map(|i| &input.delassus[i * size..(i + 1) * size]);
     // Jump without the change of traction of this element.
     let mut jump = [0.0; 2];
     for ((jump, row), i) in jump.iter_mut().zip(rows).zip([n, t]) {
-        let all = crate::linalg::dot(row, &solver.traction);
-        *jump =
-            input.free_jump[i] + all - row[n] * solver.traction[n] - row[t] * solver.traction[t];
+        let all = crate::linalg::dot(row, &response.traction);
+        *jump = input.free_jump[i] + all
+            - row[n] * response.traction[n]
+            - row[t] * response.traction[t];
     }
     let block = rows.map(|row| [row[n], row[t]]);
     let fixed = [input.static_traction[n], input.static_traction[t]];
@@ -28,13 +30,7 @@ pub(super) fn local_mode(
     let tolerance = Tolerance { length: 1e-13 * input.length_scale, traction: 1e-12 * scale };
     let candidates = std::iter::once(current).chain(input.modes(e).iter().copied());
     for mode in candidates {
-        let conditions = match input.conditions(e, mode) {
-            Ok(conditions) => conditions,
-            Err(fault) => {
-                solver.fault = Some(fault);
-                return current;
-            }
-        };
+        let conditions = input.conditions(e, mode)?;
         let Some(change) = solve_element(conditions, jump, block, fixed) else { continue };
         let gap = jump[0] + block[0][0] * change[0] + block[0][1] * change[1];
         let tangential = jump[1] + block[1][0] * change[0] + block[1][1] * change[1];
@@ -45,21 +41,14 @@ pub(super) fn local_mode(
             shear: fixed[1] + change[1],
             ..ContactState::default()
         };
-        match input.next_mode(e, mode, &state, tolerance) {
-            Ok(next) if next == mode => {
-                solver.traction[n] = change[0];
-                solver.traction[t] = change[1];
-                solver.states[e] = state;
-                return mode;
-            }
-            Ok(_) => {}
-            Err(fault) => {
-                solver.fault = Some(fault);
-                return current;
-            }
+        if input.next_mode(e, mode, &state, tolerance)? == mode {
+            response.traction[n] = change[0];
+            response.traction[t] = change[1];
+            response.states[e] = state;
+            return Ok(mode);
         }
     }
-    current
+    Ok(current)
 }
 
 /// The change of traction of one element from its two conditions; `None` if they are dependent.

@@ -7,16 +7,19 @@ mod cone;
 mod contact_problem;
 mod delassus;
 mod element;
+mod fixed_modes;
 mod on_bed;
 mod path;
 mod problem;
+mod response;
 mod search;
+mod solver;
 
 pub use contact_problem::{ContactProblem, ContactSolution};
 pub(crate) use delassus::{Delassus, MAX_STRUCTURE_RANK};
 pub(crate) use on_bed::{OnBed, StructurePart};
-pub(crate) use problem::{ContactInput, ContactSolver};
-pub(crate) use search::ModeSearch;
+pub(crate) use problem::ContactInput;
+pub(crate) use solver::ContactSolver;
 
 /// Search for the contact modes of a step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -51,9 +54,9 @@ pub enum SearchMethod {
     GaussSeidel,
     /// The solution was followed from a known solution, or found among all sets of modes.
     Path,
-    /// Newton's method, in plan.
+    /// Newton's method, in space.
     Newton,
-    /// Proximal point method, in plan.
+    /// Proximal point method, in space.
     Proximal,
 }
 

@@ -14,7 +14,9 @@
 //! nearly singular, at infinite friction in long steps (c₁Δt/l > 13): λ then does not distinguish the points
 //! of the path. After a break, the next attempt begins elsewhere, also with all elements pressed shut.
 
-use super::problem::{ContactInput, ContactSolver};
+use super::fixed_modes::FixedModeSolver;
+use super::problem::ContactInput;
+use crate::error::LawError;
 use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout};
 use crate::interface::{ContactState, Mode, Tolerance};
 use crate::linalg::dot;
@@ -65,18 +67,18 @@ impl Path {
     /// Returns the number of trials. Each `attempt` begins elsewhere, since a path may break.
     pub(crate) fn follow(
         &mut self,
-        solver: &mut ContactSolver,
+        solver: &mut FixedModeSolver,
         input: &ContactInput<'_>,
         attempt: usize,
         modes: &mut [Mode],
-    ) -> usize {
+    ) -> Result<usize, LawError> {
         self.begin(input, attempt, modes);
         let mut lambda = 0.0;
         let mut direction = 1.0;
         let mut trials = 0;
         for _ in 0..MAX_CHANGES_PER_ELEMENT * modes.len() {
             trials += 2;
-            if !self.line(solver, input, modes, lambda) {
+            if !self.line(solver, input, modes, lambda)? {
                 break;
             }
             let tolerance = solver.tolerance(input);
@@ -94,7 +96,7 @@ impl Path {
             let mut best = (f64::INFINITY, leaving, direction);
             for &mode in input.modes(first) {
                 modes[first] = mode;
-                if mode == leaving || !self.line(solver, input, modes, lambda) {
+                if mode == leaving || !self.line(solver, input, modes, lambda)? {
                     continue;
                 }
                 trials += 2;
@@ -114,7 +116,7 @@ impl Path {
                 break;
             }
         }
-        trials
+        Ok(trials)
     }
 
     /// Sets the modes and d at the beginning, differently for each attempt.
@@ -227,23 +229,23 @@ impl Path {
     /// Computes states at `lambda` and their rates, for fixed modes; false if the modes are singular.
     fn line(
         &mut self,
-        solver: &mut ContactSolver,
+        solver: &mut FixedModeSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
         lambda: f64,
-    ) -> bool {
+    ) -> Result<bool, LawError> {
         for at in [lambda + 1.0, lambda] {
             for (i, jump) in self.jump.iter_mut().enumerate() {
                 *jump = input.free_jump[i] + (1.0 - at) * self.offset[i];
             }
             let there = ContactInput { free_jump: &self.jump, ..*input };
-            if !solver.trial(&there, modes) {
-                return false;
+            if !solver.trial(&there, modes)? {
+                return Ok(false);
             }
             if at == lambda {
-                self.states.copy_from_slice(&solver.states);
+                self.states.copy_from_slice(&solver.response.states);
             } else {
-                self.rates.copy_from_slice(&solver.states);
+                self.rates.copy_from_slice(&solver.response.states);
             }
         }
         for (rate, state) in self.rates.iter_mut().zip(&self.states) {
@@ -252,7 +254,7 @@ impl Path {
             rate.pressure -= state.pressure;
             rate.shear -= state.shear;
         }
-        true
+        Ok(true)
     }
 
     /// Largest step of λ in `direction` until a law rejects a mode, and the element of that law.

@@ -15,13 +15,12 @@
 //! one of these problems is not solved, all bonds break. Where friction alone lets an element stick, its bond
 //! carries less than its strength, so the solution without bonds satisfies the law, too.
 
-use super::cone::Cone;
 use super::element::local_mode;
+use super::fixed_modes::FixedModeSolver;
 use super::path::Path;
-use super::problem::{Bond, ContactInput, ContactSolver};
+use super::problem::{Bond, ContactInput};
 use super::{ContactSearch, SearchMethod};
-use crate::error::StepError;
-use crate::geometry::ContactLayout;
+use crate::error::{LawError, StepError};
 use crate::interface::Mode;
 
 /// Number of trials after which the active set counts as cycling.
@@ -37,8 +36,10 @@ const MAX_MODE_SETS: usize = 1 << 16;
 /// together in spite of rounding.
 const BREAKING_OVERLOAD_RATIO: f64 = 0.5;
 
-/// Workspace of the mode search.
+/// Search for the modes of a step in the plane.
 pub(crate) struct ModeSearch {
+    /// Solver for fixed modes; it holds the solution after a search.
+    pub(super) solver: FixedModeSolver,
     visited: Vec<Mode>,
     next: Vec<Mode>,
     before: Vec<Mode>,
@@ -50,24 +51,13 @@ pub(crate) struct ModeSearch {
     /// Number of all sets of modes, if the last search tried all of them without success.
     sets: Option<usize>,
     search: ContactSearch,
-    /// Search for forces, in plan.
-    cone: Option<Box<Cone>>,
 }
 
 impl ModeSearch {
-    /// Search for elements with these areas (m²), under a structure that `is_linear` or not; a ground in the plane needs
-    /// neither.
-    pub(crate) fn new(
-        layout: ContactLayout,
-        areas: &[f64],
-        is_linear: bool,
-        search: ContactSearch,
-    ) -> Self {
-        let cone = layout.is_plan().then(|| Box::new(Cone::new(areas, is_linear)));
-        let count = cone.as_ref().map_or(layout.elements(), |_| 0);
+    /// Search for `count` elements by the method `search`.
+    pub(super) fn new(count: usize, search: ContactSearch) -> Self {
         Self {
-            cone,
-            search,
+            solver: FixedModeSolver::new(count),
             visited: Vec::with_capacity(count * ACTIVE_SET_TRIALS),
             next: vec![Mode::Stick; count],
             before: vec![Mode::Stick; count],
@@ -76,46 +66,31 @@ impl ModeSearch {
             overloads: Vec::with_capacity(count),
             trials: 0,
             sets: None,
+            search,
         }
     }
 
     /// Finds admissible `modes`, starting from their present values; the solver then holds the solution.
     ///
     /// Returns the number of trials and the method.
-    pub(crate) fn solve(
+    pub(super) fn solve(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
-        solver.fault = None;
-        let found = self.find(solver, input, modes);
-        match solver.fault.take() {
-            Some(fault) => Err(fault.into()),
-            None => found,
-        }
-    }
-
-    /// Searches the modes for [`ModeSearch::solve`]; the solver stores the error of a law.
-    fn find(
-        &mut self,
-        solver: &mut ContactSolver,
-        input: &ContactInput<'_>,
-        modes: &mut [Mode],
-    ) -> Result<(usize, SearchMethod), StepError> {
-        if let Some(cone) = &mut self.cone {
-            return cone.solve(solver, input, modes);
-        }
         self.trials = 0;
         // Laws with a single mode need no search: one solve, with the factors of the first step.
-        let bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
-        if bonded && solver.trial(input, modes) {
+        let is_bonded = modes.iter().enumerate().all(|(e, mode)| input.law(e).modes() == [*mode]);
+        if is_bonded && self.solver.trial(input, modes)? {
             return Ok((1, SearchMethod::ActiveSet));
         }
         let mut bonds = std::mem::take(&mut self.bonds);
-        let found = self.break_bonds(solver, input, modes, &mut bonds);
+        let found = self.break_bonds(input, modes, &mut bonds);
         self.bonds = bonds;
-        found.map(|m| (self.trials, m)).ok_or_else(|| self.failure(solver, input, modes))
+        match found? {
+            Some(method) => Ok((self.trials, method)),
+            None => Err(self.failure(input, modes)),
+        }
     }
 
     /// Finds modes with all bonds intact, breaks the most overloaded bonds, and repeats.
@@ -123,95 +98,104 @@ impl ModeSearch {
     /// `None` if no modes are found without bonds either.
     fn break_bonds(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
         bonds: &mut [Bond],
-    ) -> Option<SearchMethod> {
+    ) -> Result<Option<SearchMethod>, LawError> {
         self.sets = None;
-        bonds.fill(Bond::Free);
-        if self.search == ContactSearch::Robust {
-            for (e, bond) in bonds.iter_mut().enumerate() {
-                let overload =
-                    input.law(e).bond_overload(&input.start.element(e), input.start.state(e));
-                if overload.is_some() {
-                    *bond = Bond::Intact;
-                    modes[e] = input.law(e).modes()[0];
-                }
-            }
-        }
+        self.begin_with_intact_bonds(input, modes, bonds);
         let mut last_method = SearchMethod::ActiveSet;
         loop {
-            let found =
-                self.find_modes_with_bonds(solver, &ContactInput { bonds, ..*input }, modes);
-            if solver.fault.is_some() || found.is_none() && !bonds.contains(&Bond::Intact) {
-                return None;
-            }
+            let found = self.find_modes_with_bonds(&ContactInput { bonds, ..*input }, modes)?;
+            let has_intact_bond = bonds.contains(&Bond::Intact);
             let Some(method) = found else {
+                if !has_intact_bond {
+                    return Ok(None);
+                }
                 for bond in bonds.iter_mut().filter(|bond| **bond == Bond::Intact) {
                     *bond = Bond::Broken;
                 }
                 continue;
             };
             last_method = last_method.max(method);
-            if !bonds.contains(&Bond::Intact) {
-                return Some(last_method);
-            }
-            let tolerance = solver.tolerance(input).traction;
-            self.overloads.clear();
-            for (e, state) in solver.states.iter().enumerate() {
-                let is_intact = bonds[e] == Bond::Intact;
-                match if is_intact { input.overload(e, state) } else { Ok(None) } {
-                    Ok(overload) => self.overloads.push(overload.unwrap_or(0.0)),
-                    Err(fault) => {
-                        solver.fault = Some(fault);
-                        return None;
-                    }
-                }
-            }
-            let largest = self.overloads.iter().copied().fold(0.0, f64::max);
-            if largest <= tolerance {
-                return Some(last_method);
-            }
-            for (bond, overload) in bonds.iter_mut().zip(&self.overloads) {
-                if *overload >= BREAKING_OVERLOAD_RATIO * largest {
-                    *bond = Bond::Broken;
-                }
+            if !has_intact_bond || !self.break_overloaded_bonds(input, bonds)? {
+                return Ok(Some(last_method));
             }
         }
+    }
+
+    /// Sets `bonds`, and the modes of elements with an intact bond to their mode of rest.
+    fn begin_with_intact_bonds(
+        &self,
+        input: &ContactInput<'_>,
+        modes: &mut [Mode],
+        bonds: &mut [Bond],
+    ) {
+        bonds.fill(Bond::Free);
+        if self.search != ContactSearch::Robust {
+            return;
+        }
+        for (e, bond) in bonds.iter_mut().enumerate() {
+            let law = input.law(e);
+            if law.bond_overload(&input.start.element(e), input.start.state(e)).is_some() {
+                *bond = Bond::Intact;
+                modes[e] = law.modes()[0];
+            }
+        }
+    }
+
+    /// Breaks the most overloaded of the intact bonds in the last solution; `false` if none is overloaded.
+    fn break_overloaded_bonds(
+        &mut self,
+        input: &ContactInput<'_>,
+        bonds: &mut [Bond],
+    ) -> Result<bool, LawError> {
+        self.overloads.clear();
+        for (e, state) in self.solver.response.states.iter().enumerate() {
+            let is_intact = bonds[e] == Bond::Intact;
+            let overload = if is_intact { input.overload(e, state)? } else { None };
+            self.overloads.push(overload.unwrap_or(0.0));
+        }
+        let largest = self.overloads.iter().copied().fold(0.0, f64::max);
+        if largest <= self.solver.tolerance(input).traction {
+            return Ok(false);
+        }
+        for (bond, overload) in bonds.iter_mut().zip(&self.overloads) {
+            if *overload >= BREAKING_OVERLOAD_RATIO * largest {
+                *bond = Bond::Broken;
+            }
+        }
+        Ok(true)
     }
 
     /// Finds modes with the present bonds, by one method after the other.
     fn find_modes_with_bonds(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> Option<SearchMethod> {
-        if self.active_set(solver, input, modes) {
-            return Some(SearchMethod::ActiveSet);
+    ) -> Result<Option<SearchMethod>, LawError> {
+        if self.active_set(input, modes)? {
+            return Ok(Some(SearchMethod::ActiveSet));
         }
-        if self.search != ContactSearch::Robust || solver.fault.is_some() {
-            return None;
+        if self.search != ContactSearch::Robust {
+            return Ok(None);
         }
-        if self.gauss_seidel(solver, input, modes) {
-            return Some(SearchMethod::GaussSeidel);
+        if self.gauss_seidel(input, modes)? {
+            return Ok(Some(SearchMethod::GaussSeidel));
         }
-        let mut found = solver.fault.is_none() && self.along_path(solver, input, modes);
-        found |= solver.fault.is_none() && !found && self.enumerate(solver, input, modes);
-        found.then_some(SearchMethod::Path)
+        let is_found = self.along_path(input, modes)? || self.enumerate(input, modes)?;
+        Ok(is_found.then_some(SearchMethod::Path))
     }
 
-    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`].
+    /// Tries all sets of modes, if there are at most [`MAX_MODE_SETS`]; returns whether one is admissible.
     fn enumerate(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> bool {
+    ) -> Result<bool, LawError> {
         let sets =
             (0..modes.len()).try_fold(1, |sets: usize, e| sets.checked_mul(input.modes(e).len()));
-        let Some(sets) = sets.filter(|sets| *sets <= MAX_MODE_SETS) else { return false };
+        let Some(sets) = sets.filter(|sets| *sets <= MAX_MODE_SETS) else { return Ok(false) };
         for set in 0..sets {
             let mut rest = set;
             for (e, mode) in modes.iter_mut().enumerate() {
@@ -220,85 +204,80 @@ impl ModeSearch {
                 rest /= choices.len();
             }
             self.trials += 1;
-            if solver.trial(input, modes) && self.update_next_modes(solver, input, modes) {
-                return true;
-            }
-            if solver.fault.is_some() {
-                return false;
+            if self.are_admissible(input, modes)? {
+                return Ok(true);
             }
         }
         // With bonds that were broken, the laws allow more sets of modes.
         self.sets = input.bonds.iter().all(|bond| *bond == Bond::Free).then_some(sets);
-        false
+        Ok(false)
     }
 
-    fn failure(
-        &mut self,
-        solver: &mut ContactSolver,
-        input: &ContactInput<'_>,
-        modes: &[Mode],
-    ) -> StepError {
-        let residual = self.disagreement(solver, input, modes);
-        let modes = modes.iter().map(|mode| mode.word()).collect();
-        StepError::Contact { iterations: self.trials, residual, modes, sets: self.sets }
+    /// Error of a search that found no modes, or of a law.
+    fn failure(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> StepError {
+        match self.disagreement(input, modes) {
+            Ok(residual) => {
+                let modes = modes.iter().map(|mode| mode.word()).collect();
+                StepError::Contact { iterations: self.trials, residual, modes, sets: self.sets }
+            }
+            Err(error) => error.into(),
+        }
     }
 
     /// Difference between the tractions of `modes` and of the laws' next modes, relative to the largest.
     ///
     /// Returns 1 if either set of modes is singular.
-    fn disagreement(
-        &mut self,
-        solver: &mut ContactSolver,
-        input: &ContactInput<'_>,
-        modes: &[Mode],
-    ) -> f64 {
-        if !solver.trial(input, modes) {
-            return 1.0;
+    fn disagreement(&mut self, input: &ContactInput<'_>, modes: &[Mode]) -> Result<f64, LawError> {
+        if !self.solver.trial(input, modes)? {
+            return Ok(1.0);
         }
-        self.update_next_modes(solver, input, modes);
-        let before = solver.states.clone();
-        if !solver.trial(input, &self.next) {
-            return 1.0;
+        self.update_next_modes(input, modes)?;
+        let before = self.solver.response.states.clone();
+        if !self.solver.trial(input, &self.next)? {
+            return Ok(1.0);
         }
         let mut largest = f64::MIN_POSITIVE;
         let mut largest_difference = 0.0_f64;
-        for (a, b) in before.iter().zip(&solver.states) {
+        for (a, b) in before.iter().zip(&self.solver.response.states) {
             for (a, b) in [(a.pressure, b.pressure), (a.shear, b.shear)] {
                 largest = largest.max(a.abs()).max(b.abs());
                 largest_difference = largest_difference.max((a - b).abs());
             }
         }
-        largest_difference / largest
+        Ok(largest_difference / largest)
     }
 
-    /// Updates the next modes of all elements; returns whether all equal `modes`.
-    fn update_next_modes(
+    /// Whether the solution for `modes` exists and satisfies the laws.
+    fn are_admissible(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &[Mode],
-    ) -> bool {
-        let tolerance = solver.tolerance(input);
-        let mut is_admissible = true;
-        for (e, &mode) in modes.iter().enumerate() {
-            match input.next_mode(e, mode, &solver.states[e], tolerance) {
-                Ok(next) => self.next[e] = next,
-                Err(fault) => {
-                    solver.fault = Some(fault);
-                    return false;
-                }
-            }
-            is_admissible &= self.next[e] == mode;
-        }
-        is_admissible
+    ) -> Result<bool, LawError> {
+        Ok(self.solver.trial(input, modes)? && self.update_next_modes(input, modes)?)
     }
 
+    /// Updates the next modes of all elements after a trial; returns whether all equal `modes`.
+    fn update_next_modes(
+        &mut self,
+        input: &ContactInput<'_>,
+        modes: &[Mode],
+    ) -> Result<bool, LawError> {
+        let tolerance = self.solver.tolerance(input);
+        let mut is_admissible = true;
+        for (e, &mode) in modes.iter().enumerate() {
+            let state = &self.solver.response.states[e];
+            self.next[e] = input.next_mode(e, mode, state, tolerance)?;
+            is_admissible &= self.next[e] == mode;
+        }
+        Ok(is_admissible)
+    }
+
+    /// Takes the next modes of the laws until they stay the same; `false` if a set of modes occurs again.
     fn active_set(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> bool {
+    ) -> Result<bool, LawError> {
         self.visited.clear();
         let max_trials = match self.search {
             ContactSearch::Robust => ACTIVE_SET_TRIALS,
@@ -306,72 +285,63 @@ impl ModeSearch {
         };
         for _ in 0..max_trials {
             self.trials += 1;
-            if !solver.trial(input, modes) {
-                return false;
+            if !self.solver.trial(input, modes)? {
+                return Ok(false);
             }
-            if self.update_next_modes(solver, input, modes) {
-                return true;
-            }
-            if solver.fault.is_some() {
-                return false;
+            if self.update_next_modes(input, modes)? {
+                return Ok(true);
             }
             self.visited.extend_from_slice(modes);
             modes.copy_from_slice(&self.next);
-            if self.visited.chunks_exact(modes.len()).any(|seen| seen == modes) {
-                return false;
+            if self.visited.chunks_exact(modes.len()).any(|visited| visited == modes) {
+                return Ok(false);
             }
         }
-        false
+        Ok(false)
     }
 
+    /// Follows paths, and takes the next modes of the laws from the end of each.
     fn along_path(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> bool {
+    ) -> Result<bool, LawError> {
         for attempt in 0..MAX_PATHS {
-            self.trials += self.path.follow(solver, input, attempt, modes);
+            self.trials += self.path.follow(&mut self.solver, input, attempt, modes)?;
             // Near the point where a path broke, the solution is often found by the active set.
-            if self.active_set(solver, input, modes) {
-                return true;
-            }
-            if solver.fault.is_some() {
-                return false;
+            if self.active_set(input, modes)? {
+                return Ok(true);
             }
         }
-        false
+        Ok(false)
     }
 
+    /// Sweeps over the elements from zero changes of traction, until their modes are admissible.
     fn gauss_seidel(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
-    ) -> bool {
-        solver.traction.fill(0.0);
-        solver.evaluate(input);
+    ) -> Result<bool, LawError> {
+        self.solver.response.traction.fill(0.0);
+        self.solver.response.evaluate(input);
         self.before.copy_from_slice(modes);
-        let mut wait = 1;
+        let mut next_trial = 1;
         for sweep in 1..=MAX_SWEEPS {
             self.trials += 1;
             for e in 0..modes.len() {
-                modes[e] = local_mode(solver, input, e, modes[e]);
-            }
-            if solver.fault.is_some() {
-                return false;
+                modes[e] = local_mode(&mut self.solver.response, input, e, modes[e])?;
             }
             // Modes that stay the same for a sweep are tested by an exact solve; the wait grows after each
             // failure.
-            if modes == self.before.as_slice() && sweep >= wait {
-                if solver.trial(input, modes) && self.update_next_modes(solver, input, modes) {
-                    return true;
+            if modes == self.before.as_slice() && sweep >= next_trial {
+                if self.are_admissible(input, modes)? {
+                    return Ok(true);
                 }
-                wait = 2 * sweep;
+                next_trial = 2 * sweep;
             }
             self.before.copy_from_slice(modes);
         }
-        false
+        Ok(false)
     }
 }
 

@@ -17,7 +17,7 @@ use crate::structure::{restore_variables, save_variables};
 use crate::text::check_sum::CheckSum;
 
 /// Format of [`Checkpoint`]; raise it when the order of its numbers changes.
-const CHECKPOINT_FORMAT: u32 = 10;
+const CHECKPOINT_FORMAT: u32 = 11;
 /// Largest number of steps of a checkpoint: no run has more.
 const MAX_CHECKPOINT_STEPS: usize = match 1_usize.checked_shl(47) {
     Some(steps) => steps,
@@ -132,7 +132,7 @@ impl Simulation {
         let numbers = numbers(scene.layout().components(), &mut state_copy, energies.as_mut());
         let mut checkpoint = Checkpoint {
             format: CHECKPOINT_FORMAT,
-            identity: self.identity(state.step)?,
+            identity: self.identity(),
             steps: state.step,
             modes: state.start.iter().map(number).collect::<Result<_>>()?,
             laws: state.start.state_variables().to_vec(),
@@ -150,25 +150,22 @@ impl Simulation {
     ///
     /// The simulation must be built in the same way. Further steps have the same bits on the same processor.
     ///
-    /// Sizes, time step, elements, probes, matrices and static state are compared. So are the gravity stage, the
-    /// initial motion, the numbers that the interface laws return for sample states, and samples of ground motion and
-    /// loads in the steps so far. Numbers of a nonlinear force, the response of a law to other state variables than the
-    /// first, and internal variables that a structure does not [save][`save`] are not compared. Forces that were
-    /// [set](Simulation::set_load) are restored. The transitions, trials and method of the step before the checkpoint
-    /// are not kept.
+    /// Sizes, time step and scheme, elements, probes, sums over the matrices, static state, gravity stage, initial motion
+    /// and the [label](crate::coupled::SimulationBuilder::label) are compared. Interface laws, ground motion, loads and
+    /// nonlinear forces are not: let the label name them. Forces that were [set](Simulation::set_load) are restored. The
+    /// transitions, trials and method of the step before the checkpoint are not kept.
     ///
     /// # Errors
     /// [`crate::Error::Checkpoint`] for a checkpoint of another scene, another format, or with numbers missing or
     /// not finite. The simulation then stays unchanged.
-    ///
-    /// [`save`]: crate::structure::NonlinearForce::save
     pub fn resume(&mut self, checkpoint: &Checkpoint) -> Result<()> {
         self.resume_changed(checkpoint, &[])
     }
 
     /// Sets the simulation to the state of `checkpoint`, in a scene with these `changes`.
     ///
-    /// As [`Simulation::resume`] does. For example with other friction from there on, or another motion.
+    /// As [`Simulation::resume`] does. For example with other friction from there on, or another motion, which the label
+    /// names.
     ///
     /// # Errors
     /// As for [`Simulation::resume`], for any other difference.
@@ -185,17 +182,18 @@ impl Simulation {
     ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
     ///         .ground(SpringGround::new(-2.0..2.0, 8, 2e7, 1e7)?)
     ///         .interface(Coulomb::new(friction)?)
+    ///         .label(format!("friction {friction}"))
     ///         .build()
     /// };
     /// let saved = scene(0.4)?.checkpoint()?;
     /// let error = scene(0.3)?.resume(&saved).unwrap_err();
-    /// assert!(error.to_string().contains("interface law"));
+    /// assert!(error.to_string().contains("the label differs"));
     /// scene(0.3)?.resume_changed(&saved, &[Change::InterfaceLaw])?;
     /// # Ok::<(), basemat::Error>(())
     /// ```
     pub fn resume_changed(&mut self, checkpoint: &Checkpoint, changes: &[Change]) -> Result<()> {
         checkpoint.check()?;
-        checkpoint.identity.check(&self.identity(checkpoint.steps)?, changes)?;
+        checkpoint.identity.check(&self.identity(), changes)?;
         // A changed load uses the function of the new scene.
         let is_kept = !changes.contains(&Change::Load);
         if is_kept && checkpoint.set_loads.len() != 2 * self.scene.loads.len() {

@@ -1,30 +1,13 @@
-//! Identity of a scene: numbers that distinguish checkpoints of different scenes.
+//! Identity of a scene: numbers and a label that distinguish checkpoints of different scenes.
 
 use crate::Simulation;
-use crate::bem::free_field;
-use crate::coupled::scene::Scene;
-use crate::error::{CheckpointError, Result};
+use crate::error::CheckpointError;
 use crate::geometry::ContactElement;
-use crate::interface::{Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact};
-use crate::linalg::{largest, mixed, mixing_weight};
+use crate::linalg::largest;
 use crate::text::check_sum::CheckSum;
 
 /// Allowed difference of numbers of the same scene, since other processors round differently.
 const IDENTITY_TOLERANCE: f64 = 1e-9;
-/// Number of parts of the run in which ground motion and loads are compared.
-const SAMPLED_PARTS: usize = 64;
-/// Largest number of steps whose loads and motion are compared; a longer run is sampled.
-const MAX_COMPARED_STEPS: usize = 100_000;
-/// Largest number of evaluated entries of the structure's load; larger structures are sampled at fewer steps.
-const MAX_LOAD_ENTRIES: usize = 10_000_000;
-/// Slip rates of sample states, m/s.
-const SAMPLE_SLIP_RATES: [f64; 4] = [1e-3, 1e-2, 0.1, 1.0];
-/// Slip of sample states, m.
-const SAMPLE_SLIP: f64 = 1e-4;
-/// Pressure of a sample state if there is no weight, Pa.
-const SAMPLE_PRESSURE: f64 = 1e5;
-/// Number that replaces one that is not finite.
-const NOT_FINITE_SUBSTITUTE: f64 = -7.25;
 
 /// An intended difference from the scene of a checkpoint: see [`Simulation::resume_changed`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,11 +15,11 @@ const NOT_FINITE_SUBSTITUTE: f64 = -7.25;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Change {
-    /// Other parameters of the interface laws; the number of their state variables must be the same.
+    /// Other parameters of the interface laws, and another label; the number of state variables must be the same.
     InterfaceLaw,
-    /// Another ground motion.
+    /// Another ground motion, and another label.
     GroundMotion,
-    /// Other loads.
+    /// Other loads, and another label. Forces that were [set](Simulation::set_load) are not restored.
     Load,
     /// Another gravity stage that leads to the same static state.
     GravityStage,
@@ -57,6 +40,8 @@ words! { pub Change, "change of a scene", {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(crate) struct Identity {
+    /// The builder's label.
+    label: String,
     dofs: usize,
     /// Whether an energy balance is kept.
     energy_balance: bool,
@@ -81,14 +66,6 @@ pub(crate) struct Identity {
     /// Number of the gravity stage, and sums over the initial displacement and velocity.
     #[cfg_attr(feature = "serde", serde(with = "bits"))]
     start: Vec<f64>,
-    /// Numbers of the laws for sample states, averaged over the elements.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    law_numbers: Vec<f64>,
-    /// Sums over the free field and over the loads, in parts of the steps so far.
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    free_field: Vec<f64>,
-    #[cfg_attr(feature = "serde", serde(with = "bits"))]
-    loads: Vec<f64>,
 }
 
 /// Whether two lists agree within rounding, relative to `scale` or to each number of the second.
@@ -117,21 +94,9 @@ impl Identity {
     }
 
     pub(crate) fn add_to(&self, sum: &mut CheckSum) {
-        let Self {
-            dofs,
-            energy_balance,
-            probes,
-            laws,
-            steps,
-            elements,
-            structure,
-            ground,
-            static_contact,
-            start,
-            law_numbers,
-            free_field,
-            loads,
-        } = self;
+        let Self { label, dofs, energy_balance, probes, laws, .. } = self;
+        let Self { steps, elements, structure, ground, static_contact, start, .. } = self;
+        sum.add_text(label);
         sum.add(*dofs as u64);
         sum.add(u64::from(*energy_balance));
         sum.add(probes.len() as u64);
@@ -139,17 +104,7 @@ impl Identity {
             sum.add_text(name);
         }
         sum.add_list(laws.iter().map(|end| *end as u64));
-        for list in [
-            steps,
-            elements,
-            structure,
-            ground,
-            static_contact,
-            start,
-            law_numbers,
-            free_field,
-            loads,
-        ] {
+        for list in [steps, elements, structure, ground, static_contact, start] {
             sum.add_numbers(list);
         }
     }
@@ -160,10 +115,16 @@ impl Identity {
         scene: &Self,
         changes: &[Change],
     ) -> std::result::Result<(), CheckpointError> {
-        let unless = |change: Change, same: bool| changes.contains(&change) || same;
+        // The label stands for laws, motion and loads.
+        let has_label = |change: &Change| {
+            matches!(change, Change::InterfaceLaw | Change::GroundMotion | Change::Load)
+        };
+        let same_label = self.label == scene.label || changes.iter().any(has_label);
+        let same_stage = changes.contains(&Change::GravityStage)
+            || close(self.gravity_stage(), scene.gravity_stage(), 0.0);
+        let same_motion = changes.contains(&Change::InitialMotion)
+            || close(self.initial_motion(), scene.initial_motion(), 0.0);
         let span = largest(&scene.elements);
-        let largest_motion = largest(&scene.free_field);
-        let largest_load = largest(&scene.loads);
         for (same, quantity) in [
             (self.dofs == scene.dofs, "number of degrees of freedom"),
             (close(&self.steps, &scene.steps, 0.0), "time step or scheme"),
@@ -173,33 +134,10 @@ impl Identity {
             (self.laws == scene.laws, "state variables of the interface laws"),
             (close(&self.structure, &scene.structure, 0.0), "structure"),
             (close(&self.ground, &scene.ground, 0.0), "ground"),
-            (
-                unless(
-                    Change::GravityStage,
-                    close(self.gravity_stage(), scene.gravity_stage(), 0.0),
-                ),
-                "gravity stage",
-            ),
+            (same_stage, "gravity stage"),
             (close(&self.static_contact, &scene.static_contact, 0.0), "static state"),
-            (
-                unless(
-                    Change::InitialMotion,
-                    close(self.initial_motion(), scene.initial_motion(), 0.0),
-                ),
-                "initial motion",
-            ),
-            (
-                unless(Change::InterfaceLaw, close(&self.law_numbers, &scene.law_numbers, 0.0)),
-                "interface law",
-            ),
-            (
-                unless(
-                    Change::GroundMotion,
-                    close(&self.free_field, &scene.free_field, largest_motion),
-                ),
-                "ground motion",
-            ),
-            (unless(Change::Load, close(&self.loads, &scene.loads, largest_load)), "load"),
+            (same_motion, "initial motion"),
+            (same_label, "label"),
         ] {
             if !same {
                 return Err(CheckpointError::OtherScene { quantity });
@@ -210,8 +148,8 @@ impl Identity {
 }
 
 impl Simulation {
-    /// Numbers that are equal for simulations of the same scene, with samples of these first `steps`.
-    pub(crate) fn identity(&self, steps: usize) -> Result<Identity> {
+    /// Numbers and label, which are equal for simulations of the same scene.
+    pub(crate) fn identity(&self) -> Identity {
         let Self { scene, state, .. } = self;
         let model = &scene.model;
         // Modes may have either sign. A nonlinear structure has no modes, and its columns change.
@@ -224,14 +162,14 @@ impl Simulation {
         }
         let elements = scene.base.elements().iter();
         let elements = elements.flat_map(ContactElement::ends).flatten().collect();
-        let (free_field, loads) = self.samples(steps)?;
         let structure = vec![
             sum_of_magnitudes(model.mass.values()),
             sum_of_magnitudes(model.damping.values()),
             sum_of_magnitudes(model.stiffness.values()),
             signed,
         ];
-        Ok(Identity {
+        Identity {
+            label: scene.label.clone(),
             dofs: model.dofs,
             energy_balance: self.books.is_some(),
             probes: scene.context.probes.iter().map(|probe| probe.name.clone()).collect(),
@@ -245,129 +183,7 @@ impl Simulation {
                 .map(|values| sum_of_magnitudes(values))
                 .to_vec(),
             start: scene.start.to_vec(),
-            law_numbers: law_numbers(scene),
-            free_field,
-            loads,
-        })
-    }
-
-    /// Sums over the free field and over all loads in [`SAMPLED_PARTS`] parts of the first `steps`.
-    ///
-    /// A pulse may be as short as a step: external loads and the motion of one element count at every step of a usual
-    /// run.
-    fn samples(&self, steps: usize) -> Result<(Vec<f64>, Vec<f64>)> {
-        let Self { scene, structure, ground, motion, .. } = self;
-        let count = steps.max(SAMPLED_PARTS);
-        let mut motion_sums = vec![0.0; SAMPLED_PARTS];
-        let mut load_sums = vec![0.0; SAMPLED_PARTS];
-        let elements = scene.base.elements();
-        let mut displacement = vec![0.0; scene.layout().len()];
-        let mut impulse = displacement.clone();
-        for (sample, sum) in motion_sums.iter_mut().enumerate() {
-            let step = (sample + 1) as f64 * (count as f64 / SAMPLED_PARTS as f64);
-            let time = step.round() * scene.time_step;
-            let values = [&mut displacement[..], &mut impulse];
-            free_field(ground.as_ref(), motion.as_ref(), elements, time, values);
-            *sum = mixed(&impulse) + mixed(&displacement);
         }
-        let rows = scene.loads.iter().enumerate();
-        let rows: Vec<f64> = rows.map(|(k, load)| mixing_weight(k) * load.mixed_row()).collect();
-        let mut force = vec![0.0; scene.model.dofs];
-        let instants = count.min(MAX_COMPARED_STEPS);
-        let stride = instants.div_ceil((MAX_LOAD_ENTRIES / force.len().max(1)).max(SAMPLED_PARTS));
-        let [x, y, _] = scene.base.elements()[0].center();
-        for instant in 0..instants {
-            let part = instant * SAMPLED_PARTS / instants;
-            let weight = mixing_weight(instant);
-            let step = (instant as f64 * (count as f64 / instants as f64)).round();
-            let end = (step + 1.0) * scene.time_step;
-            motion_sums[part] += weight * mixed(&motion.displacement_at([x, y], end));
-            let time = (step + scene.coefficients.load_fraction) * scene.time_step;
-            let external = scene.loads.iter().zip(&rows);
-            let external = external.map(|(load, row)| row * load.own_value(time));
-            load_sums[part] += weight * external.sum::<f64>();
-            if instant % stride == 0 {
-                force.fill(0.0);
-                structure.load(time, &mut force)?;
-                load_sums[part] += weight * mixed(&force);
-            }
-        }
-        Ok((motion_sums, load_sums))
-    }
-}
-
-/// Numbers that the laws return for sample states, as weighted means over the elements.
-fn law_numbers(scene: &Scene) -> Vec<f64> {
-    let count = scene.count();
-    let plan = scene.layout().is_plan();
-    let pressures = &scene.static_state.traction[..count];
-    let mean = pressures.iter().sum::<f64>() / count as f64;
-    let pressure = if mean > 0.0 { mean } else { SAMPLE_PRESSURE };
-    let mut all: Vec<f64> = Vec::new();
-    let elements = if scene.laws.len() == 1 { 1 } else { count };
-    let sum: f64 = (0..elements).map(mixing_weight).sum();
-    for element in 0..elements {
-        let numbers = numbers_of(scene.law(element), pressure, scene.time_step, plan);
-        all.resize(all.len().max(numbers.len()), 0.0);
-        for (mean, number) in all.iter_mut().zip(numbers) {
-            // Numbers that are not finite would hide the others.
-            let number = if number.is_finite() { number } else { NOT_FINITE_SUBSTITUTE };
-            *mean += mixing_weight(element) / sum * number;
-        }
-    }
-    all
-}
-
-/// Numbers that a law returns under this pressure, Pa.
-///
-/// At rest, and at each of [`SAMPLE_SLIP_RATES`] after [`SAMPLE_SLIP`], with the first state variables: a user's law may refuse
-/// other ones.
-fn numbers_of(law: &dyn InterfaceLaw, pressure: f64, time_step: f64, plan: bool) -> Vec<f64> {
-    let rest = ContactState { pressure, ..ContactState::default() };
-    let slipped = ContactState { slip: SAMPLE_SLIP, ..rest };
-    let at_rest = PreviousContact::new(rest, law.modes()[0], time_step);
-    let variables = at_rest.first_state_variables(law);
-    let mut all = vec![law.state_variables() as f64, law.friction_coefficient().unwrap_or(-1.0)];
-    all.extend(&variables);
-    add_numbers(law, &at_rest.with_state_variables(&variables), pressure, plan, &mut all);
-    let slip_mode = law.modes().iter().copied().find(|mode| mode.is_slip());
-    let mut slid = PreviousContact::new(slipped, slip_mode.unwrap_or(law.modes()[0]), time_step);
-    slid.static_pressure = pressure;
-    for rate in SAMPLE_SLIP_RATES {
-        slid.slip_rate = rate;
-        add_numbers(law, &slid.with_state_variables(&variables), pressure, plan, &mut all);
-    }
-    all
-}
-
-/// Adds the numbers that a law returns for a step from this start.
-fn add_numbers(
-    law: &dyn InterfaceLaw,
-    start: &PreviousContact<'_>,
-    pressure: f64,
-    plan: bool,
-    all: &mut Vec<f64>,
-) {
-    if plan {
-        all.extend(law.compliance(Mode::Stick, start));
-        if let Ok(limits) = law.limits(start) {
-            let Limits { friction, attraction, shear_strength, .. } = limits;
-            let Limits { tension, pressure_cap, gap_offset, bonded, .. } = limits;
-            all.extend([friction, attraction, shear_strength, tension, pressure_cap]);
-            all.extend([gap_offset, f64::from(u8::from(bonded))]);
-        }
-        return;
-    }
-    for &mode in law.modes() {
-        all.push(mode as usize as f64);
-        all.extend(law.compliance(mode, start));
-        for Condition { gap, slip, pressure, shear, value } in law.conditions(mode, start) {
-            all.extend([gap, slip, pressure, shear, value]);
-        }
-    }
-    for (pressure, shear) in [(-pressure, 0.0), (0.0, pressure), (pressure, 3.0 * pressure)] {
-        let trial = ContactState { pressure, shear, ..start.state };
-        all.push(law.bond_overload(start, &trial).unwrap_or(0.0));
     }
 }
 

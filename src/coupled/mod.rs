@@ -75,23 +75,17 @@ pub(crate) mod base;
 mod bed_compliance;
 mod checkpoint;
 mod conditioning;
-mod convergent_step;
 mod coordinates;
-mod free_vibration;
+mod former_paths;
 mod gravity_stage;
 mod ground_order;
 mod identity;
-mod interaction;
 pub(crate) mod model;
 pub(crate) mod parts;
 mod preparation;
-mod push_over;
-mod refine;
-mod refine_each;
 pub(crate) mod run;
 pub(crate) mod scene;
 mod scheme;
-mod sensitivity;
 pub(crate) mod serviceability;
 pub(crate) mod simulation;
 pub(crate) mod state;
@@ -104,22 +98,18 @@ pub use crate::error::{CheckpointError, CoarseBaseError, StabilityError, StepErr
 pub use basemat_structures::internal::Probe;
 pub use checkpoint::Checkpoint;
 pub use conditioning::Conditioning;
-pub use convergent_step::largest_convergent_step;
 pub use coordinates::Coordinates;
+#[doc(hidden)]
+pub use former_paths::*;
 pub use gravity_stage::GravityStage;
 pub use identity::Change;
-pub use interaction::{Interaction, SystemMode, interaction};
 pub use model::load::Load;
 pub use parts::SimulationBuilder;
-pub use push_over::{PushControl, PushOver, PushPoint, push_over};
-pub use refine::{Refinement, Setting, refine};
-pub use refine_each::{Refinements, refine_each};
 pub use run::mistake::Mistake;
 pub use run::warning::Warning;
 pub use scheme::{
     DissipativeMidpoint, HhtAlpha, Midpoint, Newmark, SchemeCoefficients, Theta, TimeScheme,
 };
-pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};
 pub use simulation::Observed;
 pub use state::energy_balance::{EnergyBalance, EnergyTerm};
 #[cfg(feature = "embedded")]

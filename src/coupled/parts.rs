@@ -30,10 +30,10 @@ use crate::structure::{Structure, check_probes, is_nonlinear};
 /// Tolerance below which a negative eigenvalue of the ground's matrix counts as rounding.
 ///
 /// The matrix is scaled to a diagonal of one.
-const ROUNDING: f64 = 1e-9;
+const STEP_COMPLIANCE_ROUNDING: f64 = 1e-9;
 
 /// From this number of steps on, a run counts as a run without a known end.
-pub(crate) const ENDLESS: usize = match 1_usize.checked_shl(40) {
+pub(crate) const ENDLESS_STEPS: usize = match 1_usize.checked_shl(40) {
     Some(steps) => steps,
     None => usize::MAX >> 4,
 };
@@ -71,6 +71,7 @@ pub struct SimulationBuilder {
     pub(crate) rotation_limit: f64,
     /// Whether the base is held instead of standing on the ground.
     pub(crate) held: bool,
+    pub(crate) label: String,
     pub(crate) observer: Box<dyn FnMut(Progress) -> ControlFlow<()> + Send>,
 }
 
@@ -112,6 +113,7 @@ impl SimulationBuilder {
             serviceability: Serviceability::default(),
             rotation_limit: ROTATION_LIMIT,
             held: false,
+            label: String::new(),
             observer: Box::new(unobserved),
         }
     }
@@ -157,16 +159,13 @@ impl Parts {
         given.serviceability = given.serviceability.checked()?;
         let limit = given.rotation_limit;
         require("rotation limit", limit, limit > 0.0, "above zero (infinite: none)")?;
-        let missing = |quantity, needed| Error::Scene { quantity, needed };
-        let mut structure = given
-            .structure
-            .take()
-            .ok_or(missing("structure", "give one to the builder with `structure`"))?;
+        let needed = "give one to the builder with `structure`";
+        let missing_structure = Error::Scene { quantity: "structure", needed };
+        let mut structure = given.structure.take().ok_or(missing_structure)?;
         is_nonlinear(structure.as_mut())?;
-        let mut ground = given
-            .ground
-            .take()
-            .ok_or(missing("ground", "give one to the builder with `ground`"))?;
+        let needed = "give one to the builder with `ground`";
+        let missing_ground = Error::Scene { quantity: "ground", needed };
+        let mut ground = given.ground.take().ok_or(missing_ground)?;
         let elements = Patch::of_any_count(ground.elements().to_vec())?;
         let components = elements.layout().components();
         // A bed may be known only once it is prepared.
@@ -204,14 +203,7 @@ impl Parts {
             !given.held && is_first_order(ground.as_mut(), &description, time_step, layout)?;
         let steps = Some(given.steps).filter(|steps| *steps > 0);
         ground.prepare(time_step, steps, &mut given.observer)?;
-        let of_bed = bed_compliance::of_bed(ground.as_ref(), structure.as_ref(), &elements)?;
-        let soil = if let Some(diagonal) = of_bed {
-            CompressedMatrix::of_diagonal(diagonal)
-        } else {
-            check_count(elements.len(), components)?;
-            instantaneous_operator(ground.as_ref(), &elements)?
-        };
-        let soil = Arc::new(soil);
+        let soil = Arc::new(step_compliance(ground.as_ref(), structure.as_ref(), &elements)?);
         Ok(Self {
             structure,
             ground,
@@ -276,10 +268,23 @@ fn check_dofs(dofs: usize, tractions: usize) -> Result<()> {
     Ok(memory::check(quantity, dofs, responses)?)
 }
 
+/// Step compliance of a ground: one diagonal for a bed, otherwise all pairs of elements.
+fn step_compliance(
+    ground: &dyn Ground,
+    structure: &dyn Structure,
+    elements: &Patch,
+) -> Result<CompressedMatrix> {
+    if let Some(diagonal) = bed_compliance::of_bed(ground, structure, elements)? {
+        return Ok(CompressedMatrix::of_diagonal(diagonal));
+    }
+    check_count(elements.len(), elements.layout().components())?;
+    step_compliance_of_pairs(ground, elements)
+}
+
 /// Step compliance of the ground; an error if it could generate energy.
 ///
 /// With rows weighted by the elements' areas, its symmetric part must not be negative.
-fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<CompressedMatrix> {
+fn step_compliance_of_pairs(ground: &dyn Ground, elements: &Patch) -> Result<CompressedMatrix> {
     let (layout, areas) = (elements.layout(), elements.areas());
     let size = layout.len();
     let mut operator = vec![0.0; layout.square()];
@@ -297,7 +302,7 @@ fn instantaneous_operator(ground: &dyn Ground, elements: &Patch) -> Result<Compr
     };
     let mut symmetric: Vec<f64> = (0..size * size).map(|k| weighted(k / size, k % size)).collect();
     for row in 0..size {
-        symmetric[row * (size + 1)] += ROUNDING;
+        symmetric[row * (size + 1)] += STEP_COMPLIANCE_ROUNDING;
     }
     match indefinite_pivot(&symmetric, size) {
         None => Ok(match lattice_cells(elements) {

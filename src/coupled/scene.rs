@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::{ConnectedPart, UP};
+use crate::coupled::base::influence::{ConnectedPart, UPWARD_DIRECTION};
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::coupled::model::Model;
 use crate::coupled::model::kinematics::Kinematics;
@@ -49,6 +49,8 @@ pub(crate) struct Scene {
     /// Number of the gravity stage, and sums over the initial displacement and velocity, for comparison with a
     /// checkpoint.
     pub(crate) start: [f64; 3],
+    /// The builder's label, for comparison with a checkpoint.
+    pub(crate) label: String,
     /// Shared data for results of the scene's states.
     pub(crate) context: Arc<Context>,
 }
@@ -88,7 +90,7 @@ impl Scene {
         let mut weight = Vec::new();
         if given.falls() {
             weight.resize(model.coordinates, 0.0);
-            let up = model.influence.of(UP, model.coordinates);
+            let up = model.influence.of(UPWARD_DIRECTION, model.coordinates);
             model.mass.multiply_add(-given.gravity, &up, &mut weight);
         }
         let elements = &parts.elements;
@@ -122,6 +124,7 @@ impl Scene {
                 mixed(&given.displacement),
                 mixed(&given.velocity),
             ],
+            label: std::mem::take(&mut given.label),
             context: Arc::new(context),
             model,
             base,

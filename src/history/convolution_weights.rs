@@ -1,9 +1,7 @@
 //! Weights of a ground's convolution, lag by lag; late weights as exponentials.
 
 use super::exponential_sum::ExponentialSum;
-#[cfg(feature = "embedded")]
-use super::pair_classes::TRENCH_KINDS;
-use super::pair_classes::{PairClasses, STRIP_KINDS};
+use super::pair_classes::PairClasses;
 use super::shared_spectra::SharedSpectra;
 use crate::error::{Error, Observer, Result, same_length, unobserved};
 use crate::geometry::SERIES_PER_OFFSET;
@@ -48,55 +46,23 @@ pub trait ConvolutionWeights: Send + Sync {
 
     /// Overwrites `values` with the coefficients of `class` for the lags from `first_lag` (≥ 1) on.
     ///
-    /// The slices have one length, one slice for each kind: normal, tangential, coupling. Coefficients are integrals
-    /// over the receiver in m²/Pa: down due to pressure, to the right due to shear, and down due to shear with the
-    /// receiver to the right of the source. Lags that were not [prepared](ConvolutionWeights::prepare) are computed
-    /// now.
+    /// The slices have one length, one slice for each of the [kinds](PairClasses::kinds) ([`by_kind`] separates them).
+    /// Coefficients are integrals over the receiver, in m²/Pa, in plan in m³/Pa:
+    ///
+    /// | elements | kinds |
+    /// |---|---|
+    /// | strips | normal: down due to pressure; tangential: to the right due to shear; coupling: down due to shear, with the receiver to the right of the source |
+    /// | cells in plan | zz, xx, yy, xy, zx, zy; zx: down due to shear along x, with the receiver to the right of the source; zy: down due to shear along y, with the receiver behind the source; xy: along one axis due to shear along the other, with the receiver to the right and behind |
+    /// | around a trench | along the normal due to pressure, along the tangent due to shear, along the normal due to shear, along the tangent due to pressure |
+    ///
+    /// Lags that were not [prepared](ConvolutionWeights::prepare) are computed now.
     ///
     /// # Errors
     /// [`Error::Index`](crate::Error::Index) for a class that does not exist,
-    /// [`Error::Size`](crate::Error::Size) for slices of different lengths,
+    /// [`Error::Size`](crate::Error::Size) for another number of slices, or slices of different lengths,
     /// [`Error::Input`](crate::Error::Input) for lag 0.
-    fn coefficients(
-        &self,
-        class: usize,
-        first_lag: usize,
-        values: [&mut [f64]; STRIP_KINDS],
-    ) -> Result<()>;
-
-    /// Like [`ConvolutionWeights::coefficients`], for cells of a lattice in plan.
-    ///
-    /// Kinds are zz, xx, yy, xy, zx and zy, integrals over the receiver in m³/Pa. Of these, zx is down due to shear
-    /// along x with the receiver to the right of the source; zy is down due to shear along y with the receiver behind
-    /// the source; xy is along one axis due to shear along the other, with the receiver to the right and behind.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a kernel of strips (the default); as for [`ConvolutionWeights::coefficients`].
-    fn coefficients_in_plan(
-        &self,
-        _class: usize,
-        _first_lag: usize,
-        _values: [&mut [f64]; SERIES_PER_OFFSET],
-    ) -> Result<()> {
-        Err(UNSUPPORTED_KINDS)
-    }
-
-    /// Like [`ConvolutionWeights::coefficients`], for elements around a trench.
-    ///
-    /// Kinds: along the normal due to pressure, along the tangent due to shear, along the normal due to shear, along the
-    /// tangent due to pressure.
-    ///
-    /// # Errors
-    /// [`Error::Scene`] for a kernel of another ground (the default); as for [`ConvolutionWeights::coefficients`].
-    #[cfg(feature = "embedded")]
-    fn coefficients_around_trench(
-        &self,
-        _class: usize,
-        _first_lag: usize,
-        _values: [&mut [f64]; TRENCH_KINDS],
-    ) -> Result<()> {
-        Err(UNSUPPORTED_KINDS)
-    }
+    fn coefficients(&self, class: usize, first_lag: usize, values: &mut [&mut [f64]])
+    -> Result<()>;
 
     /// Last lag at which the coupling of `class` is not zero.
     ///
@@ -141,69 +107,38 @@ pub trait ConvolutionWeights: Send + Sync {
         let classes = self.classes();
         same_length("step compliance", matrix.len(), classes.layout().square())?;
         self.prepare(1, &mut unobserved)?;
-        #[cfg(feature = "embedded")]
-        if classes.are_around_trench() {
-            return scatter_first_lag(
-                classes,
-                matrix,
-                |class, values: [&mut [f64]; TRENCH_KINDS]| {
-                    self.coefficients_around_trench(class, 1, values)
-                },
-            );
+        // Of each class, kind by kind; zero for kinds that the elements do not have.
+        let mut coefficients = vec![[0.0; SERIES_PER_OFFSET]; classes.count()];
+        for (class, coefficients) in coefficients.iter_mut().enumerate() {
+            let mut values: Vec<_> = coefficients.chunks_mut(1).take(classes.kinds()).collect();
+            self.coefficients(class, 1, &mut values)?;
         }
-        if classes.plan().is_some() {
-            scatter_first_lag(classes, matrix, |class, values| {
-                self.coefficients_in_plan(class, 1, values)
-            })
-        } else {
-            scatter_first_lag(classes, matrix, |class, values| self.coefficients(class, 1, values))
-        }
+        classes.scatter(matrix, |_, pair| coefficients[pair.class].map(|value| value * pair.scale));
+        Ok(())
     }
 }
 
-/// Overwrites `matrix` with element means of lag 1.
+/// Slices of [`ConvolutionWeights::coefficients`], one for each of N kinds.
 ///
-/// `first_lag(class, values)` writes the coefficients of a class at lag 1, kind by kind.
-fn scatter_first_lag<const N: usize>(
-    classes: &PairClasses,
-    matrix: &mut [f64],
-    first_lag: impl Fn(usize, [&mut [f64]; N]) -> Result<()>,
-) -> Result<()> {
-    let mut coefficients = Vec::with_capacity(classes.count());
-    for class in 0..classes.count() {
-        let mut values = [[0.0]; N];
-        first_lag(class, values.each_mut().map(<[f64; 1]>::as_mut_slice))?;
-        coefficients.push(values.map(|[value]| value));
-    }
-    classes.scatter(matrix, |_, pair| coefficients[pair.class].map(|value| value * pair.scale));
-    Ok(())
+/// ```
+/// use basemat::history::by_kind;
+/// let mut lags = [[0.0; 5]; 3];
+/// let mut values = lags.each_mut().map(|kind| &mut kind[..]);
+/// let [normal, tangential, coupling] = by_kind(&mut values)?;
+/// normal[0] = 1.0;
+/// # assert!(tangential == coupling);
+/// # Ok::<(), basemat::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Size`](crate::Error::Size) for another number of slices.
+pub fn by_kind<'a, 'b, const N: usize>(
+    values: &'a mut [&'b mut [f64]],
+) -> Result<&'a mut [&'b mut [f64]; N]> {
+    let found = values.len();
+    let quantity = "kinds of coefficients";
+    values.try_into().map_err(|_| Error::Size { quantity, found, needed: N })
 }
-
-/// Overwrites `values`, one slice for each kind, with the coefficients of a class.
-pub(super) fn read_coefficients(
-    kernel: &dyn ConvolutionWeights,
-    class: usize,
-    first_lag: usize,
-    values: &mut [&mut [f64]],
-) -> Result<()> {
-    match values {
-        [normal, tangential, coupling] => {
-            kernel.coefficients(class, first_lag, [normal, tangential, coupling])
-        }
-        #[cfg(feature = "embedded")]
-        [nn, tt, nt, tn] => kernel.coefficients_around_trench(class, first_lag, [nn, tt, nt, tn]),
-        [zz, xx, yy, xy, zx, zy] => {
-            kernel.coefficients_in_plan(class, first_lag, [zz, xx, yy, xy, zx, zy])
-        }
-        _ => Err(UNSUPPORTED_KINDS),
-    }
-}
-
-/// Error for a kind of coefficients that a kernel does not have.
-pub(crate) const UNSUPPORTED_KINDS: Error = Error::Scene {
-    quantity: "coefficients of a kernel",
-    needed: "`coefficients` are those of strips, `coefficients_in_plan` those of mats in plan",
-};
 
 /// A kernel whose late lags are sums of decaying exponentials.
 ///

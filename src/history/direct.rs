@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::convolution::{ConvolutionHistory, check_inputs};
-use super::convolution_weights::{ConvolutionWeights, read_coefficients};
+use super::convolution_weights::ConvolutionWeights;
 use crate::error::{Error, MemoryError, Observer, Result, memory_limit, same_length, unobserved};
 use crate::linalg::dot;
 
@@ -74,7 +74,7 @@ impl DirectHistory {
             let last_lag = self.kernel.last_coupling_lag(class)?;
             let last = last_lag.unwrap_or(capacity).min(capacity);
             let mut values: Vec<_> = new_lags.iter_mut().map(Vec::as_mut_slice).collect();
-            read_coefficients(&*self.kernel, class, old_capacity + 1, &mut values)?;
+            self.kernel.coefficients(class, old_capacity + 1, &mut values)?;
             for (kind, (stored, lags)) in self.coefficients.iter_mut().zip(&new_lags).enumerate() {
                 if kind < diagonal_kinds {
                     prepend_reversed(&mut stored[class], lags);

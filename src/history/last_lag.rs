@@ -52,8 +52,8 @@ impl LastLag {
                 let is_late = begin >= lag;
                 let target = if is_late { &mut late_sums } else { &mut sums };
                 for (class, sums) in target.iter_mut().enumerate() {
-                    let values = lags.each_mut().map(Vec::as_mut_slice);
-                    kernel.coefficients_in_plan(class, begin + 1, values)?;
+                    let mut values = lags.each_mut().map(Vec::as_mut_slice);
+                    kernel.coefficients(class, begin + 1, &mut values)?;
                     for (sum, lags) in sums.iter_mut().zip(&lags) {
                         *sum += lags.iter().map(|value| value.abs()).sum::<f64>();
                     }

@@ -20,16 +20,13 @@ mod shared_spectra;
 pub(crate) use chosen::ChosenHistory;
 pub use chosen::HistoryChoice;
 pub use convolution::ConvolutionHistory;
-pub(crate) use convolution_weights::UNSUPPORTED_KINDS;
-pub use convolution_weights::{ConvolutionWeights, LateWeights};
+pub use convolution_weights::{ConvolutionWeights, LateWeights, by_kind};
 pub use direct::DirectHistory;
 pub use exponential_sum::{ExponentialSum, TailProduct};
 pub use exponentials::{ExponentialFit, ExponentialHistory};
 pub use method::HistoryMethod;
 pub use options::HistoryOptions;
 pub(crate) use pair_classes::STRIP_KINDS;
-#[cfg(feature = "embedded")]
-pub(crate) use pair_classes::TRENCH_KINDS;
 pub use pair_classes::{Pair, PairClasses};
 pub use relaxed_fft::RelaxedFftHistory;
 pub use shared_spectra::SharedSpectra;

@@ -14,13 +14,8 @@ use crate::linalg::{MatrixScalar, hermitian_range, indefinite_pivot};
 /// Number of kinds of coefficients of a pair: normal, tangential, and the coupling of both.
 pub(crate) const STRIP_KINDS: usize = 3;
 
-/// Number of kinds around a trench: normal, tangential, normal by tangential, and tangential by normal.
-#[cfg(feature = "embedded")]
-pub(crate) const TRENCH_KINDS: usize = 4;
-
-/// Largest number of kinds in the plane.
-pub(crate) const MAX_KINDS: usize =
-    if cfg!(feature = "embedded") { STRIP_KINDS + 1 } else { STRIP_KINDS };
+/// Largest number of kinds in the plane: two couplings, where they are not equal up to the sign.
+pub(crate) const MAX_PLANE_KINDS: usize = STRIP_KINDS + 1;
 
 /// Length in units of 1e-12 of the patch, as an integer.
 ///
@@ -81,8 +76,10 @@ pub struct PairClasses {
     representatives: Vec<[ContactElement; 2]>,
     /// Lattice of elements in plan, and the column and row of each; `pairs` is then empty.
     plan: Option<(Lattice, Vec<[usize; 2]>)>,
-    /// Around a trench: for each pair, whether receiver and source of the class are exchanged. Otherwise empty.
-    #[cfg(feature = "embedded")]
+    /// Number of kinds of coefficients.
+    kinds: usize,
+    /// For each pair, whether receiver and source of its class are exchanged; empty where that changes only the sign of
+    /// the coupling.
     exchanged: Vec<bool>,
 }
 
@@ -124,66 +121,21 @@ impl PairClasses {
                 pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
             }
         }
-        Ok(Self {
-            elements,
-            pairs,
-            representatives,
-            plan: None,
-            #[cfg(feature = "embedded")]
-            exchanged: vec![],
-        })
+        Ok(Self::of_pairs(elements, pairs, representatives, STRIP_KINDS, vec![]))
     }
 
-    /// Sorts the pairs of elements around a trench into classes.
+    /// Classes with these `pairs`, receiver by receiver, and a source and receiver that represent each class.
     ///
-    /// The elements follow the outline, and the second half mirrors the first one. Counted from the axis along either
-    /// half, class i(i + 1)/2 + j, j ≤ i, has the receiver i of the right half and the source j of the same half. As
-    /// many classes follow, whose source is j of the left half.
-    ///
-    /// # Errors
-    /// As for [`check_count`].
-    #[cfg(feature = "embedded")]
-    pub(crate) fn around_trench(elements: Vec<ContactElement>) -> Result<Self> {
-        check_count(elements.len(), COMPONENTS_IN_PLANE)?;
-        let count = elements.len();
-        let half = count / 2;
-        let same_half_classes = half * (half + 1) / 2;
-        let from_axis = |element: usize| {
-            if element < half { half - 1 - element } else { element - half }
-        };
-        let mut pairs = vec![];
-        let mut exchanged = vec![];
-        for (p, receiver) in elements.iter().enumerate() {
-            for q in 0..count {
-                let i = from_axis(p);
-                let j = from_axis(q);
-                let is_across = (p < half) != (q < half);
-                let first_class = if is_across { same_half_classes } else { 0 };
-                let class = i.max(j) * (i.max(j) + 1) / 2 + i.min(j) + first_class;
-                let is_exchanged = i < j;
-                // A receiver of the left half is the mirror image of one of the right half.
-                let is_mirrored = if is_exchanged { q < half } else { p < half };
-                let sign = if is_mirrored { -1.0 } else { 1.0 };
-                pairs.push(Pair { class, scale: 1.0 / receiver.length(), sign });
-                exchanged.push(is_exchanged);
-            }
-        }
-        let mut representatives = Vec::with_capacity(2 * same_half_classes);
-        for source_is_right in [true, false] {
-            for i in 0..half {
-                for j in 0..=i {
-                    let source = if source_is_right { half + j } else { half - 1 - j };
-                    representatives.push([elements[source], elements[half + i]]);
-                }
-            }
-        }
-        Ok(Self { elements, pairs, representatives, plan: None, exchanged })
-    }
-
-    /// Whether the elements are around a trench.
-    #[cfg(feature = "embedded")]
-    pub(crate) fn are_around_trench(&self) -> bool {
-        !self.exchanged.is_empty()
+    /// `kinds`: number of kinds of coefficients. `exchanged`: for each pair, whether its receiver and source are the source
+    /// and the receiver of its class; empty where that changes only the sign of the coupling.
+    pub(crate) fn of_pairs(
+        elements: Vec<ContactElement>,
+        pairs: Vec<Pair>,
+        representatives: Vec<[ContactElement; 2]>,
+        kinds: usize,
+        exchanged: Vec<bool>,
+    ) -> Self {
+        Self { elements, pairs, representatives, plan: None, kinds, exchanged }
     }
 
     /// Classes of the pairs of `cells` (column and row) of a lattice in plan: [`Lattice::classes`].
@@ -212,7 +164,7 @@ impl PairClasses {
             pairs: vec![],
             representatives: vec![],
             plan: Some((lattice, cells)),
-            #[cfg(feature = "embedded")]
+            kinds: SERIES_PER_OFFSET,
             exchanged: vec![],
         })
     }
@@ -222,13 +174,18 @@ impl PairClasses {
         self.plan.as_ref().map(|(lattice, cells)| (lattice, &cells[..]))
     }
 
-    /// Number of kinds of coefficients of a pair: entries of a symmetric matrix, its diagonal first.
-    pub(crate) fn kinds(&self) -> usize {
-        #[cfg(feature = "embedded")]
-        if self.are_around_trench() {
-            return TRENCH_KINDS;
-        }
-        if self.plan.is_some() { SERIES_PER_OFFSET } else { STRIP_KINDS }
+    /// Number of kinds of coefficients of a pair, in the order of [`ConvolutionWeights::coefficients`].
+    ///
+    /// 3 for strips, 6 for cells of a lattice in plan, 4 around a trench.
+    ///
+    /// [`ConvolutionWeights::coefficients`]: super::ConvolutionWeights::coefficients
+    pub fn kinds(&self) -> usize {
+        self.kinds
+    }
+
+    /// Whether the couplings of normal and tangential components are of two kinds.
+    pub(crate) fn has_two_couplings(&self) -> bool {
+        !self.exchanged.is_empty()
     }
 
     /// The elements, from left to right; cells in plan in the order given.
@@ -295,7 +252,6 @@ impl PairClasses {
     /// Kind and factor of a pair's coupling: normal displacement due to shear, tangential due to pressure.
     pub(crate) fn coupling(&self, place: usize) -> [(usize, f64); 2] {
         let sign = self.pairs[place].sign;
-        #[cfg(feature = "embedded")]
         if let Some(exchanged) = self.exchanged.get(place) {
             let kinds = if *exchanged { [3, 2] } else { [2, 3] };
             return kinds.map(|kind| (kind, sign));

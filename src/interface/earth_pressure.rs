@@ -164,6 +164,11 @@ impl InterfaceLaw for EarthPressure {
         Some(self.friction())
     }
 
+    /// No reason: the numbers of the law are valid, also without limits.
+    fn check_start(&self, _start: &PreviousContact) -> Result<()> {
+        Ok(())
+    }
+
     /// Limits of soil that stands: in plan there are no walls.
     fn limits(&self, start: &PreviousContact) -> Result<Limits> {
         let needed = "an active pressure of zero, to act by limits alone";

@@ -71,13 +71,19 @@ impl Limits {
 
     /// Error of [`InterfaceLaw::limits`](super::InterfaceLaw::limits) for a law of the plane alone.
     ///
-    /// Such a law has its own modes, conditions and next mode.
-    ///
     /// # Errors
     /// Always [`Error::Scene`](crate::Error::Scene), with the name of the law.
+    #[deprecated(
+        since = "0.5.0",
+        note = "implement `PlaneLaw`, and pass the law as `InPlane(law)`"
+    )]
     pub fn only_in_plane<Law: ?Sized>() -> Result<Self> {
-        let name = std::any::type_name::<Law>();
-        let quantity = name.rsplit("::").next().unwrap_or(name);
+        Self::missing(std::any::type_name::<Law>())
+    }
+
+    /// Error for a law without limits; `type_name`: its path.
+    pub(super) fn missing(type_name: &'static str) -> Result<Self> {
+        let quantity = type_name.rsplit("::").next().unwrap_or(type_name);
         Err(Error::Scene { quantity, needed: "`limits`, to act on a ground in plan" })
     }
 

@@ -1,8 +1,9 @@
 //! Interface laws between the base and the soil.
 //!
-//! A law describes one contact element at a time, by the [`Limits`] of its tractions. In the plane two linear
-//! [`Condition`]s for each [`Mode`] follow from them, between the element's opening and its traction, and the next mode
-//! after a trial; a law may have its own. The mode search of [`crate::contact`] is the same for all laws.
+//! A law describes one contact element at a time, by the [`Limits`] of its tractions: an [`InterfaceLaw`] needs this one
+//! method. In the plane two linear [`Condition`]s for each [`Mode`] follow from the limits, between the element's opening
+//! and its traction, and the next mode after a trial. A law of the plane that no limits describe states them itself: it is
+//! a [`PlaneLaw`], with three methods. The mode search of [`crate::contact`] is the same for all laws.
 
 mod cohesive;
 mod condition;
@@ -11,6 +12,7 @@ mod earth_pressure;
 mod law_form;
 mod limits;
 mod mode;
+mod plane_law;
 mod previous_contact;
 mod thin_layer;
 mod variable_friction;
@@ -25,6 +27,7 @@ pub use earth_pressure::EarthPressure;
 pub(crate) use law_form::LawForm;
 pub use limits::Limits;
 pub use mode::Mode;
+pub use plane_law::{InPlane, PlaneLaw};
 pub(crate) use previous_contact::state_variable_ends;
 pub use previous_contact::{PreviousContact, PreviousContacts};
 pub use thin_layer::{FrictionLimit, SlipSense, ThinLayer};
@@ -146,9 +149,7 @@ pub(crate) fn law_of(laws: &[Box<dyn InterfaceLaw>], element: usize) -> &dyn Int
 /// Contact law between base and soil: implement this for your law.
 ///
 /// A law needs one method: the [`limits`](InterfaceLaw::limits) of an element's tractions. A law of the plane that no
-/// limits describe (an open element that bears, a slip that is resisted by its speed) has its own
-/// [`modes`](InterfaceLaw::modes), [`conditions`](InterfaceLaw::conditions) and
-/// [`next_mode`](InterfaceLaw::next_mode), and [`Limits::only_in_plane`].
+/// limits describe (an open element that bears, a slip that is resisted by its speed) implements [`PlaneLaw`] instead.
 ///
 /// A law is a rule and stores nothing itself. [`PreviousContact`] holds the end of the previous step. If a
 /// law needs more of the past, it declares state variables per element. The simulation stores them, passes
@@ -208,19 +209,21 @@ pub trait InterfaceLaw: Send {
     ///
     /// # Errors
     /// If the law has no limits for this element, as [`Error::Scene`](crate::Error::Scene) or
-    /// [`Error::part`](crate::Error::part); for a law of the plane alone [`Limits::only_in_plane`].
+    /// [`Error::part`](crate::Error::part).
     fn limits(&self, start: &PreviousContact) -> Result<Limits>;
 
     /// The modes of this law in the plane, first the mode of rest.
     ///
-    /// The default has all modes of a law with [`limits`](InterfaceLaw::limits).
+    /// The default has all modes of a law with [`limits`](InterfaceLaw::limits). A law replaces it to leave out modes that
+    /// its limits exclude.
     fn modes(&self) -> &[Mode] {
         Mode::WITH_LIMITS
     }
 
     /// The two conditions that `mode` imposes at the end of the step.
     ///
-    /// The default follows from [`limits`](InterfaceLaw::limits) and [`compliance`](InterfaceLaw::compliance).
+    /// The default follows from [`limits`](InterfaceLaw::limits) and [`compliance`](InterfaceLaw::compliance). A law
+    /// replaces it only if it acts by other rules in the plane than in plan.
     fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
         let compliance = self.compliance(Mode::Stick, start);
         self.limits(start).map_or_else(
@@ -311,11 +314,7 @@ pub trait InterfaceLaw: Send {
     /// An error with the cause, as [`Error::Input`](crate::Error::Input) or [`Error::part`](crate::Error::part). By
     /// default errors of the [`limits`](InterfaceLaw::limits) from which the conditions follow.
     fn check_start(&self, start: &PreviousContact) -> Result<()> {
-        match self.limits(start) {
-            Ok(limits) => limits.checked().map(drop),
-            Err(_) if self.modes() != Mode::WITH_LIMITS => Ok(()),
-            Err(error) => Err(error),
-        }
+        self.limits(start)?.checked().map(drop)
     }
 
     /// The same law without friction and cohesion, for the gravity stage.

@@ -359,6 +359,11 @@ impl InterfaceLaw for ThinLayer {
         }
     }
 
+    /// No reason: limits exist in plan alone, and the numbers of a layer are valid.
+    fn check_start(&self, _start: &PreviousContact) -> Result<()> {
+        Ok(())
+    }
+
     /// Limits in plan.
     ///
     /// An open element carries no traction; slip excludes the elastic deformation.

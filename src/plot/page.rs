@@ -8,7 +8,7 @@ use super::svg::escaped;
 /// HTML page of a text with pictures below it, all in one file.
 ///
 /// `text` is anything printed in columns, such as a [`Run`](crate::results::Run) or an
-/// [`Interaction`](crate::coupled::Interaction). A browser opens and prints the page without other files.
+/// [`Interaction`](crate::analyses::Interaction). A browser opens and prints the page without other files.
 ///
 /// ```
 /// use basemat::plot;

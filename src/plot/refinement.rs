@@ -6,7 +6,7 @@ use super::axes::{ChartAxis, chart, draw_curve};
 use super::drawing::Stroke;
 use super::key::PictureKey;
 use super::svg::{Sheet, Svg};
-use crate::coupled::{Refinement, Setting};
+use crate::analyses::{Refinement, Setting};
 use crate::error::{Error, Result};
 
 /// Estimated error of each setting over its run time, both on logarithmic axes.

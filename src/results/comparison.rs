@@ -96,12 +96,12 @@ fn comparison_rows(dimensions: &[bool]) -> Vec<ComparisonRow> {
                 let peak = run.whole.peak(quantity).value;
                 Some(peak).filter(|peak| has_value && !peak.is_nan())
             };
-            let (factor, unit) = quantity.printed(in_plan);
+            let unit = quantity.printed(in_plan);
             rows.push(ComparisonRow {
                 name: quantity.short_name(),
-                unit,
+                unit: unit.symbol,
                 column: quantity.column(in_plan),
-                factor,
+                factor: unit.factor,
                 value: Box::new(value),
             });
         }
@@ -192,11 +192,11 @@ impl Comparison {
             }
         }
         for (k, probe) in self.common_probes().iter().enumerate() {
-            let (factor, unit) = printed(&probe.unit);
-            let mut cells = vec![probe.name.clone(), unit.to_owned()];
+            let unit = printed(&probe.unit);
+            let mut cells = vec![probe.name.clone(), unit.symbol.to_owned()];
             for (_, run) in &self.cases {
                 let cell = run.probes.get(k).map_or("–".to_owned(), |probe| {
-                    number(factor * probe.extremes.largest().value)
+                    number(unit.factor * probe.extremes.largest().value)
                 });
                 cells.push(cell);
             }

@@ -78,10 +78,10 @@ impl<'a> TrenchWaves<'a> {
         let needed = "at least 0.8 of the lowest shear wave speed";
         require("apparent velocity of a wave", 1.0 / slowness, is_fast, needed)?;
         let elements = ground.trench_elements().elements();
-        let [left, ..] = ContactElement::faces(&elements);
-        let walls = left.len();
+        let left_wall = ContactElement::faces(&elements).left_wall;
+        let walls = left_wall.len();
         let mut points = vec![];
-        for (level, element) in elements[left].iter().enumerate() {
+        for (level, element) in elements[left_wall].iter().enumerate() {
             let middle = -element.center()[2];
             let length = element.length();
             let lower_end = middle + 0.5 * length;

@@ -2,10 +2,10 @@
 //! SCENE: a block on a law that is never content with steps longer than some limit.
 //! REFERENCE: the limit.
 
+use basemat::analyses::largest_convergent_step;
 use basemat::bem::SpringGround;
 use basemat::coupled::StepError;
-use basemat::coupled::largest_convergent_step;
-use basemat::interface::{Coulomb, Mode, PreviousContact};
+use basemat::interface::{Coulomb, InPlane, Mode, PreviousContact};
 use basemat::motion::el_centro_1940;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Result, Simulation};
@@ -22,7 +22,7 @@ fn scene(step: f64, limit: f64) -> Result<Simulation> {
     Simulation::builder(step)
         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
         .ground(SpringGround::new(-2.0..2.0, 3, 8e7, 4e7)?)
-        .interface(Wayward { law: Coulomb::new(0.5)?, next })
+        .interface(InPlane(Wayward { law: Coulomb::new(0.5)?, next }))
         .motion(el_centro_1940())
         .build()
 }
@@ -31,7 +31,7 @@ fn scene(step: f64, limit: f64) -> Result<Simulation> {
 fn the_longest_step_that_gets_through_is_found() {
     let error = scene(0.02, 0.003).unwrap().run(10, |_| {}).map(|_| ()).unwrap_err();
     assert!(matches!(error, Error::Step { source: StepError::Contact { .. }, .. }), "{error}");
-    assert!(error.to_string().contains("`coupled::largest_convergent_step`"), "{error}");
+    assert!(error.to_string().contains("`analyses::largest_convergent_step`"), "{error}");
     for (limit, wanted) in [(0.02, Some(0.02)), (0.003, Some(0.0025)), (1e-6, None)] {
         let mut tried = 0;
         let found = largest_convergent_step(0.02, 0.1, |step| {

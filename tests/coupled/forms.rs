@@ -6,13 +6,14 @@
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
+use basemat::analyses::refine;
 use basemat::bem::full_plane::CqMethod;
 use basemat::bem::layered::{Stages, StripContact};
 use basemat::bem::{ContactElement, Grading, SpringGround, Strip};
 use basemat::contact::ContactSearch;
 use basemat::coupled::{
     Checkpoint, Coordinates, DissipativeMidpoint, EnergyBalance, GravityStage, HhtAlpha, Midpoint,
-    Newmark, Probe, Theta, Warning, refine,
+    Newmark, Probe, Theta, Warning,
 };
 use basemat::fem::{Direction, Layer, MassKind, Material, Quad8Integration, QuadFormulation};
 use basemat::history::HistoryMethod;

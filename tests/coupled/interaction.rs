@@ -5,8 +5,9 @@
 
 use std::f64::consts::TAU;
 
+use basemat::analyses::interaction;
 use basemat::bem::{ElasticGround, SpringGround};
-use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Warning, interaction};
+use basemat::coupled::{Coordinates, Probe, SimulationBuilder, Warning};
 use basemat::interface::{Bonded, Coulomb};
 use basemat::motion::{Record, el_centro_1940};
 use basemat::results::{Quantity, Recorder};

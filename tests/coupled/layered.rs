@@ -178,7 +178,7 @@ fn thick_layers_tend_to_the_half_plane() {
         let kernel = two_stages(profile, &strip).weights(step).unwrap();
         let mut lists = [vec![0.0; lags], vec![0.0; lags], vec![0.0; lags]];
         let [zz, xx, zx] = &mut lists;
-        kernel.coefficients(1, 1, [zz, xx, zx]).unwrap();
+        kernel.coefficients(1, 1, &mut [zz, xx, zx]).unwrap();
         lists
     };
     // Pressure waves are back after 12/1.87 = 6.4: the method's fronts come a little early.

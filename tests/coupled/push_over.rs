@@ -2,8 +2,9 @@
 //! SCENE: rigid blocks on springs without tension, on stiff springs, on slippery ones, on the half-plane; in plan.
 //! REFERENCE: the closed form of the Winkler strip and its table; W b/2 on rigid ground; μ W; symmetry.
 
+use basemat::analyses::{PushControl, PushOver, push_over};
 use basemat::bem::{ElasticGround, SpringGround};
-use basemat::coupled::{Load, PushControl, PushOver, push_over};
+use basemat::coupled::Load;
 use basemat::interface::Coulomb;
 use basemat::structure::RigidBlock;
 use basemat::{Error, Simulation, Soil};

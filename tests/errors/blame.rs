@@ -6,7 +6,9 @@
 
 use basemat::bem::{ContactElement, ElasticGround, Ground, SpringGround, Strip};
 use basemat::coupled::{Load, SimulationBuilder};
-use basemat::interface::{Bonded, Cohesive, Coulomb, Mode, PreviousContact, VariableFriction};
+use basemat::interface::{
+    Bonded, Cohesive, Coulomb, InPlane, Mode, PreviousContact, VariableFriction,
+};
 use basemat::structure::{
     Base, BaseNode, InternalEnergy, NonlinearForce, RigidBlock, Structure, Triplets,
 };
@@ -274,7 +276,7 @@ fn a_mode_that_the_law_does_not_have_is_named() {
         Mode::Stick => Mode::Yield,
         _ => mode,
     };
-    let law = Wayward { law: Coulomb::new(0.5).unwrap(), next };
+    let law = InPlane(Wayward { law: Coulomb::new(0.5).unwrap(), next });
     let mut simulation = standing(4, false).interface(law).gravity(0.0).build().unwrap();
     let error = error_with("interface law of element 0, mode stick", simulation.step().map(drop));
     let unknown = "there is no next mode in the law's `modes` 'yield', only stick";

@@ -5,7 +5,8 @@
 use basemat::bem::SpringGround;
 use basemat::coupled::{Probe, SchemeCoefficients, SimulationBuilder, Theta, TimeScheme};
 use basemat::interface::{
-    Bonded, Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+    Bonded, Condition, ContactState, InPlane, InterfaceLaw, Mode, PlaneLaw, PreviousContact,
+    Tolerance,
 };
 use basemat::motion::FreeField;
 use basemat::{Error, Simulation};
@@ -92,11 +93,7 @@ impl FreeField for Standing {
 
 struct NoModes;
 
-impl InterfaceLaw for NoModes {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for NoModes {
     fn modes(&self) -> &[Mode] {
         &[]
     }
@@ -123,7 +120,7 @@ impl TimeScheme for NotANumber {
 
 #[test]
 fn builders_refuse_broken_plugins() {
-    assert!(matches!(unbuilt("modes", good().interface(NoModes)), Error::Scene { .. }));
+    assert!(matches!(unbuilt("modes", good().interface(InPlane(NoModes))), Error::Scene { .. }));
     let error = unbuilt("coefficient of the time scheme", good().scheme(NotANumber));
     assert!(matches!(error, Error::Input { .. }), "{error:?}");
 }

@@ -10,7 +10,8 @@ use basemat::coupled::GravityStage;
 use basemat::coupled::StepError;
 use basemat::interface::LawError;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InPlane, InterfaceLaw, Mode, PlaneLaw, PreviousContact,
+    Tolerance,
 };
 use basemat::{Error, Simulation};
 
@@ -43,11 +44,7 @@ impl Spoilt {
     }
 }
 
-impl InterfaceLaw for Spoilt {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Spoilt {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -108,7 +105,7 @@ const ELEMENT: usize = 2;
 fn simulation(spoilt: Spoilt) -> basemat::Result<Simulation> {
     let law = |e: usize| -> Box<dyn InterfaceLaw> {
         let place = spoilt.place.filter(|_| e == ELEMENT);
-        Box::new(Spoilt { place, ..spoilt })
+        Box::new(InPlane(Spoilt { place, ..spoilt }))
     };
     let ground = SpringGround::new(-2.0..2.0, 4, 5e7, 4e7)?.with_dashpots(4e5, 3e5)?;
     let laws = (0..4).map(law).collect();
@@ -191,7 +188,7 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
     // While the weight comes on.
     let spoilt = Spoilt { place: Some(Place::Condition(0)), value: f64::NAN, slid: 0.0 };
     let ground = SpringGround::new(-2.0..2.0, 1, 5e7, 4e7).unwrap();
-    let built = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(spoilt);
+    let built = scene(SI, 0.6).structure(block(SI)).ground(ground).interface(InPlane(spoilt));
     let Err(Error::Law(error)) = built.gravity_stage(GravityStage::Frictional).build() else {
         panic!("accepted");
     };
@@ -202,11 +199,7 @@ fn numbers_that_are_broken_from_the_start_are_named_by_build() {
 /// Remembers as many numbers as it is told to.
 struct Memorious(usize);
 
-impl InterfaceLaw for Memorious {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Memorious {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }
@@ -227,9 +220,10 @@ impl InterfaceLaw for Memorious {
 #[test]
 fn more_numbers_than_memory_holds_are_refused() {
     for many in [134_217_729, usize::MAX / 3, usize::MAX] {
-        let builder = scene(SI, 0.6).structure(block(SI)).interface(Memorious(many));
+        let builder = scene(SI, 0.6).structure(block(SI)).interface(InPlane(Memorious(many)));
         let built = builder.build().map(drop);
-        let host = ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![Box::new(Memorious(many))]);
+        let host =
+            ContactProblem::new(vec![1.0, 0.0, 0.0, 1.0], vec![Box::new(InPlane(Memorious(many)))]);
         for found in [built, host.map(drop)] {
             let Err(Error::Memory(error)) = found else { panic!("{found:?}") };
             assert!(error.quantity.contains("remember") && error.asked > 1e8, "{error}");
@@ -244,7 +238,7 @@ fn hosts_are_told_too_and_keep_their_start() {
     let element = PreviousContact::new(pressed, Mode::Stick, 0.01);
     for place in [Place::Condition(9), Place::Memory] {
         let spoilt = Spoilt { place: Some(place), value: f64::NAN, slid: 0.0 };
-        let problem = ContactProblem::new(unit(), vec![Box::new(spoilt)]).unwrap();
+        let problem = ContactProblem::new(unit(), vec![Box::new(InPlane(spoilt))]).unwrap();
         let mut problem = problem.with_static_tractions(vec![1e4, 0.0]).unwrap();
         let mut start = problem.start(&[element]).unwrap();
         let before = start.clone();
@@ -259,7 +253,7 @@ fn hosts_are_told_too_and_keep_their_start() {
         assert_eq!(start, before);
     }
     let spoilt = Spoilt { place: Some(Place::InitialMemory), value: f64::NAN, slid: 0.0 };
-    let problem = ContactProblem::new(unit(), vec![Box::new(spoilt)]).unwrap();
+    let problem = ContactProblem::new(unit(), vec![Box::new(InPlane(spoilt))]).unwrap();
     assert!(matches!(problem.start(&[element]), Err(Error::Law(_))));
     let mut remembers = element;
     remembers.state_variables = &[f64::NAN, 0.0];
@@ -270,7 +264,7 @@ fn hosts_are_told_too_and_keep_their_start() {
     let other = ContactProblem::new(unit(), vec![Box::new(coulomb())]).unwrap();
     let mut other = other.start(&[element]).unwrap();
     let sound = Spoilt { place: None, value: 0.0, slid: 0.0 };
-    let mut problem = ContactProblem::new(unit(), vec![Box::new(sound)]).unwrap();
+    let mut problem = ContactProblem::new(unit(), vec![Box::new(InPlane(sound))]).unwrap();
     assert!(matches!(problem.solve(&[0.0; 2], &other), Err(Error::Scene { .. })));
     let own = problem.start(&[element]).unwrap();
     let solution = problem.solve(&[0.0; 2], &own).unwrap();

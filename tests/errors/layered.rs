@@ -126,21 +126,21 @@ fn kernels_are_validated() {
     let mut list = [0.0; 2];
     let (mut one, mut two) = ([0.0; 2], [0.0; 3]);
     assert!(matches!(
-        kernel.coefficients(99, 1, [&mut list, &mut one, &mut [0.0; 2]]),
+        kernel.coefficients(99, 1, &mut [&mut list, &mut one, &mut [0.0; 2]]),
         Err(Error::Index { .. })
     ));
     assert!(matches!(
-        kernel.coefficients(0, 0, [&mut list, &mut one, &mut [0.0; 2]]),
+        kernel.coefficients(0, 0, &mut [&mut list, &mut one, &mut [0.0; 2]]),
         Err(Error::Input { .. })
     ));
     assert!(matches!(
-        kernel.coefficients(0, 1, [&mut list, &mut one, &mut two]),
+        kernel.coefficients(0, 1, &mut [&mut list, &mut one, &mut two]),
         Err(Error::Size { .. })
     ));
-    assert!(kernel.coefficients(0, usize::MAX, [&mut list, &mut one, &mut [0.0; 2]]).is_err());
+    assert!(kernel.coefficients(0, usize::MAX, &mut [&mut list, &mut one, &mut [0.0; 2]]).is_err());
     assert!(kernel.prepare(usize::MAX, &mut unobserved).is_err());
-    assert!(kernel.coefficients(0, usize::MAX, [&mut [], &mut [], &mut []]).is_err());
-    kernel.coefficients(0, 5, [&mut [], &mut [], &mut []]).unwrap();
+    assert!(kernel.coefficients(0, usize::MAX, &mut [&mut [], &mut [], &mut []]).is_err());
+    kernel.coefficients(0, 5, &mut [&mut [], &mut [], &mut []]).unwrap();
 }
 
 /// Scales so far apart that integrals would take for ever are refused at once.
@@ -204,7 +204,7 @@ fn what_takes_too_much_memory_is_refused_beforehand() {
     refused(kernel.prepare(1 << 31, &mut |_| ControlFlow::Break(())), most);
     refused(kernel.prepare(1 << 31, &mut unobserved), most);
     let mut list = [0.0; 1];
-    refused(kernel.coefficients(0, (1 << 31) - 1, [&mut list, &mut [0.0], &mut [0.0]]), most);
+    refused(kernel.coefficients(0, (1 << 31) - 1, &mut [&mut list, &mut [0.0], &mut [0.0]]), most);
 
     let strip = Strip::uniform(-3.0..3.0, 3).unwrap();
     let ground = |profile: SoilProfile, bytes: usize| {
@@ -259,7 +259,7 @@ fn extreme_contrasts_end() {
                 let profile = SoilProfile::on_half_plane(base).with_layer(top, thickness).unwrap();
                 let kernel = two_stages(profile.clone(), &strip()).weights(step).unwrap();
                 let [mut zz, mut xx, mut zx] = [[f64::NAN; 4]; 3];
-                let outcome = kernel.coefficients(0, 1, [&mut zz, &mut xx, &mut zx]);
+                let outcome = kernel.coefficients(0, 1, &mut [&mut zz, &mut xx, &mut zx]);
                 let statics = two_stages(profile, &strip()).static_compliance(&mut [0.0; 36]);
                 println!(
                     "{:.0e} on {:.0e}, {thickness}, {step}: {outcome:?} {zz:?} {statics:?} {:?}",
@@ -308,7 +308,7 @@ fn threads_do_not_change_bits() {
         pool.install(|| {
             let kernel = two_stages(p1(gmb(5), gmb(1)), &strip()).weights(0.5).unwrap();
             let [mut zz, mut xx, mut zx] = [[0.0; 300]; 3];
-            kernel.coefficients(1, 1, [&mut zz, &mut xx, &mut zx]).unwrap();
+            kernel.coefficients(1, 1, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
             [zz, xx, zx].map(|list| list.map(f64::to_bits))
         })
     };
@@ -324,7 +324,7 @@ fn two_kernels_have_the_same_bits() {
             let ground = two_stages(p1(gmb(5), gmb(1)), &strip).with_stages(stages);
             let [mut zz, mut xx, mut zx] = [[0.0; 100]; 3];
             let kernel = ground.weights(0.5).unwrap();
-            kernel.coefficients(2, 100, [&mut zz, &mut xx, &mut zx]).unwrap();
+            kernel.coefficients(2, 100, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
             [zz, xx, zx]
         };
         assert_eq!(values(), values());

@@ -98,8 +98,8 @@ fn absurd_counts_do_not_panic() {
     let patch = PatchKernel::new(soil(), vec![left, right], 1e-30).unwrap();
     let ends = |class| patch.last_coupling_lag(class).unwrap();
     let last = (0..patch.classes().count()).find(|&class| ends(class) == Some(usize::MAX - 1));
-    let slices = [&mut [0.0; 2][..], &mut [0.0; 2], &mut [0.0; 2]];
-    patch.coefficients(last.unwrap(), usize::MAX, slices).unwrap();
+    let mut slices = [&mut [0.0; 2][..], &mut [0.0; 2], &mut [0.0; 2]];
+    patch.coefficients(last.unwrap(), usize::MAX, &mut slices).unwrap();
 }
 
 #[test]
@@ -115,9 +115,9 @@ fn kernels() {
     }
     refused("lag", &[0.0], |_| kernel.coefficients(unit, unit, 0));
     let patch = PatchKernel::new(soil(), vec![unit], 1e-3).unwrap();
-    let uneven = patch.coefficients(0, 1, [&mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]]);
+    let uneven = patch.coefficients(0, 1, &mut [&mut [0.0; 3], &mut [0.0; 2], &mut [0.0; 3]]);
     assert!(matches!(error_with("xx", uneven), Error::Size { found: 2, needed: 3, .. }));
-    error_with("first lag", patch.coefficients(0, 0, [&mut [0.0], &mut [0.0], &mut [0.0]]));
+    error_with("first lag", patch.coefficients(0, 0, &mut [&mut [0.0], &mut [0.0], &mut [0.0]]));
 
     refused("time step", &BAD, |x| PatchKernel::new(soil(), vec![unit], x));
     error_with("contact elements", PatchKernel::new(soil(), vec![], 1e-3));

@@ -6,7 +6,7 @@
 use std::fmt::Debug;
 
 use basemat::coupled::StepError;
-use basemat::interface::{Coulomb, InterfaceLaw, Mode, PreviousContact};
+use basemat::interface::{Coulomb, InPlane, InterfaceLaw, Mode, PreviousContact};
 use basemat::motion::FreeFieldFn;
 use basemat::{Error, Simulation};
 
@@ -80,7 +80,7 @@ fn fickle() -> impl InterfaceLaw {
         Mode::Stick => Mode::Open,
         _ => Mode::Stick,
     };
-    Wayward { law: Coulomb::uplift_only(), next }
+    InPlane(Wayward { law: Coulomb::uplift_only(), next })
 }
 
 #[test]

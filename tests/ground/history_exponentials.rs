@@ -136,7 +136,7 @@ fn every_coefficient_is_within_the_bound_up_to_the_horizon_and_slowly_leaves_it(
                 let of = |pair: usize| {
                     let [mut zz, mut xx, mut zx] = [[0.0]; 3];
                     let class = pairs[pair].class;
-                    kernel.coefficients(class, lag, [&mut zz, &mut xx, &mut zx]).unwrap();
+                    kernel.coefficients(class, lag, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
                     [pairs[pair].scale * zz[0], pairs[pair].scale * xx[0]]
                 };
                 let (near, far) = (of(0), of(1));

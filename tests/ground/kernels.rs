@@ -360,7 +360,7 @@ fn nothing_arrives_early_and_bad_input_is_refused() {
         }
         let mut noise = [[7.0; 4]; 3];
         let [zz, xx, zx] = &mut noise;
-        patch.coefficients(class, 1100, [zz, xx, zx]).unwrap();
+        patch.coefficients(class, 1100, &mut [zz, xx, zx]).unwrap();
         assert_eq!(noise[0][2], at(1102).zz);
         assert_eq!(noise[2][2], at(1102).zx);
     }

@@ -19,7 +19,7 @@ fn agrees_with_the_table_of_a_damped_layer_on_rock() {
         .map(|class| {
             let mut lists = [vec![f64::NAN; 64], vec![f64::NAN; 64], vec![f64::NAN; 64]];
             let [zz, xx, zx] = &mut lists;
-            kernel.coefficients(class, 1, [zz, xx, zx]).unwrap();
+            kernel.coefficients(class, 1, &mut [zz, xx, zx]).unwrap();
             lists
         })
         .collect();
@@ -62,7 +62,7 @@ fn homogeneous_ground_tends_to_the_closed_form() {
             let [source, receiver] = kernel.classes().representative(class).unwrap();
             for (lag, error) in [30, 100, 400].into_iter().zip(&mut errors) {
                 let [mut zz, mut xx, mut zx] = [[0.0]; 3];
-                kernel.coefficients(class, lag, [&mut zz, &mut xx, &mut zx]).unwrap();
+                kernel.coefficients(class, lag, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
                 let wanted = closed.coefficients(receiver, source, lag).unwrap();
                 let length = receiver.length();
                 for (found, wanted) in [(zz, wanted.zz), (xx, wanted.xx)] {
@@ -90,11 +90,11 @@ fn bits_of_a_lag_depend_on_nothing_else() {
     two.prepare(1000, &mut unobserved).unwrap();
     let mut whole = [vec![0.0; 600], vec![0.0; 600], vec![0.0; 600]];
     let [zz, xx, zx] = &mut whole;
-    two.coefficients(1, 1, [zz, xx, zx]).unwrap();
+    two.coefficients(1, 1, &mut [zz, xx, zx]).unwrap();
     for (first, count) in [(500, 101), (1, 3), (120, 20), (256, 1), (257, 100)] {
         let mut piece = [vec![f64::NAN; count], vec![f64::NAN; count], vec![f64::NAN; count]];
         let [zz, xx, zx] = &mut piece;
-        one.coefficients(1, first, [zz, xx, zx]).unwrap();
+        one.coefficients(1, first, &mut [zz, xx, zx]).unwrap();
         for (piece, whole) in piece.iter().zip(&whole) {
             for (a, b) in piece.iter().zip(&whole[first - 1..]) {
                 assert_eq!(a.to_bits(), b.to_bits());
@@ -114,7 +114,7 @@ fn tolerance_governs_the_latest_lags() {
         let list = || vec![0.0; lags];
         let mut whole = [list(), list(), list()];
         let [zz, xx, zx] = &mut whole;
-        kernel.coefficients(0, 1, [zz, xx, zx]).unwrap();
+        kernel.coefficients(0, 1, &mut [zz, xx, zx]).unwrap();
         whole
     };
     let exact = values(1e-13);

@@ -53,7 +53,7 @@ fn bits(ground: &ElasticGround, time_step: f64) -> Result<Vec<u64>, Error> {
     for class in 0..kernel.classes().count() {
         let mut lists = [[0.0; LAGS]; 3];
         let [zz, xx, zx] = &mut lists;
-        kernel.coefficients(class, 1, [zz, xx, zx])?;
+        kernel.coefficients(class, 1, &mut [zz, xx, zx])?;
         bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
     }
     Ok(bits)

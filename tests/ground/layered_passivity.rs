@@ -23,7 +23,7 @@ fn matrices(kernel: &dyn ConvolutionWeights) -> Vec<Vec<f64>> {
         .map(|class| {
             let mut lists = [vec![0.0; STEPS], vec![0.0; STEPS], vec![0.0; STEPS]];
             let [zz, xx, zx] = &mut lists;
-            kernel.coefficients(class, 1, [zz, xx, zx]).unwrap();
+            kernel.coefficients(class, 1, &mut [zz, xx, zx]).unwrap();
             lists
         })
         .collect();

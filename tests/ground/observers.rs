@@ -56,7 +56,7 @@ fn bits(kernel: &dyn ConvolutionWeights, lags: usize) -> Vec<u64> {
     for class in 0..kernel.classes().count() {
         let mut lists = [(); 3].map(|()| vec![0.0; lags]);
         let [zz, xx, zx] = &mut lists;
-        kernel.coefficients(class, 1, [zz, xx, zx]).unwrap();
+        kernel.coefficients(class, 1, &mut [zz, xx, zx]).unwrap();
         bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
     }
     bits
@@ -106,7 +106,7 @@ fn weights_in_plan_are_watched_and_stopped() {
         let mut bits = vec![];
         for class in 0..kernel.classes().count() {
             let mut lists = [(); 6].map(|()| vec![0.0; 300]);
-            kernel.coefficients_in_plan(class, 1, lists.each_mut().map(Vec::as_mut_slice)).unwrap();
+            kernel.coefficients(class, 1, &mut lists.each_mut().map(Vec::as_mut_slice)).unwrap();
             bits.extend(lists.iter().flatten().map(|value| value.to_bits()));
         }
         bits

@@ -4,9 +4,9 @@
 //! REFERENCE: the mat as one face, or as a few; areas and centres by hand; symmetry.
 
 use basemat::Soil;
+use basemat::bem::ContactElement;
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
-use basemat::bem::{ContactElement, ElasticGround, Ground};
 use basemat::soil::SoilProfile;
 use basemat::unobserved;
 
@@ -149,7 +149,7 @@ fn random_faces_of_an_outline_have_the_cells_of_the_outline() {
     }
 }
 
-/// Static stiffnesses of a rigid mat of 40 m x 12 m on 4 cells as triangles, and the estimate of an oblique outline.
+/// Static stiffnesses of a rigid mat of 40 m x 12 m on 4 cells as triangles.
 #[test]
 fn rigid_mats_of_triangles_are_as_stiff_as_one_face() {
     let soil = || SoilProfile::from(Soil::new(80e6, 0.33, 1900.0).unwrap());
@@ -157,8 +157,7 @@ fn rigid_mats_of_triangles_are_as_stiff_as_one_face() {
         let plan = Plan::on_faces(faces, 4).unwrap();
         let contact = StripContact::Bonded;
         let found = impedances_in_plan(&soil(), &plan, &[0.0], contact, &mut unobserved).unwrap();
-        let ground = ElasticGround::in_plan(soil(), plan).unwrap();
-        ([0, 1, 2, 3, 4, 5].map(|k| found[0].matrix[k][k].re), ground.description().outline_error)
+        [0, 1, 2, 3, 4, 5].map(|k| found[0].matrix[k][k].re)
     };
     for sides in [[40.0, 12.0], [60.0, 10.0]] {
         let [x, y] = sides.map(|side| 0.5 * side);
@@ -166,11 +165,10 @@ fn rigid_mats_of_triangles_are_as_stiff_as_one_face() {
         let about = |point: [f64; 2]| -> Vec<Face> {
             (0..4).map(|k| vec![corners[k], corners[(k + 1) % 4], point]).collect()
         };
-        let (wanted, _) = stiffness(std::slice::from_ref(&corners));
+        let wanted = stiffness(std::slice::from_ref(&corners));
         let halves = vec![corners[..3].to_vec(), vec![corners[0], corners[2], corners[3]]];
         for (name, faces) in [("two", halves), ("four", about([0.5, 0.3]))] {
-            let (found, error) = stiffness(&faces);
-            assert_eq!(error, 0.0);
+            let found = stiffness(&faces);
             for axis in 0..6 {
                 let ratio = found[axis] / wanted[axis] - 1.0;
                 assert!(ratio.abs() < 1e-9, "{sides:?} {name} {axis}: {ratio:e}");

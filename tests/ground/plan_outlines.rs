@@ -6,7 +6,6 @@
 
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
-use basemat::bem::{ElasticGround, Ground};
 use basemat::soil::SoilProfile;
 use basemat::{Result, Soil, unobserved};
 
@@ -28,15 +27,14 @@ fn ell(turn: f64) -> Vec<Vec<[f64; 2]>> {
     [long, short].map(|face| turned(face).to_vec()).to_vec()
 }
 
-/// Vertical and rocking stiffness, times (1 − ν)/G, and the ground's estimate of the rocking error.
-fn stiffness(plan: Result<Plan>) -> ([f64; 2], f64) {
-    let (profile, plan): (SoilProfile, _) =
-        (Soil::new(1.0, 0.3, 1.0).unwrap().into(), plan.unwrap());
+/// Vertical and rocking stiffness, times (1 − ν)/G.
+fn stiffness(plan: Result<Plan>) -> [f64; 2] {
+    let profile = SoilProfile::from(Soil::new(1.0, 0.3, 1.0).unwrap());
+    let plan = plan.unwrap();
     assert!(plan.area_error().abs() < 1e-9);
     let contact = StripContact::Relaxed;
     let found = impedances_in_plan(&profile, &plan, &[0.0], contact, &mut unobserved).unwrap();
-    let estimate = ElasticGround::in_plan(profile, plan).unwrap().description().outline_error;
-    ([2, 3].map(|axis| found[0].matrix[axis][axis].re * 0.7), estimate)
+    [2, 3].map(|axis| found[0].matrix[axis][axis].re * 0.7)
 }
 
 /// Name, faces (none for a disc), and vertical and rocking stiffness.
@@ -69,13 +67,8 @@ fn static_stiffnesses_of_oblique_outlines_fall_steadily() {
                     Some(faces) => Plan::on_faces(faces, *cells),
                     None => Plan::disc([0.3, -0.1], 1.0, *cells),
                 };
-                let (found, estimate) = stiffness(plan);
+                let found = stiffness(plan);
                 let [vertical, rocking] = [0, 1].map(|k| 100.0 * (found[k] / exact[k] - 1.0));
-                if exact[1].is_finite() && rocking < -1.0 && name != "L" {
-                    let ratio = -100.0 * estimate / rocking;
-                    assert!((0.6..1.6).contains(&ratio), "{name} {cells}: {ratio} {rocking}");
-                }
-                assert_eq!(estimate == 0.0, name == "L", "{name} {cells}");
                 [vertical, rocking]
             })
             .collect();

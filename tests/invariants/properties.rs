@@ -4,7 +4,7 @@
 
 use basemat::coupled::StepError;
 use basemat::coupled::{GravityStage, State};
-use basemat::interface::{Bonded, Mode, PreviousContact};
+use basemat::interface::{Bonded, InPlane, Mode, PreviousContact};
 use basemat::results::Quantity;
 use basemat::{Error, Simulation};
 use proptest::prelude::*;
@@ -215,7 +215,7 @@ fn step_without_modes_changes_nothing() {
         Mode::Stick => Mode::Open,
         _ => Mode::Stick,
     };
-    let law = Wayward { law: friction(0.2), next };
+    let law = InPlane(Wayward { law: friction(0.2), next });
     let mut simulation: Simulation =
         scene(SI, 0.6).structure(block(SI)).interface(law).build().unwrap();
     let mut last = simulation.state().clone();

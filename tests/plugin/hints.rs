@@ -40,7 +40,12 @@ impl ConvolutionWeights for Counted {
         Ok(())
     }
 
-    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: &mut [&mut [f64]],
+    ) -> Result<()> {
         self.made.fetch_add(values[0].len(), Ordering::Relaxed);
         self.own().coefficients(class, first_lag, values)
     }

@@ -36,7 +36,7 @@ impl ConvolutionHistory for Plain {
         for class in 0..self.kernel.classes().count() {
             let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![0.0; past]);
             if past > 0 {
-                self.kernel.coefficients(class, 2, [&mut zz, &mut xx, &mut zx])?;
+                self.kernel.coefficients(class, 2, &mut [&mut zz, &mut xx, &mut zx])?;
             }
             lags.push([zz, xx, zx]);
         }

@@ -9,7 +9,7 @@ use basemat::bem::{
 use basemat::history::{
     ConvolutionHistory, ConvolutionWeights, DirectHistory, ExponentialHistory, ExponentialSum,
     HistoryMethod, HistoryOptions, LateWeights, PairClasses, RelaxedFftHistory, SharedSpectra,
-    TailProduct,
+    TailProduct, by_kind,
 };
 use basemat::interface::Coulomb;
 use basemat::results::Run;
@@ -48,8 +48,13 @@ impl ConvolutionWeights for Fading {
         &self.classes
     }
 
-    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
-        let [normal, tangential, coupling] = values;
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: &mut [&mut [f64]],
+    ) -> Result<()> {
+        let [normal, tangential, coupling] = by_kind(values)?;
         for i in 0..normal.len() {
             [normal[i], tangential[i], coupling[i]] = self.at(class, first_lag + i);
         }
@@ -93,8 +98,13 @@ impl ConvolutionWeights for InBlocks {
         Ok(())
     }
 
-    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
-        let [normal, tangential, coupling] = values;
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: &mut [&mut [f64]],
+    ) -> Result<()> {
+        let [normal, tangential, coupling] = by_kind(values)?;
         self.prepare(first_lag - 1 + normal.len(), &mut unobserved)?;
         let ready = &self.ready.lock().unwrap()[class];
         for (i, values) in ready[first_lag - 1..][..normal.len()].iter().enumerate() {
@@ -189,7 +199,7 @@ fn coefficients_do_not_depend_on_the_cut() {
         for class in [0, 1, kernel.classes().count() - 1] {
             let fill = |first: usize, count: usize| {
                 let [mut zz, mut xx, mut zx] = [(); 3].map(|()| vec![f64::NAN; count]);
-                kernel.coefficients(class, first, [&mut zz, &mut xx, &mut zx]).unwrap();
+                kernel.coefficients(class, first, &mut [&mut zz, &mut xx, &mut zx]).unwrap();
                 [zz, xx, zx]
             };
             // The last first: nothing was prepared.
@@ -241,8 +251,13 @@ impl ConvolutionWeights for VoigtKernel {
         &self.classes
     }
 
-    fn coefficients(&self, class: usize, first_lag: usize, values: [&mut [f64]; 3]) -> Result<()> {
-        let [normal, tangential, coupling] = values;
+    fn coefficients(
+        &self,
+        class: usize,
+        first_lag: usize,
+        values: &mut [&mut [f64]],
+    ) -> Result<()> {
+        let [normal, tangential, coupling] = by_kind(values)?;
         let [source, receiver] = self.classes.representative(class)?;
         let length = if source == receiver { receiver.length() } else { 0.0 };
         for (i, value) in normal.iter_mut().enumerate() {
@@ -417,7 +432,7 @@ impl ConvolutionWeights for Coupled {
     fn classes(&self) -> &PairClasses {
         self.0.classes()
     }
-    fn coefficients(&self, class: usize, first: usize, values: [&mut [f64]; 3]) -> Result<()> {
+    fn coefficients(&self, class: usize, first: usize, values: &mut [&mut [f64]]) -> Result<()> {
         self.0.coefficients(class, first, values)
     }
     fn late_weights(&self) -> Option<&dyn LateWeights> {

@@ -2,11 +2,11 @@
 //! SCENE: friction that is lost once an element has slid, and laws that give limits only, under a block.
 //! REFERENCE: Coulomb's law, which slides less; the laws whose limits they are.
 
-use basemat::Result;
 use basemat::interface::{
-    Bonded, Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
-    Tolerance, Yielding,
+    Bonded, Condition, ContactState, Coulomb, InPlane, InterfaceLaw, Limits, Mode, PlaneLaw,
+    PreviousContact, Tolerance, Yielding,
 };
+use basemat::{Error, Result};
 
 use super::scene::{assert_same_motion, run, shaken};
 use basemat_problems::block_on_springs::{bed, block};
@@ -14,11 +14,7 @@ use basemat_problems::block_on_springs::{bed, block};
 /// Sticks until it once slid; from then on there is no friction at all.
 pub(crate) struct Glaze(pub(crate) f64);
 
-impl InterfaceLaw for Glaze {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Glaze {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick, Mode::SlipLeft, Mode::SlipRight, Mode::Open]
     }
@@ -46,7 +42,7 @@ impl InterfaceLaw for Glaze {
 #[test]
 fn own_law() {
     let scene = || shaken().structure(block()).ground(bed(4));
-    let (own, _) = run(scene().interface(Glaze(0.3)));
+    let (own, _) = run(scene().interface(InPlane(Glaze(0.3))));
     let (coulomb, _) = run(scene().interface(Coulomb::new(0.3).unwrap()));
     assert!(coulomb.whole.largest_slip.largest().value != 0.0, "{coulomb}");
     assert!(
@@ -99,11 +95,11 @@ fn modes_follow_from_limits() {
 
 #[test]
 fn laws_without_valid_limits_name_them() {
-    /// No limits, and no conditions of its own.
+    /// Limits that are not known.
     struct Nothing;
     impl InterfaceLaw for Nothing {
         fn limits(&self, _: &PreviousContact) -> Result<Limits> {
-            Limits::only_in_plane::<Self>()
+            Err(Error::part("ice", "its strength is unknown"))
         }
     }
     /// Friction below zero.
@@ -122,7 +118,7 @@ fn laws_without_valid_limits_name_them() {
         reasons.map(ToString::to_string).collect::<Vec<_>>().join(": ")
     };
     let text = refused(Box::new(Nothing));
-    assert!(text.contains("`limits`"), "{text}");
+    assert!(text.contains("its strength is unknown"), "{text}");
     let text = refused(Box::new(Wrong));
     assert!(text.contains("friction coefficient"), "{text}");
 }

@@ -24,6 +24,7 @@ use std::sync::Arc;
 
 use basemat::Simulation;
 use basemat::bem::Strip;
+use basemat::interface::InPlane;
 use free_field::Passing;
 use ground::Bed;
 use law::Glaze;
@@ -38,7 +39,7 @@ fn all_of_one_s_own_together() {
     let scene = Simulation::builder(STEP)
         .structure(Hardening { cubic: 100.0 * SPRING, commits: Arc::default() })
         .ground(ground)
-        .interface(Glaze(0.4))
+        .interface(InPlane(Glaze(0.4)))
         .motion(Passing { speed: 80.0 })
         .scheme(AverageAcceleration)
         .gravity(9.81);

@@ -110,23 +110,6 @@ fn a_source_that_asks_for_itself_is_refused() {
 }
 
 #[test]
-fn threads_that_would_wait_for_each_other_are_told() {
-    let kernels = SharedKernels::default();
-    let meets = Some(Arc::new(Barrier::new(2)));
-    let asking = |own: f64, other: f64| {
-        let others = vec![Asking::new(&kernels, other)];
-        Asking { others, meets: meets.clone(), ..Asking::new(&kernels, own) }
-    };
-    let (one, two) = (asking(1.0, 2.0), asking(2.0, 1.0));
-    let results = in_time(vec![Box::new(move || one.prepare()), Box::new(move || two.prepare())]);
-    // The second one to ask is refused; the first one then makes what it waited for.
-    let (good, bad): (Vec<_>, Vec<_>) = results.iter().partition(|result| result.is_ok());
-    assert_eq!((good.len(), bad.len()), (1, 1));
-    refused(bad[0]);
-    assert_eq!(kernels.count(), 2);
-}
-
-#[test]
 fn what_another_thread_makes_is_waited_for() {
     let kernels = SharedKernels::default();
     let source = Asking::new(&kernels, 1.0);

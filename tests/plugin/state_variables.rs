@@ -7,7 +7,7 @@
 use basemat::Simulation;
 use basemat::bem::{ContactElement, SpringGround};
 use basemat::coupled::State;
-use basemat::interface::{Coulomb, InterfaceLaw};
+use basemat::interface::{Coulomb, InPlane, InterfaceLaw};
 use basemat::motion::FreeFieldFn;
 use basemat::structure::RigidBlock;
 
@@ -152,7 +152,7 @@ fn laws_with_and_without_memory_stand_side_by_side() {
 fn pads_that_soften_store_half_c_t_squared() {
     let pads = SofteningPads { stiffness: [6e7, 3e7], softening: 2e5 };
     let mut simulation =
-        shaken().structure(block()).ground(bed(4)).interface(pads).build().unwrap();
+        shaken().structure(block()).ground(bed(4)).interface(InPlane(pads)).build().unwrap();
     let lengths: Vec<f64> =
         simulation.ground().elements().iter().map(ContactElement::length).collect();
     // With what the pads remembered when the step began.

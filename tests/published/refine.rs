@@ -3,8 +3,8 @@
 //! REFERENCE: `td_*`, frequency domain.
 
 use basemat::Soil;
+use basemat::analyses::{Refinement, refine};
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{Refinement, refine};
 use basemat::structure::{RigidBlock, Structure};
 
 use basemat_problems::sampled_block::under_pulse;
@@ -42,7 +42,7 @@ fn estimates<S: Structure + 'static>(
             (1..=8).map(|j| wanted.mean(end(j), part)).sum::<f64>() / 8.0
         })
         .collect();
-    let ratio = |setting: &basemat::coupled::Setting| {
+    let ratio = |setting: &basemat::analyses::Setting| {
         let mut error = Error::default();
         setting.results.iter().zip(&known).for_each(|(found, known)| error.add(*found, *known));
         setting.error / error.relative()

@@ -3,8 +3,9 @@
 //! SCENE: every picture, with odd values, long words and distant foundations.
 //! REFERENCE: the tags and texts of the SVG, laid out here.
 
+use basemat::analyses::interaction;
 use basemat::bem::{ElasticGround, Strip};
-use basemat::coupled::{Probe, interaction};
+use basemat::coupled::Probe;
 use basemat::interface::{Bonded, Coulomb, Mode};
 use basemat::motion::{SpectralOrdinate, el_centro_1940};
 use basemat::plot::{self, Curve, Svg};

@@ -2,10 +2,10 @@
 
 use basemat::bem::ElasticGround;
 use basemat::coupled::{SimulationBuilder, Warning};
-use basemat::motion::{AtRest, FreeFieldFn, TravellingWave, Triaxial, VerticalIncidence};
+use basemat::motion::{AtRest, FreeFieldFn, TravellingWave, VerticalIncidence};
 use basemat::prelude::*;
 use basemat::results::Run;
-use basemat::structure::{MatrixModel, PlanStorey, RigidBody, StoreyBuilding, Triplets};
+use basemat::structure::{MatrixModel, Triplets};
 
 fn soil() -> Soil {
     Soil::from_shear_wave_speed(250.0, 0.33, 1900.0).unwrap()
@@ -92,20 +92,6 @@ fn numbers_of_a_structure_in_another_unit_are_told() {
         let degrees = scene(building(3.0, MASS), el_centro_1940()).interface(law);
         warned(&run(degrees, WHOLE), &format!("friction coefficient of {friction}: in degrees"));
     }
-    for height in [120.0, 3000.0] {
-        let tall = scene(building(height, MASS), el_centro_1940()).rotation_limit(f64::INFINITY);
-        warned(&run(tall.interface(Bonded), 50), "storey of");
-    }
-    let mat = RigidBody::cuboid([12.0, 12.0, 1.0], 2500.0).unwrap();
-    let storey = PlanStorey::new(3200.0, 250.0e3, [12.0, 12.0], [4.0e8, 4.0e8, 2.0e10]);
-    let tower = StoreyBuilding::new(mat, &[storey; 2]).unwrap();
-    let motion = Triaxial { x: Some(el_centro_1940()), ..Triaxial::default() };
-    let in_plan = Simulation::builder(0.01)
-        .ground(ElasticGround::under(soil(), &tower, 4).unwrap())
-        .structure(tower)
-        .interface(Bonded)
-        .motion(motion);
-    warned(&run(in_plan, 20), "storey of 3200.0 m");
 }
 
 #[test]

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use basemat::Simulation;
+use basemat::analyses::interaction;
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{ElasticGround, SpringGround};
-use basemat::coupled::interaction;
 use basemat::interface::Coulomb;
 use basemat::motion::{Triaxial, el_centro_1940};
 use basemat::structure::{PlanStorey, RigidBody, StoreyBuilding};

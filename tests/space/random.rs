@@ -151,7 +151,6 @@ fn energies_of_random_scenes_close() {
                     Mistake::UnusualInterval { .. }
                         | Mistake::LightStructure { .. }
                         | Mistake::UnusualFriction { .. }
-                        | Mistake::TallStorey { .. }
                         | Mistake::UnusualGravity { .. }
                 )
             );

@@ -6,8 +6,8 @@ use basemat::bem::ElasticGround;
 use basemat::coupled::{GravityStage, Load};
 use basemat::coupled::{StabilityError, StepError};
 use basemat::interface::{
-    Bonded, Cohesive, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, ThinLayer,
-    UnilateralCondition, VariableFriction, Yielding,
+    Bonded, Cohesive, Condition, ContactState, Coulomb, InPlane, InterfaceLaw, Mode, PlaneLaw,
+    PreviousContact, ThinLayer, Tolerance, UnilateralCondition, VariableFriction, Yielding,
 };
 use basemat::motion::{FreeField, STANDARD_GRAVITY, Triaxial, el_centro_1940};
 use basemat::reference::SlidingBlock;
@@ -317,12 +317,18 @@ fn bonds_break_one_after_the_other() {
 #[test]
 fn laws_without_limits_are_named() {
     struct Plane;
-    impl InterfaceLaw for Plane {
-        fn limits(&self, _: &PreviousContact) -> Result<Limits> {
-            Limits::only_in_plane::<Self>()
+    impl PlaneLaw for Plane {
+        fn modes(&self) -> &[Mode] {
+            &[Mode::Stick]
+        }
+        fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
+            Bonded.conditions(mode, start)
+        }
+        fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
+            Mode::Stick
         }
     }
-    let error = scene(Plane, 4e-3, 1.0).unwrap_err();
+    let error = scene(InPlane(Plane), 4e-3, 1.0).unwrap_err();
     assert!(matches!(error, basemat::Error::Scene { quantity: "Plane", .. }), "{error}");
     let layer = ThinLayer::from_stiffness(4e8, 2e8, 0.4).unwrap();
     let error = scene(layer, 4e-3, 1.0).unwrap_err();

@@ -168,41 +168,6 @@ fn samples_of_the_passivity_gate_are_told() {
     assert_eq!(build(Some([9, 16])), [Warning::SampledPassivity { checked: 9, cells: 16 }]);
 }
 
-/// Coarse cells under an oblique outline are told with the error of the rocking stiffness; fine ones are not, and cells
-/// along the outline never.
-#[test]
-fn coarse_cells_at_oblique_outlines_are_told() {
-    let soil = Soil::new(8e7, 0.3, 1900.0).unwrap();
-    let of = |body: &RigidBody, cells| {
-        let ground = ElasticGround::under(soil, body, cells).unwrap();
-        let builder = Simulation::builder(0.01).structure(body.clone()).ground(ground);
-        let run = builder.interface(Bonded).build().unwrap().run(2, |_| {}).unwrap();
-        let own = |warning: &&Warning| matches!(warning, Warning::ObliqueOutline { .. });
-        run.warnings.iter().find(own).copied()
-    };
-    let disc = RigidBody::cylinder(2.0, 2.0, 2000.0).unwrap();
-    let corners = vec![[2.0, 0.0], [0.0, 2.0], [-2.0, 0.0], [0.0, -2.0]];
-    let inertia = [[1e5, 0.0, 0.0], [0.0, 1e5, 0.0], [0.0, 0.0, 1e5]];
-    let turned = RigidBody::from_mass(corners, 1e5, inertia, [0.0, 0.0, 1.0]).unwrap();
-    // Errors of 2.2 and 3.8 %: docs/validation.md.
-    for (body, wanted) in [(&disc, 0.022), (&turned, 0.038)] {
-        let Some(Warning::ObliqueOutline { error, factor }) = of(body, 8) else { panic!() };
-        assert!((error / wanted - 1.0).abs() < 0.2, "{error} {wanted}");
-        assert!((factor - 100.0 * error).abs() < 1e-12);
-    }
-    assert_eq!(of(&disc, 20), None);
-    let cuboid = RigidBody::cuboid([6.0, 4.0, 2.0], 2000.0).unwrap();
-    assert!([2, 3, 4, 8].iter().all(|cells| of(&cuboid, *cells).is_none()));
-    let rectangle = |x: [f64; 2], y: [f64; 2]| {
-        [[x[0], y[0]], [x[1], y[0]], [x[1], y[1]], [x[0], y[1]]].to_vec()
-    };
-    let ell = [rectangle([-1.0, 1.0], [-1.0, 0.0]), rectangle([-1.0, 0.1], [0.0, 1.0])];
-    for cells in [3, 4, 5, 8, 11] {
-        let ground = ElasticGround::in_plan(soil, Plan::on_faces(&ell, cells).unwrap()).unwrap();
-        assert_eq!(ground.description().outline_error, 0.0, "{cells}");
-    }
-}
-
 /// Beside a bond, endless friction is a finite one where it slides: that is said, and nowhere else.
 #[test]
 fn friction_that_was_less_is_told() {

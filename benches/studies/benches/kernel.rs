@@ -27,13 +27,13 @@ fn kernels(criterion: &mut Criterion) {
         let class = class(distance);
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("early, {distance} elements apart"), |b| {
-            b.iter(|| patch.coefficients(class, black_box(1), [zz, xx, zx]));
+            b.iter(|| patch.coefficients(class, black_box(1), &mut [zz, xx, zx]));
         });
     }
     for first in [300, 3000, 1_000_000] {
         let [zz, xx, zx] = &mut slices;
         group.bench_function(format!("late, lag {first}"), |b| {
-            b.iter(|| patch.coefficients(class(19), black_box(first), [zz, xx, zx]));
+            b.iter(|| patch.coefficients(class(19), black_box(first), &mut [zz, xx, zx]));
         });
     }
     group.throughput(Throughput::Elements(1));
@@ -66,8 +66,9 @@ fn patches(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements(u64::from(count) * LAGS as u64));
         group.bench_function(format!("{count} elements"), |b| {
             b.iter(|| {
-                (0..kernel.classes().count())
-                    .try_for_each(|class| kernel.coefficients(class, black_box(1), [zz, xx, zx]))
+                (0..kernel.classes().count()).try_for_each(|class| {
+                    kernel.coefficients(class, black_box(1), &mut [zz, xx, zx])
+                })
             });
         });
     }

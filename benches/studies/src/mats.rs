@@ -11,10 +11,10 @@ use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
+use basemat::analyses::{Refinement, refine};
 use basemat::bem::layered::StripContact;
 use basemat::bem::plan::{Plan, impedances_in_plan};
 use basemat::bem::{Grading, Strip};
-use basemat::coupled::{Refinement, refine};
 use basemat::motion::Triaxial;
 use basemat::prelude::*;
 use basemat::reference::pais_kausel_impedances;

@@ -62,8 +62,8 @@ pub use partition::Partition;
 pub use pivoted_cholesky::pivoted_cholesky;
 pub use product::{
     Dot, Scalar, Simd, SimdSlice, SimdSliceMut, WithSimd, add_combined_rows, add_row, add_rows,
-    dense_multiply_add, dot, largest, magnitude, mixed, mixing_weight, row_products,
-    symmetric_products, transposed_multiply_add, vectorized, weighted_dot,
+    dense_multiply_add, dot, largest, magnitude, mixed, row_products, symmetric_products,
+    transposed_multiply_add, vectorized, weighted_dot,
 };
 pub use sparse::{SparseFactor, indefinite_row};
 pub use thinned::CompressedMatrix;

@@ -252,7 +252,7 @@ pub fn largest(values: &[f64]) -> f64 {
 }
 
 /// Weight of the number `k` in [`mixed`].
-pub fn mixing_weight(k: usize) -> f64 {
+fn mixing_weight(k: usize) -> f64 {
     1.0 + 0.5 * (k as f64).cos()
 }
 

@@ -82,4 +82,4 @@ pub use unit::{AccelerationUnit, STANDARD_GRAVITY};
 /// The README's program is compiled and run.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
-struct Readme;
+struct RecordsReadme;

@@ -27,8 +27,8 @@ pub mod internal {
         massless,
     };
     pub use crate::structure::nonlinear::{
-        Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state, restore_variables,
-        save_variables,
+        MassAndStiffness, Tangent, is_nonlinear, mass_and_stiffness, nonlinear_state,
+        restore_variables, save_variables,
     };
     pub use crate::structure::probe::{Probe, check as check_probes, probe_index};
 }

@@ -2061,11 +2061,12 @@ class Simulation:
     def resume(self, checkpoint: Checkpoint, changes: Sequence[_Change] | None = None) -> None:
         """Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
         the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
-        elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
+        elements, matrices, static state, and the label of `ResultOptions`, which should name interface law, ground motion
+        and loads.
 
         Args:
-            changes: differences that are wanted, of "interface_law", "ground_motion", "load",
-                "gravity_stage" and "initial_motion"; none unless given.
+            changes: differences that are wanted, of "interface_law", "ground_motion" and "load", each with another
+                label, "gravity_stage" and "initial_motion"; none unless given.
         """
     def reset(self) -> None:
         """Goes back to the start: what follows has the bits that it had from there.
@@ -2247,6 +2248,8 @@ class ResultOptions:
             time, and `Run.energy_error` is NaN.
         safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
             interface law unless given.
+        label: text that checkpoints keep and `Simulation.resume` compares; it should name what is not compared otherwise:
+            interface law, ground motion and loads. Empty unless given.
     """
 
     def __new__(
@@ -2255,6 +2258,7 @@ class ResultOptions:
         moment_center: float | None = None,
         energy_balance: bool = True,
         safety_friction: float | None = None,
+        label: str | None = None,
     ) -> Self: ...
 
 @final

@@ -8,7 +8,7 @@ use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::strip::{Elements, grading};
+use super::strip::{ContactMesh, grading};
 use super::superclass::{contact, history_options};
 use super::{PyGround, PyImpedances, PyPlan};
 use crate::array::{Numbers, whole_numbers};
@@ -63,7 +63,7 @@ impl PyElasticGround {
     #[pyo3(signature = (soil, strips, *, history="auto", history_tolerance=None, history_memory=None, stages=None, tolerance=None, kernel_file=None, kernels=None))]
     fn new(
         soil: Profile,
-        strips: Elements,
+        strips: ContactMesh,
         history: &str,
         history_tolerance: Option<f64>,
         #[pyo3(from_py_with = whole_numbers)] history_memory: Option<usize>,
@@ -76,14 +76,14 @@ impl PyElasticGround {
         let stages = stages.map(Stages::from_count).transpose().or_raise()?;
         let kernels = kernels.map(|kernels| kernels.get().0.clone());
         let plan = match &strips {
-            Elements::Strips(_) => None,
-            Elements::Plan(plan) => Some((soil.clone(), PyPlan(plan.clone()))),
+            ContactMesh::Strips(_) => None,
+            ContactMesh::Plan(plan) => Some((soil.clone(), PyPlan(plan.clone()))),
         };
         let profile = soil;
         let make = move || {
             let ground = match &strips {
-                Elements::Strips(strips) => ElasticGround::new(profile.0.clone(), strips),
-                Elements::Plan(plan) => ElasticGround::in_plan(profile.0.clone(), plan.clone()),
+                ContactMesh::Strips(strips) => ElasticGround::new(profile.0.clone(), strips),
+                ContactMesh::Plan(plan) => ElasticGround::in_plan(profile.0.clone(), plan.clone()),
             };
             ground
                 .and_then(|ground| ground.with_history(options))
@@ -119,7 +119,7 @@ impl PyElasticGround {
         options: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let surface = soil.extract::<Profile>()?.0.surface();
-        let elements = Elements::under(&structure, count, self::grading(grading)?, surface)?;
+        let elements = ContactMesh::under(&structure, count, self::grading(grading)?, surface)?;
         structure.py().get_type::<Self>().call((soil, elements), options)
     }
 

@@ -3,7 +3,7 @@
 use basemat::bem::{ContactElement, Ground, Strip};
 use pyo3::prelude::*;
 
-use super::strip::Elements;
+use super::strip::ContactMesh;
 use super::{PyGround, PyTrenchElements};
 use crate::error::OrRaise;
 use crate::several::{reject_class, type_error};
@@ -32,7 +32,7 @@ fn contact_elements(object: &Bound<'_, PyAny>) -> PyResult<Vec<ContactElement>> 
     }
     let needed = "a Strip, a list of them, a Plan, or TrenchElements";
     match object.extract().map_err(|_: PyErr| type_error(object, needed))? {
-        Elements::Strips(strips) => Ok(strips.iter().flat_map(Strip::elements).collect()),
-        Elements::Plan(plan) => Ok(plan.elements()),
+        ContactMesh::Strips(strips) => Ok(strips.iter().flat_map(Strip::elements).collect()),
+        ContactMesh::Plan(plan) => Ok(plan.elements()),
     }
 }

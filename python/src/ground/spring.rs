@@ -5,7 +5,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 use super::PyGround;
-use super::strip::Elements;
+use super::strip::ContactMesh;
 use crate::array::whole_numbers;
 use crate::error::WithOption;
 
@@ -23,7 +23,7 @@ impl PySpringGround {
     #[new]
     #[pyo3(signature = (strips, normal_stiffness, tangential_stiffness, *, across_stiffness=None, dashpots=None, theta=None))]
     fn new(
-        strips: Elements,
+        strips: ContactMesh,
         normal_stiffness: f64,
         tangential_stiffness: f64,
         across_stiffness: Option<f64>,
@@ -32,10 +32,10 @@ impl PySpringGround {
     ) -> PyResult<PyClassInitializer<Self>> {
         let base = PyGround::new(move || {
             let ground = match &strips {
-                Elements::Strips(strips) => {
+                ContactMesh::Strips(strips) => {
                     SpringGround::on_strips(strips, normal_stiffness, tangential_stiffness)
                 }
-                Elements::Plan(plan) => {
+                ContactMesh::Plan(plan) => {
                     let across = across_stiffness.unwrap_or(tangential_stiffness);
                     let stiffness = [normal_stiffness, tangential_stiffness, across];
                     SpringGround::in_plan(plan.clone(), stiffness)
@@ -68,7 +68,7 @@ impl PySpringGround {
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = structure.py();
         let mut arguments =
-            vec![Elements::under(&structure, count, Grading::Uniform, None)?.into_bound(py)];
+            vec![ContactMesh::under(&structure, count, Grading::Uniform, None)?.into_bound(py)];
         arguments.extend(stiffness);
         py.get_type::<Self>().call(PyTuple::new(py, arguments)?, options)
     }

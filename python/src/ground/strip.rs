@@ -54,12 +54,12 @@ impl PyStrip {
 
 /// Elements in the plane, one strip or a list of them, or in plan.
 #[derive(Clone)]
-pub(super) enum Elements {
+pub(super) enum ContactMesh {
     Strips(Vec<Strip>),
     Plan(Plan),
 }
 
-impl Elements {
+impl ContactMesh {
     /// Elements under the foundations of a structure, or under its faces in plan, on a soil if one is given.
     pub(super) fn under(
         structure: &Bound<'_, PyAny>,
@@ -81,7 +81,7 @@ impl Elements {
     }
 }
 
-extracts!(Elements, object => {
+extracts!(ContactMesh, object => {
     if let Ok(plan) = object.cast::<PyPlan>() {
         return Ok(Self::Plan(plan.get().0.clone()));
     }

@@ -47,9 +47,9 @@ impl Relaxation for SharedLaw {
 }
 
 /// Width, m, soil and damping of a backfill.
-struct Backfill(f64, PySoil, SharedLaw);
+struct BackfillArguments(f64, PySoil, SharedLaw);
 
-extracts!(Backfill, object => {
+extracts!(BackfillArguments, object => {
     if let Ok((width, soil)) = object.extract::<(f64, Bound<'_, PySoil>)>() {
         return Ok(Self(width, PySoil(soil.get().0), SharedLaw(law_or_elastic(None))));
     }
@@ -85,7 +85,7 @@ impl PyTrenchGround {
         soil: Profile,
         elements: Bound<'_, PyTrenchElements>,
         pressure_at_rest: Option<f64>,
-        backfill: Option<Backfill>,
+        backfill: Option<BackfillArguments>,
         history: &str,
         history_tolerance: Option<f64>,
         #[pyo3(from_py_with = whole_numbers)] history_memory: Option<usize>,
@@ -100,7 +100,7 @@ impl PyTrenchGround {
         let make = move || {
             TrenchGround::new(soil.0.clone(), elements.clone())
                 .with(pressure_at_rest, TrenchGround::with_pressure_at_rest)
-                .with(backfill.as_ref(), |ground, Backfill(width, soil, damping)| {
+                .with(backfill.as_ref(), |ground, BackfillArguments(width, soil, damping)| {
                     ground.with_backfill(*width, soil.0, damping.clone())
                 })
                 .and_then(|ground| ground.with_history(options))

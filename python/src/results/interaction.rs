@@ -1,6 +1,6 @@
 //! A scene on its ground and on a fixed base.
 
-use basemat::coupled::{Interaction, SystemMode};
+use basemat::analyses::{Interaction, SystemMode};
 use basemat::results::Quantity;
 use pyo3::prelude::*;
 

@@ -337,7 +337,7 @@ impl PySimulation {
         let duration = duration.or(self.duration).ok_or_else(|| input_error(needed))?;
         take_exception();
         let found = py.detach(|| {
-            step_result(basemat::coupled::interaction(duration, || {
+            step_result(basemat::analyses::interaction(duration, || {
                 let parts = Python::attach(|py| self.parts.builder_parts(py));
                 parts.map(|parts| parts.builder).map_err(|error| user_code_error("scene", error))
             }))
@@ -358,11 +358,12 @@ impl PySimulation {
 
     /// Goes to where ``checkpoint`` (a `Checkpoint`) was made, in a simulation that was built in
     /// the same way; raises `CheckpointError` in another one, with what differs: sizes, time step,
-    /// elements, matrices, static state, interface law, and ground motion and loads in the steps so far.
+    /// elements, matrices, static state, and the label of `ResultOptions`, which should name interface law, ground motion
+    /// and loads.
     ///
     /// Args:
-    ///     changes: differences that are wanted, of "interface_law", "ground_motion", "load",
-    ///         "gravity_stage" and "initial_motion"; none unless given.
+    ///     changes: differences that are wanted, of "interface_law", "ground_motion" and "load", each with another
+    ///         label, "gravity_stage" and "initial_motion"; none unless given.
     #[pyo3(signature = (checkpoint, changes=None))]
     fn resume(&self, checkpoint: &PyCheckpoint, changes: Option<Vec<String>>) -> PyResult<()> {
         take_exception();

@@ -109,20 +109,29 @@ impl PySolverOptions {
 ///         time, and `Run.energy_error` is NaN.
 ///     safety_friction: friction coefficient for the factor of safety against sliding; the coefficient of the
 ///         interface law unless given.
+///     label: text that checkpoints keep and `Simulation.resume` compares; it should name what is not compared otherwise:
+///         interface law, ground motion and loads. Empty unless given.
 #[pyclass(name = "ResultOptions", module = "basemat", frozen, dict, from_py_object)]
 #[derive(Clone, Default)]
 pub(crate) struct PyResultOptions {
     moment_center: Option<f64>,
     without_energy_balance: bool,
     safety_friction: Option<f64>,
+    label: Option<String>,
 }
 
 #[pymethods]
 impl PyResultOptions {
     #[new]
-    #[pyo3(signature = (*, moment_center=None, energy_balance=true, safety_friction=None))]
-    fn new(moment_center: Option<f64>, energy_balance: bool, safety_friction: Option<f64>) -> Self {
-        Self { moment_center, without_energy_balance: !energy_balance, safety_friction }
+    #[pyo3(signature = (*, moment_center=None, energy_balance=true, safety_friction=None, label=None))]
+    fn new(
+        moment_center: Option<f64>,
+        energy_balance: bool,
+        safety_friction: Option<f64>,
+        label: Option<String>,
+    ) -> Self {
+        let without_energy_balance = !energy_balance;
+        Self { moment_center, without_energy_balance, safety_friction, label }
     }
 }
 
@@ -187,6 +196,7 @@ impl Options {
             rotation_limit(solver.rotation_limit),
             moment_center(results.moment_center),
             safety_friction(results.safety_friction.map(|coefficient| [coefficient])),
+            label(results.label.clone()),
         );
         if results.without_energy_balance {
             builder = builder.without_energy_balance();
@@ -207,7 +217,7 @@ const OPTION_GROUPS: [(&str, &str, &[&str]); 4] = [
         "SolverOptions",
         &["scheme", "coordinates", "expected_steps", "rotation_limit", "flow_chart_iterations"],
     ),
-    ("results", "ResultOptions", &["moment_center", "energy_balance", "safety_friction"]),
+    ("results", "ResultOptions", &["moment_center", "energy_balance", "safety_friction", "label"]),
     (
         "service_limits",
         "ServiceLimits",

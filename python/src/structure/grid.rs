@@ -4,7 +4,7 @@ use basemat::fem::Grid;
 use pyo3::prelude::*;
 
 use super::mesh::PyMesh;
-use crate::array::{Array, Count, Numbers, Pairs, Surface};
+use crate::array::{Array, Count, Numbers, Pairs, PointGrid};
 use crate::error::input_error;
 
 /// Nodes of a surface in rows, and the cells between them: from `Mesh.add_grid` and `Mesh.revolve`.
@@ -62,8 +62,8 @@ impl PyGrid {
 #[pymethods]
 impl PyMesh {
     /// Adds the nodes of a surface at ``points`` (array of shape (rows, columns, 3), m); returns its `Grid`.
-    fn add_grid(&mut self, points: Surface) -> PyResult<PyGrid> {
-        let Surface { shape: [rows, columns], points } = points;
+    fn add_grid(&mut self, points: PointGrid) -> PyResult<PyGrid> {
+        let PointGrid { shape: [rows, columns], points } = points;
         let grid = self.change(|mesh| {
             mesh.add_grid(rows, columns, |row, column| points[row * columns + column])
         });

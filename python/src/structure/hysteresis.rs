@@ -266,13 +266,13 @@ fn spring_entry(entry: &Bound<'_, PyAny>) -> PyResult<(Vec<RowLike>, SpringLaw)>
 }
 
 /// A spring of a structure: a law along one row, a coupled law of two rows, or a bearing of three.
-enum Spring {
+enum SpringOrBearing {
     Uniaxial(DofCombination, Recipe<dyn Hysteresis>),
     Biaxial([DofCombination; 2], Make<BiaxialSpring>),
     Bearing([DofCombination; 3], PendulumBearing),
 }
 
-impl Spring {
+impl SpringOrBearing {
     /// The spring along these rows of a structure of `dofs` degrees of freedom.
     fn new(rows: Vec<RowLike>, law: SpringLaw, dofs: usize) -> PyResult<Self> {
         let mut combinations = Vec::with_capacity(rows.len());
@@ -319,17 +319,18 @@ impl PyWithSprings {
         let make_structure = structure_recipe(&structure)?;
         let dofs = make_structure().or_raise()?.dofs();
         let names = DofNames::from_structure(&structure, dofs)?;
-        let springs = springs.0.into_iter().map(|(rows, law)| Spring::new(rows, law, dofs));
-        let springs: Vec<Spring> = springs.collect::<PyResult<_>>()?;
+        let springs =
+            springs.0.into_iter().map(|(rows, law)| SpringOrBearing::new(rows, law, dofs));
+        let springs: Vec<SpringOrBearing> = springs.collect::<PyResult<_>>()?;
         let make = move || {
             let mut with_springs = WithSprings::new(make_structure()?);
             for spring in &springs {
                 with_springs = match spring {
-                    Spring::Uniaxial(row, law) => with_springs.spring(row, law()?)?,
-                    Spring::Biaxial(rows, law) => {
+                    SpringOrBearing::Uniaxial(row, law) => with_springs.spring(row, law()?)?,
+                    SpringOrBearing::Biaxial(rows, law) => {
                         with_springs.biaxial_spring(rows.each_ref(), law()?)?
                     }
-                    Spring::Bearing(rows, law) => {
+                    SpringOrBearing::Bearing(rows, law) => {
                         with_springs.pendulum(rows.each_ref(), law.clone())?
                     }
                 };

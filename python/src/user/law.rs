@@ -248,6 +248,10 @@ impl InterfaceLaw for UserLaw {
         })
     }
 
+    fn check_start(&self, start: &PreviousContact<'_>) -> Result<()> {
+        if self.object.has("conditions") { Ok(()) } else { LimitsOf(self).check_start(start) }
+    }
+
     /// Called before a step is accepted, so that an exception of `next_mode` ends it.
     fn compliance(&self, mode: Mode, start: &PreviousContact<'_>) -> [f64; 2] {
         if !self.object.has("compliance") {

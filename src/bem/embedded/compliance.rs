@@ -7,7 +7,7 @@ use basemat_fourier::num_complex::Complex64;
 use super::bottom::Bottom;
 use super::grid::{Interval, TrenchGrid};
 use super::polynomials::IntervalFunctions;
-use super::stack::{ElementColumn, Elements, Loads, Moduli, Stack, StackElement};
+use super::stack::{EdgeLoads, ElementColumn, Elements, Moduli, Stack, StackElement};
 use crate::error::Result;
 use crate::linalg::ComplexBlock;
 
@@ -57,11 +57,11 @@ impl TrenchModel<'_> {
         let elements = Elements::new(*degree, [*degree, self.bottom.degree]);
         let whole_stack = self.stack(false);
         let (coarse, coarse_values) = whole_stack.coarsened(&self.groups());
-        let far_column = elements.column(grid.column, &coarse, self.soils, Loads::NO_LOADS)?;
+        let far_column = elements.column(grid.column, &coarse, self.soils, EdgeLoads::NO_LOADS)?;
         let Some(far) = far_columns(far_column, coarse.nodes())? else { return Ok(None) };
         let mut side = SideStiffness { matrix: far, nodes: coarse.nodes(), loads: 0 };
         let count = self.loads();
-        let no_load_on_top = Loads { count, first: None };
+        let no_load_on_top = EdgeLoads { count, first: None };
         for (k, width) in grid.beside.iter().enumerate().rev() {
             let stack = self.stack(k < grid.backfilled);
             let column = elements.column(*width, &stack, self.soils, no_load_on_top)?;
@@ -72,7 +72,7 @@ impl TrenchModel<'_> {
         self.load_wall(&mut side);
         let stack = Stack(whole_stack.0[grid.wall.len()..].to_vec());
         for (k, width) in grid.base.iter().enumerate().rev() {
-            let loads = Loads { count, first: Some(2 * k) };
+            let loads = EdgeLoads { count, first: Some(2 * k) };
             let column = elements.column(*width, &stack, self.soils, loads)?;
             side = side.beside(&column, stack.nodes(), count, None)?;
         }

@@ -12,6 +12,7 @@
 //! | impedance | a rigid body in the trench |
 
 mod bottom;
+mod classes;
 mod compliance;
 mod earth_pressure;
 mod free_field;

@@ -1,14 +1,14 @@
 //! Compliances of pairs of elements around a trench.
 
+use super::classes::TRENCH_KINDS;
 use super::compliance::HalfCompliances;
 use super::soil::TrenchSoil;
 use crate::bem::layered::{Compliances, LayeredCompliance, surface_outlook};
 use crate::error::Result;
-use crate::history::TRENCH_KINDS;
 use crate::linalg::Complex;
 use crate::soil::SoilProfile;
 
-/// Compliances of the classes of [`PairClasses::around_trench`](crate::history::PairClasses::around_trench).
+/// Compliances of the classes of [`trench_classes`](super::classes::trench_classes).
 #[derive(Debug)]
 pub(super) struct TrenchPairs {
     soil: TrenchSoil,

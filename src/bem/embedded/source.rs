@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use super::classes::{TRENCH_KINDS, trench_classes};
 use super::pairs::TrenchPairs;
 use super::soil::TrenchSoil;
 use crate::bem::WeightsSource;
 use crate::bem::layered::{Quadrature, QuadratureWeights, Stages, self_pair_classes};
 use crate::error::{Result, positive, same_length};
 use crate::geometry::ContactElement;
-use crate::history::{ConvolutionWeights, PairClasses, TRENCH_KINDS};
+use crate::history::ConvolutionWeights;
 use crate::linalg::Complex;
 
 /// Relative accuracy of the compliances from which weights are computed.
@@ -43,7 +44,7 @@ impl TrenchSource {
         positive("time step", time_step)?;
         self.soil.check_causal()?;
         let trench = self.soil.elements();
-        let classes = PairClasses::around_trench(trench.elements())?;
+        let classes = trench_classes(trench.elements())?;
         let speeds = self.soil.soils().map(|soil| soil.shear_wave_speed());
         let slowest = speeds.fold(f64::INFINITY, f64::min);
         let is_short = slowest * time_step <= MAX_SHORT_STEP * trench.trench().half_width();
@@ -69,7 +70,7 @@ impl WeightsSource for TrenchSource {
     }
 
     fn static_compliance(&self, _elements: &[ContactElement], matrix: &mut [f64]) -> Result<()> {
-        let classes = PairClasses::around_trench(self.soil.elements().elements())?;
+        let classes = trench_classes(self.soil.elements().elements())?;
         same_length("static compliance", matrix.len(), classes.layout().square())?;
         let compliances = self.soil.static_compliances()?;
         let mut values = vec![[Complex::default(); TRENCH_KINDS]; classes.count()];

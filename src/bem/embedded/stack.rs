@@ -193,14 +193,14 @@ impl ElementColumn {
 
 /// Loads on the top edge of a column.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Loads {
+pub(super) struct EdgeLoads {
     /// Number of all loads, on this column and others.
     pub(super) count: usize,
     /// Number of the horizontal load on this column, which is before the vertical one; `None` without loads on it.
     pub(super) first: Option<usize>,
 }
 
-impl Loads {
+impl EdgeLoads {
     /// No loads on any column.
     pub(super) const NO_LOADS: Self = Self { count: 0, first: None };
 }
@@ -220,7 +220,7 @@ impl Elements {
         width: f64,
         stack: &Stack,
         soils: &[Moduli],
-        loads: Loads,
+        loads: EdgeLoads,
     ) -> Result<ElementColumn> {
         let [symmetric, antisymmetric] = &self.parities;
         Ok(ElementColumn {
@@ -236,7 +236,7 @@ impl Elements {
         width: f64,
         stack: &Stack,
         soils: &[Moduli],
-        loads: Loads,
+        loads: EdgeLoads,
     ) -> Result<ComplexBlock> {
         let count = stack.nodes();
         // Functions inside the column, of u_x and then of u_z.

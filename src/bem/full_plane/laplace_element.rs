@@ -25,7 +25,7 @@ pub(super) type ViewBlock = [Complex64; 8];
 
 /// A straight element in coordinates along and across it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ElementLine {
+pub(super) struct BoundaryLine {
     /// ξ of the first end.
     pub(super) low: f64,
     /// ξ of the second end.
@@ -40,7 +40,7 @@ pub(super) struct ElementLine {
 
 impl ElementView {
     /// The element in coordinates along and across it.
-    pub(super) fn line(&self) -> ElementLine {
+    pub(super) fn line(&self) -> BoundaryLine {
         let start = self.start;
         let step = [self.end[0] - start[0], self.end[1] - start[1]];
         let length = step[0].hypot(step[1]);
@@ -48,11 +48,11 @@ impl ElementView {
         let normal = [along[1], -along[0]];
         if self.is_self {
             let high = 0.5 * length;
-            return ElementLine { low: -0.5 * length, high, along, normal, height: 0.0 };
+            return BoundaryLine { low: -0.5 * length, high, along, normal, height: 0.0 };
         }
         let low = start[0] * along[0] + start[1] * along[1];
         let height = start[0] * normal[0] + start[1] * normal[1];
-        ElementLine { low, high: low + length, along, normal, height }
+        BoundaryLine { low, high: low + length, along, normal, height }
     }
 
     /// Largest distance between the point and the element.
@@ -61,7 +61,7 @@ impl ElementView {
     }
 }
 
-impl ElementLine {
+impl BoundaryLine {
     /// Offset of the point ξ.
     pub(super) fn offset(&self, xi: f64) -> [f64; 2] {
         [0, 1].map(|i| xi * self.along[i] + self.height * self.normal[i])
@@ -90,7 +90,7 @@ pub(super) fn integrate(plane: &LaplacePlane, view: &ElementView) -> ViewBlock {
 /// Adds the integrals over the element around the point, twice over one half.
 ///
 /// The logarithm is integrated by its series, the rest by pieces.
-fn add_self_integrals(plane: &LaplacePlane, line: &ElementLine, block: &mut ViewBlock) {
+fn add_self_integrals(plane: &LaplacePlane, line: &BoundaryLine, block: &mut ViewBlock) {
     let end = line.high;
     let near = end.min(SERIES_REACH / plane.shear.norm());
     let fast = plane.weights[0];

@@ -142,7 +142,7 @@ impl BlockStore {
 pub(crate) fn copy_lags<'a, const KINDS: usize>(
     class: usize,
     first_lag: usize,
-    mut values: [&mut [f64]; KINDS],
+    values: &mut [&mut [f64]; KINDS],
     mut block: impl FnMut(usize) -> Result<&'a LagBlock>,
 ) -> Result<()> {
     let lags = values[0].len();

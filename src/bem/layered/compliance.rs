@@ -204,7 +204,7 @@ impl LayeredCompliance {
                 PlaneState { displacement: Square::default(), stress: Square::IDENTITY_MATRIX };
             lowest.top_state(k, rigid)
         } else {
-            let waves = LayerWaves::new(lowest, k, self.roots[last]);
+            let waves = DownGoingWaves::new(lowest, k, self.roots[last]);
             if is_half_plane {
                 waves.down
             } else {
@@ -219,7 +219,7 @@ impl LayeredCompliance {
                     .top_state(k, PlaneState { displacement: Square::IDENTITY_MATRIX, stress: z });
                 continue;
             }
-            let waves = LayerWaves::new(layer, k, *roots);
+            let waves = DownGoingWaves::new(layer, k, *roots);
             let down = waves.down;
             let up = waves.up();
             let reflection = up
@@ -267,7 +267,7 @@ fn one_less_exponential(x: Complex) -> Complex {
 }
 
 /// Down-going waves of a layer.
-struct LayerWaves {
+struct DownGoingWaves {
     alpha: Complex,
     beta: Complex,
     /// β − α.
@@ -276,7 +276,7 @@ struct LayerWaves {
     down: PlaneState,
 }
 
-impl LayerWaves {
+impl DownGoingWaves {
     /// Waves of a layer at the wavenumber `k`, with its α and β.
     fn new(layer: &LaplaceLayer, k: f64, [alpha, beta]: [Complex; 2]) -> Self {
         let wave = Complex::real(k);

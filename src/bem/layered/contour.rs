@@ -26,7 +26,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use super::runge_kutta::on_circle;
 use crate::error::Result;
 use crate::history::PairClasses;
-use crate::linalg::Complex;
+use crate::linalg::{Complex, Simd, WithSimd, vectorized};
 
 /// Number of Chebyshev points of a panel.
 pub(crate) const CHEBYSHEV_POINTS: usize = 24;
@@ -346,21 +346,55 @@ pub(super) fn evaluate(
             let power = Complex::polar((-phase * shift).exp(), phase * x[lane]);
             power * panel_factor(node, [circle.logarithm, circle.angle(first + lane)])
         });
-        let end = points.end.min(first + POINT_LANES);
-        for (function, row) in spectra.chunks_exact_mut(circle.points()).enumerate() {
+        let lanes = first..points.end.min(first + POINT_LANES);
+        let row_length = circle.points();
+        vectorized(AddToSpectra {
+            coefficients: &coefficients,
+            chebyshev_values,
+            factors,
+            spectra,
+            row_length,
+            lanes,
+        });
+    }
+    Ok(())
+}
+
+/// Adds polynomials, times factors of the points, to the values at a few points of all functions.
+struct AddToSpectra<'a> {
+    /// Coefficients degree by degree, one column for each function.
+    coefficients: &'a [Complex],
+    chebyshev_values: [[f64; POINT_LANES]; CHEBYSHEV_POINTS],
+    factors: [Complex; POINT_LANES],
+    /// One row of `row_length` for each function; `lanes` are the points within a row.
+    spectra: &'a mut [Complex],
+    row_length: usize,
+    lanes: Range<usize>,
+}
+
+impl WithSimd for AddToSpectra<'_> {
+    type Output = ();
+
+    // Plain loops: a multiplication and an addition are rounded as on any processor.
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { coefficients, chebyshev_values, factors, spectra, row_length, lanes } = self;
+        let function_count = coefficients.len() / CHEBYSHEV_POINTS;
+        for (function, row) in spectra.chunks_exact_mut(row_length).enumerate() {
             let mut re = [0.0; POINT_LANES];
             let mut im = [0.0; POINT_LANES];
-            for (polynomial, row) in chebyshev_values.iter().zip(coefficients.chunks_exact(count)) {
+            for (polynomial, row) in
+                chebyshev_values.iter().zip(coefficients.chunks_exact(function_count))
+            {
                 let coefficient = row[function];
                 for lane in 0..POINT_LANES {
                     re[lane] += coefficient.re * polynomial[lane];
                     im[lane] += coefficient.im * polynomial[lane];
                 }
             }
-            for (lane, value) in row[first..end].iter_mut().enumerate() {
+            for (lane, value) in row[lanes.clone()].iter_mut().enumerate() {
                 *value += factors[lane] * Complex::new(re[lane], im[lane]);
             }
         }
     }
-    Ok(())
 }

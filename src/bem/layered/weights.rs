@@ -11,12 +11,8 @@ use super::runge_kutta::Stages;
 use super::threads::threads;
 use super::wavenumber::{Compliances, Wavenumbers};
 use crate::error::{Observer, Result, Watch, in_bounds, memory, positive};
-use crate::geometry::{ContactElement, SERIES_PER_OFFSET};
-#[cfg(feature = "embedded")]
-use crate::history::TRENCH_KINDS;
-use crate::history::{
-    ConvolutionWeights, PairClasses, STRIP_KINDS, SharedSpectra, UNSUPPORTED_KINDS,
-};
+use crate::geometry::ContactElement;
+use crate::history::{ConvolutionWeights, PairClasses, STRIP_KINDS, SharedSpectra, by_kind};
 use crate::soil::SoilProfile;
 
 /// [`ConvolutionWeights`] by Runge–Kutta convolution quadrature, under strips or in plan.
@@ -122,26 +118,6 @@ impl<I: Compliances<KINDS>, const KINDS: usize> QuadratureWeights<I, KINDS> {
         watch.reach(done)?;
         if is_complete { Ok(()) } else { self.blocks.write(fingerprint) }
     }
-
-    /// Overwrites `values`, one slice for each kind, with the lags of a class from `first_lag` on.
-    fn copy_weights<const N: usize>(
-        &self,
-        class: usize,
-        first_lag: usize,
-        values: [&mut [f64]; N],
-    ) -> Result<()> {
-        if N != KINDS {
-            return Err(UNSUPPORTED_KINDS);
-        }
-        in_bounds("class of element pairs", class, self.classes.count())?;
-        copy_lags(class, first_lag, values, |number| {
-            if !self.blocks.has(number) {
-                self.check_memory(&(number..number + 1))?;
-                self.check_passivity(&mut Watch::nobody())?;
-            }
-            self.block(number, &mut Watch::nobody(), 0..0)
-        })
-    }
 }
 
 impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for QuadratureWeights<I, KINDS> {
@@ -157,28 +133,17 @@ impl<I: Compliances<KINDS>, const KINDS: usize> ConvolutionWeights for Quadratur
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; STRIP_KINDS],
+        values: &mut [&mut [f64]],
     ) -> Result<()> {
-        self.copy_weights(class, first_lag, values)
-    }
-
-    fn coefficients_in_plan(
-        &self,
-        class: usize,
-        first_lag: usize,
-        values: [&mut [f64]; SERIES_PER_OFFSET],
-    ) -> Result<()> {
-        self.copy_weights(class, first_lag, values)
-    }
-
-    #[cfg(feature = "embedded")]
-    fn coefficients_around_trench(
-        &self,
-        class: usize,
-        first_lag: usize,
-        values: [&mut [f64]; TRENCH_KINDS],
-    ) -> Result<()> {
-        self.copy_weights(class, first_lag, values)
+        let values: &mut [_; KINDS] = by_kind(values)?;
+        in_bounds("class of element pairs", class, self.classes.count())?;
+        copy_lags(class, first_lag, values, |number| {
+            if !self.blocks.has(number) {
+                self.check_memory(&(number..number + 1))?;
+                self.check_passivity(&mut Watch::nobody())?;
+            }
+            self.block(number, &mut Watch::nobody(), 0..0)
+        })
     }
 
     fn late_error(&self) -> f64 {

@@ -79,19 +79,6 @@ impl MatBoundary {
         0.5 * self.edges().map(|edge| side(edge, origin)).sum::<f64>()
     }
 
-    /// Length of the edges whose angle to x and y has a larger sine, m.
-    pub(super) fn oblique_length(&self, sine: f64) -> f64 {
-        let mut sum = 0.0;
-        for [a, b] in self.edges() {
-            let step = [b[0] - a[0], b[1] - a[1]];
-            let length = step[0].hypot(step[1]);
-            if step[0].abs().min(step[1].abs()) > sine * length {
-                sum += length;
-            }
-        }
-        sum
-    }
-
     /// Closed lines whose edges lie farther out by a distance (m) that depends on their unit normal.
     ///
     /// Points about which the lines turn counter-clockwise at least once lie inside. Sharp corners are cut off at three

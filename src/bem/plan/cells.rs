@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::boundary::MatBoundary;
 use super::faces::{MatFace, check_apart, mat_by_mat};
-use super::outline::{CutCell, RIGID_MAT_OVERHANG, cells_of_mats, rocking_error};
+use super::outline::{CutCell, RIGID_MAT_OVERHANG, cells_of_mats};
 use super::region::PlanGrid;
 use super::unions::Unions;
 use crate::error::{Error, PlanError, Result, at_least, finite, memory, positive, require};
@@ -55,8 +55,6 @@ pub struct Plan {
     pub(super) owners: Option<Vec<usize>>,
     /// Each cell at the outline; empty if no cell is cut.
     pub(super) cuts: Vec<CutCell>,
-    /// Estimated relative error of a rigid mat's rocking stiffness by oblique edges.
-    rocking_error: f64,
 }
 
 impl Plan {
@@ -153,7 +151,6 @@ impl Plan {
             cells_along: 0,
             owners: None,
             cuts: vec![],
-            rocking_error: 0.0,
         })
     }
 
@@ -260,7 +257,6 @@ impl Plan {
             cells_along,
             owners: None,
             cuts,
-            rocking_error: if rigidity.is_infinite() { rocking_error(&mats, pitch) } else { 0.0 },
         };
         let cell_area: f64 = plan.inside().iter().sum();
         if (cell_area - area).abs() > MAX_AREA_ERROR * area {
@@ -288,11 +284,6 @@ impl Plan {
     /// Relative error of the area inside the outline, due to narrow faces.
     pub fn area_error(&self) -> f64 {
         self.inside().iter().sum::<f64>() / self.area - 1.0
-    }
-
-    /// Estimated relative error of a rigid mat's rocking stiffness by an oblique outline.
-    pub(in crate::bem) fn outline_error(&self) -> f64 {
-        self.rocking_error
     }
 
     /// Classes of pairs of cells.

@@ -41,11 +41,6 @@ const MIN_CUT_AREA_RATIO: f64 = 0.25;
 const MIN_MAT_AREA_RATIO: f64 = 0.5;
 /// Fraction by which the spring of a cell is softer than C/g − C if it is cut along a side, or nearly whole or empty.
 const CUT_CELL_SOFTENING: f64 = 0.3;
-/// Relative error of the rocking stiffness of a rigid mat, divided by side of a cell × length of oblique edges/area.
-///
-/// Measured: 0.036 to 0.053 for discs, turned squares and octagons on 8 and 16 cells, up to 0.068 on 4, and 0.03 for a
-/// hexagon. Vertical stiffnesses have a fourth of this error.
-const OBLIQUE_EDGE_ERROR: f64 = 0.045;
 /// Fraction of a cell that counts as rounding.
 const AREA_TOLERANCE: f64 = 1e-9;
 /// Fraction of a cell inside a mat above which the cell belongs to it.
@@ -168,17 +163,6 @@ fn oblique_edge_shift(grid: PlanGrid, overhang: f64, rigidity: f64) -> f64 {
     } else {
         shift.min(MAX_EDGE_SHIFT.min(MAX_SHIFT_PER_OVERHANG * overhang))
     }
-}
-
-/// Estimated relative error of the rocking stiffness of a rigid mat, the largest of all mats.
-pub(super) fn rocking_error(mats: &[MatBoundary], pitch: [f64; 2]) -> f64 {
-    let size = (pitch[0] * pitch[1]).sqrt();
-    let mut largest = 0.0_f64;
-    for mat in mats {
-        let oblique_length = mat.oblique_length(OBLIQUE_EDGE_SINE);
-        largest = largest.max(OBLIQUE_EDGE_ERROR * size * oblique_length / mat.area());
-    }
-    largest
 }
 
 impl PlanGrid {

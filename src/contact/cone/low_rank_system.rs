@@ -11,7 +11,7 @@
 //! and its gap one more equation.
 
 use super::low_rank::LowRank;
-use super::problem::ConeProblem;
+use super::problem::{Bounds, ConeProblem};
 use super::status::{Status, Tangential};
 use crate::linalg::DenseFactor;
 
@@ -20,6 +20,33 @@ use crate::linalg::DenseFactor;
 struct Response {
     force: [f64; 3],
     by_motion: [[f64; 3]; 3],
+}
+
+/// Correction of an element's p: δp₀ and its part of M.
+struct PressureResponse {
+    change: f64,
+    by_gap: f64,
+}
+
+impl PressureResponse {
+    /// Correction of the force `p` with this `gap` and entry `diagonal` of D; `None` if the conditions contradict each other.
+    ///
+    /// `is_unpressed`: whether the element slides with infinite friction.
+    fn new(
+        status: &Status,
+        bounds: &Bounds,
+        p: f64,
+        gap: f64,
+        diagonal: f64,
+        is_unpressed: bool,
+    ) -> Option<Self> {
+        match status.bound(bounds.interval) {
+            Some(_) if is_unpressed => None,
+            Some(bound) => Some(Self { change: bound - p, by_gap: 0.0 }),
+            None if is_unpressed => Some(Self { change: -bounds.attraction - p, by_gap: 0.0 }),
+            None => Some(Self { change: (bounds.offset - gap) / diagonal, by_gap: 1.0 / diagonal }),
+        }
+    }
 }
 
 /// An element that slides without pressure in a closed gap.
@@ -119,22 +146,16 @@ impl LowRankSystem {
         let [p, tx, ty] = places.map(|i| problem.force(i));
         let [gap, mx, my] = places.map(|i| problem.y[i]);
         let [dn, dx, dy] = operator.diagonal(e).map(|entry| entry + problem.added);
-        let mut force = [0.0; 3];
-        let mut by_motion = [[0.0; 3]; 3];
         let slope = match status.tangential {
             Tangential::Slip { slope, .. } => slope,
             Tangential::Free | Tangential::Stick => 0.0,
         };
         let is_unpressed = slope == f64::INFINITY;
-        match status.bound(bounds.interval) {
-            Some(_) if is_unpressed => return false,
-            Some(bound) => force[0] = bound - p,
-            None if is_unpressed => force[0] = -bounds.attraction - p,
-            None => {
-                force[0] = (bounds.offset - gap) / dn;
-                by_motion[0][0] = 1.0 / dn;
-            }
-        }
+        let Some(pressure) = PressureResponse::new(status, bounds, p, gap, dn, is_unpressed) else {
+            return false;
+        };
+        let mut force = [pressure.change, 0.0, 0.0];
+        let mut by_motion = [[pressure.by_gap, 0.0, 0.0], [0.0; 3], [0.0; 3]];
         match status.tangential {
             Tangential::Free => (force[1], force[2]) = (-tx, -ty),
             Tangential::Stick => {
@@ -159,7 +180,7 @@ impl LowRankSystem {
                     -factor * (moved + along * coupling) - stiffness / coefficient * sheared;
                 (force[1], force[2]) = (c * along - s * across, s * along + c * across);
                 let follows = [c + s * factor * coupling, s - c * factor * coupling];
-                let by_gap = if is_unpressed { 0.0 } else { slope * by_motion[0][0] };
+                let by_gap = if is_unpressed { 0.0 } else { slope * pressure.by_gap };
                 by_motion[1] = [by_gap * follows[0], factor * s * s, -factor * s * c];
                 by_motion[2] = [by_gap * follows[1], -factor * s * c, factor * c * c];
                 if is_unpressed {

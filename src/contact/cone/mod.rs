@@ -28,6 +28,7 @@ mod modes;
 mod newton;
 mod problem;
 mod proximal;
+mod read;
 mod search;
 mod status;
 mod sweeps;
@@ -36,33 +37,33 @@ mod system;
 mod tests;
 mod wide;
 
-use super::problem::{ContactInput, ContactSolver};
-use super::{OnBed, SearchMethod};
-use crate::error::{LawError, StepError};
+use super::SearchMethod;
+use super::problem::ContactInput;
+use super::response::ContactResponse;
+use crate::error::StepError;
 use crate::geometry::{COMPONENTS_IN_SPACE, ContactLayout};
-use crate::interface::{Limits, Mode};
-use crate::linalg::largest;
-use blocks::NearFieldBlocks;
+use crate::interface::Mode;
 use newton::Newton;
-use problem::{Bounds, ConeProblem};
+use problem::ConeProblem;
 use proximal::Proximal;
 use search::search;
 use status::{Normal, Status, Tangential};
-use wide::DenseLattice;
 
 /// Gap at which a bond breaks, relative to the largest displacement.
 const BOND_BREAKING_GAP: f64 = 1e-12;
 
-/// A contact problem in plan, and the methods that solve it.
-pub(super) struct Cone {
+/// Search for the contact forces of a step in space.
+pub(crate) struct ForceSearch {
+    /// Tractions, jumps and states of the last solution.
+    pub(super) response: ContactResponse,
     problem: ConeProblem,
     newton: Newton,
     proximal: Proximal,
     areas: Vec<f64>,
     /// Compliance of each element's layer, included in W.
     layers: Vec<[f64; 2]>,
-    /// Number of the present W; `None` before the first.
-    generation: Option<usize>,
+    /// Whether W is the one of the last step, with the same layers.
+    has_valid_operator: bool,
     /// Elements whose bonds have broken in this step.
     broken: Vec<bool>,
     /// Initial forces of a search, and forces that solve with less friction.
@@ -72,17 +73,18 @@ pub(super) struct Cone {
     is_linear: bool,
 }
 
-impl Cone {
+impl ForceSearch {
     /// Search for elements with these areas, m²; `is_linear`: whether the structure is linear.
     pub(super) fn new(areas: &[f64], is_linear: bool) -> Self {
         let count = areas.len();
         Self {
+            response: ContactResponse::new(ContactLayout::new(COMPONENTS_IN_SPACE, count)),
             problem: ConeProblem::on_bed(count),
             newton: Newton::on_bed(count),
             proximal: Proximal::new(count),
             areas: areas.to_vec(),
             layers: vec![[0.0; 2]; count],
-            generation: None,
+            has_valid_operator: false,
             broken: vec![false; count],
             start: vec![0.0; 3 * count],
             limited: vec![0.0; 3 * count],
@@ -90,16 +92,20 @@ impl Cone {
         }
     }
 
-    /// Finds `modes`, starting from their present values; the solver then holds the solution.
+    /// Discards W; call this when it has changed.
+    pub(super) fn invalidate(&mut self) {
+        self.has_valid_operator = false;
+    }
+
+    /// Finds `modes`, starting from their present values; the response is then the solution.
     ///
     /// Returns the number of iterations and the last method used.
     pub(super) fn solve(
         &mut self,
-        solver: &mut ContactSolver,
         input: &ContactInput<'_>,
         modes: &mut [Mode],
     ) -> Result<(usize, SearchMethod), StepError> {
-        self.read_step(solver.generation, input)?;
+        self.read_step(input)?;
         self.newton.begin_step();
         let mut method = SearchMethod::ActiveSet;
         for mode in modes.iter_mut() {
@@ -110,8 +116,8 @@ impl Cone {
         if !(tried && self.problem.is_solved()) {
             self.set_initial_forces(input);
             loop {
-                let Self { problem, newton, proximal, start, limited, is_linear, .. } = self;
-                let is_constant = has_constant_operator(*is_linear, &self.layers, input);
+                let is_constant = self.has_constant_operator(input);
+                let Self { problem, newton, proximal, start, limited, .. } = self;
                 let outcome = search(problem, newton, proximal, start, limited, is_constant);
                 trials += outcome.iterations;
                 let Some(found) = outcome.method else { return Err(self.failure(trials)) };
@@ -123,29 +129,37 @@ impl Cone {
             }
             self.write_modes(modes);
         }
-        solver.substituted_friction = self.substituted_friction();
-        let layout = ContactLayout::new(COMPONENTS_IN_SPACE, self.areas.len());
-        for (i, traction) in solver.traction.iter_mut().enumerate() {
-            // Exactly zero in total if there is no force.
-            *traction = match self.problem.force(i) {
-                0.0 => -input.static_traction[i],
-                _ => self.problem.change[i] / self.areas[layout.origin(i)[1]],
-            };
-        }
-        StepError::check_finite("contact traction", &solver.traction)?;
-        solver.evaluate_by(input, |traction, jump| self.multiply_add(input, traction, jump));
+        self.update_traction(input)?;
+        self.update_jump(input);
+        self.response.update_states(input);
         Ok((trials, method))
     }
 
-    /// jump ← jump + W τ, by blocks or transforms where they exist.
+    /// Computes the changes of traction for the present forces.
+    fn update_traction(&mut self, input: &ContactInput<'_>) -> Result<(), StepError> {
+        let Self { response, problem, areas, .. } = self;
+        let layout = response.layout;
+        for (i, traction) in response.traction.iter_mut().enumerate() {
+            // Exactly zero in total if there is no force.
+            *traction = match problem.force(i) {
+                0.0 => -input.static_traction[i],
+                _ => problem.change[i] / areas[layout.origin(i)[1]],
+            };
+        }
+        StepError::check_finite("contact traction", &response.traction)
+    }
+
+    /// Computes the jump for the present tractions, by blocks or transforms where they exist.
     ///
     /// The forces are then rounded as in the next step, which begins with the same product.
-    fn multiply_add(&mut self, input: &ContactInput<'_>, traction: &[f64], jump: &mut [f64]) {
-        let ConeProblem { near_field, dense_lattice, low_rank, .. } = &self.problem;
+    fn update_jump(&mut self, input: &ContactInput<'_>) {
+        let Self { response, problem, areas, layers, .. } = self;
+        let ContactResponse { traction, jump, .. } = response;
+        jump.copy_from_slice(input.free_jump);
+        let ConeProblem { near_field, dense_lattice, low_rank, .. } = problem;
         if near_field.is_none() && dense_lattice.is_none() && low_rank.is_none() {
             return input.delassus.multiply_add(traction, jump);
         }
-        let Self { problem, areas, layers, .. } = self;
         for (e, area) in areas.iter().enumerate() {
             for i in problem.places(e) {
                 problem.set_force(i, area * (input.static_traction[i] + traction[i]));
@@ -159,113 +173,6 @@ impl Cone {
                 jump[i] += problem.y[i] - problem.q[i] - by_layer;
             }
         }
-    }
-
-    /// Reads W, q and the limits of the laws.
-    fn read_step(&mut self, generation: usize, input: &ContactInput<'_>) -> Result<(), LawError> {
-        self.update_operator(generation, input)?;
-        let Self { problem, areas, layers, .. } = self;
-        self.broken.fill(false);
-        for (e, &area) in areas.iter().enumerate() {
-            let start = input.start.element(e);
-            problem.bounds[e] = bounds(&limits(input, e)?, area);
-            for (component, i) in problem.places(e).into_iter().enumerate() {
-                problem.anchor[i] = area * input.static_traction[i];
-                problem.q[i] = input.free_jump[i];
-                // A layer starts from its deformation, a slip from its last value.
-                let layer = layers[e][component.min(1)];
-                let begin = if component == 0 { 0.0 } else { start.state.traction()[component] };
-                problem.q[i] += layer * (input.static_traction[i] - begin);
-                if component > 0 {
-                    problem.q[i] -= start.state.jump()[component];
-                }
-            }
-        }
-        problem.min_force_scale = largest(&problem.anchor);
-        let stiffest = problem.rho.iter().flatten().fold(0.0_f64, |max, rho| max.max(*rho));
-        // Rounding of lengths that are not normal numbers is larger.
-        let length = input.length_scale.max(f64::MIN_POSITIVE / f64::EPSILON);
-        problem.rounding_residual = 4.0 * f64::EPSILON * length * stiffest;
-        Ok(())
-    }
-
-    /// Copies W and adds the layers of the laws, if either has changed.
-    fn update_operator(
-        &mut self,
-        generation: usize,
-        input: &ContactInput<'_>,
-    ) -> Result<(), LawError> {
-        for e in 0..self.areas.len() {
-            let layer = input.law(e).compliance(Mode::Stick, &input.start.element(e));
-            if layer != self.layers[e] {
-                for (value, quantity) in
-                    layer.into_iter().zip(["normal compliance", "shear compliance"])
-                {
-                    if !(value >= 0.0 && value.is_finite()) {
-                        let mode = Mode::Stick.word();
-                        return Err(LawError::not_finite(e, mode, quantity, value));
-                    }
-                }
-                self.layers[e] = layer;
-                self.generation = None;
-            }
-        }
-        if self.generation == Some(generation) {
-            return Ok(());
-        }
-        self.generation = Some(generation);
-        if let Some(on_bed) = input.delassus.on_bed() {
-            self.read_modes(on_bed);
-            return Ok(());
-        }
-        if self.problem.low_rank.is_some() {
-            let count = self.areas.len();
-            (self.problem, self.newton) = (ConeProblem::new(count), Newton::new(count));
-        }
-        let is_constant = has_constant_operator(self.is_linear, &self.layers, input);
-        let Self { problem, areas, layers, .. } = self;
-        let size = problem.size();
-        let count = areas.len();
-        let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
-        for (row, values) in problem.w.chunks_exact_mut(size).enumerate() {
-            for (column, value) in values.iter_mut().enumerate() {
-                *value = input.delassus[row * size + column] / areas[column % count];
-            }
-            values[row] += layer(row);
-        }
-        problem.update_scales();
-        problem.near_field = None;
-        problem.dense_lattice = None;
-        // Blocks of a W that changes would not pay.
-        if let Some(soil) = input.delassus.soil().filter(|_| is_constant)
-            && let Some(cells) = soil.cells()
-        {
-            let compliance =
-                |row: usize, column: usize| soil[row * size + column] / areas[column % count];
-            let near_field =
-                NearFieldBlocks::new(&problem.w, &problem.rho, cells, compliance, layer);
-            if near_field.is_none() {
-                problem.dense_lattice = DenseLattice::new(&problem.w, cells, compliance, layer);
-            }
-            problem.set_near_field(near_field);
-        }
-        problem.prepare_acceleration();
-        self.newton.forget(is_constant);
-        Ok(())
-    }
-
-    /// Reads W of low rank, and adds the layers of the laws.
-    fn read_modes(&mut self, on_bed: &OnBed) {
-        let Self { problem, newton, areas, layers, .. } = self;
-        let count = areas.len();
-        let layer = |row: usize| layers[row % count][(row / count).min(1)] / areas[row % count];
-        let Some(low_rank) = &mut problem.low_rank else {
-            (*problem, *newton) = (ConeProblem::on_bed(count), Newton::on_bed(count));
-            return self.read_modes(on_bed);
-        };
-        low_rank.set(on_bed, areas, layer);
-        newton.reserve(on_bed.rank());
-        problem.update_scales();
     }
 
     /// Solves for the statuses of the previous step; `false` if an element slid, or if sweeps take less time.
@@ -338,7 +245,7 @@ impl Cone {
     }
 
     /// Smallest friction bound that replaced the law's larger one on a sliding element.
-    fn substituted_friction(&self) -> Option<f64> {
+    pub(super) fn substituted_friction(&self) -> Option<f64> {
         let elements = self.newton.statuses.iter().zip(&self.problem.bounds);
         let substituted = elements.filter(|(status, bounds)| status.slips_below(bounds.friction));
         substituted.map(|(_, bounds)| bounds.effective_friction()).reduce(f64::min)
@@ -358,42 +265,5 @@ impl Cone {
             .collect();
         let scale = problem.largest_force().max(f64::MIN_POSITIVE);
         StepError::Cone { iterations, residual: residual / scale, elements }
-    }
-}
-
-/// Whether W is constant for the whole run.
-///
-/// True if the structure is linear, and laws with layers have no state variables.
-fn has_constant_operator(is_linear: bool, layers: &[[f64; 2]], input: &ContactInput<'_>) -> bool {
-    is_linear
-        && layers
-            .iter()
-            .enumerate()
-            .all(|(e, layer)| *layer == [0.0; 2] || input.law(e).state_variables() == 0)
-}
-
-/// Limits of an element's law, checked.
-fn limits(input: &ContactInput<'_>, element: usize) -> Result<Limits, LawError> {
-    let law = input.law(element);
-    let start = input.start.element(element);
-    let mode = start.mode.word();
-    let limits = law.limits(&start).and_then(Limits::checked).map_err(|reason| LawError {
-        element,
-        mode,
-        reason: Box::new(reason),
-    })?;
-    Ok(if input.frictionless { limits.frictionless() } else { limits })
-}
-
-/// Bounds of the forces on an area, m².
-fn bounds(limits: &Limits, area: f64) -> Bounds {
-    Bounds {
-        friction: limits.friction,
-        friction_limit: f64::INFINITY,
-        attraction: limits.attraction * area,
-        strength: limits.shear_strength * area,
-        interval: [-limits.tension * area, limits.pressure_cap * area],
-        offset: limits.gap_offset,
-        bonded: limits.bonded,
     }
 }

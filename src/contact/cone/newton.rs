@@ -21,12 +21,18 @@ const NEAR_RESIDUAL: f64 = 1e-4;
 const MAX_RESTART_ITERATIONS: usize = 60;
 const MIN_STEP_FRACTION: f64 = 0.2;
 
+/// The linear system of the statuses.
+enum StatusSystem {
+    /// For W with stored entries.
+    Dense(Box<System>),
+    /// For W of low rank, on a bed of many springs.
+    LowRank(Box<LowRankSystem>),
+}
+
 /// Newton's method, with its scratch.
 pub(super) struct Newton {
     pub(super) statuses: Vec<Status>,
-    system: System,
-    /// The system on a bed of many springs.
-    low_rank: Option<LowRankSystem>,
+    system: StatusSystem,
     /// Kinds of the statuses and changes of force in the previous iteration.
     kinds: Vec<(Normal, Discriminant<Tangential>)>,
     before: Vec<f64>,
@@ -34,43 +40,44 @@ pub(super) struct Newton {
 
 impl Newton {
     pub(super) fn new(count: usize) -> Self {
-        Self {
-            statuses: vec![Status::CLOSED_STICKING; count],
-            system: System::new(count),
-            low_rank: None,
-            kinds: Vec::with_capacity(count),
-            before: vec![0.0; 3 * count],
-        }
+        Self::with_system(count, StatusSystem::Dense(Box::new(System::new(count))))
     }
 
     /// The method for W of low rank.
     pub(super) fn on_bed(count: usize) -> Self {
+        Self::with_system(count, StatusSystem::LowRank(Box::new(LowRankSystem::new(count))))
+    }
+
+    fn with_system(count: usize, system: StatusSystem) -> Self {
         Self {
             statuses: vec![Status::CLOSED_STICKING; count],
-            low_rank: Some(LowRankSystem::new(count)),
+            system,
             kinds: Vec::with_capacity(count),
             before: vec![0.0; 3 * count],
-            ..Self::new(0)
         }
     }
 
     /// Allocates for W of this rank, if it is of low rank.
     pub(super) fn reserve(&mut self, rank: usize) {
-        if let Some(system) = &mut self.low_rank {
+        if let StatusSystem::LowRank(system) = &mut self.system {
             system.reserve(rank);
         }
     }
 
-    /// Discards the factors; call it when W has changed.
+    /// Discards the factors; call it when W has changed. Factors for W of low rank are never kept.
     ///
     /// `is_constant`: whether W will stay constant.
     pub(super) fn forget(&mut self, is_constant: bool) {
-        self.system.forget(is_constant);
+        if let StatusSystem::Dense(system) = &mut self.system {
+            system.forget(is_constant);
+        }
     }
 
     /// Discards the results of previous steps that influence the choice of a system.
     pub(super) fn begin_step(&mut self) {
-        self.system.begin_step();
+        if let StatusSystem::Dense(system) = &mut self.system {
+            system.begin_step();
+        }
     }
 
     /// Iterates from the present r; returns the number of iterations, and whether they found a solution.
@@ -120,7 +127,7 @@ impl Newton {
             }
             self.classify(problem, ahead);
             let is_near = slow == 0 && residual <= NEAR_RESIDUAL * problem.largest_force();
-            if !self.system.solve(problem, &self.statuses, is_near) {
+            if !self.solve_system(problem, is_near) {
                 problem.change.copy_from_slice(&self.before);
                 return SolveOutcome::new(iteration + 1, false);
             }
@@ -212,9 +219,14 @@ impl Newton {
 
     /// Solves the system of the statuses; `false` if it is singular.
     pub(super) fn step(&mut self, problem: &mut ConeProblem) -> bool {
-        match &mut self.low_rank {
-            Some(system) => system.solve(problem, &self.statuses),
-            None => self.system.solve(problem, &self.statuses, false),
+        self.solve_system(problem, false)
+    }
+
+    /// Solves the system of the statuses, with `is_near` as in [`System::solve`].
+    fn solve_system(&mut self, problem: &mut ConeProblem, is_near: bool) -> bool {
+        match &mut self.system {
+            StatusSystem::Dense(system) => system.solve(problem, &self.statuses, is_near),
+            StatusSystem::LowRank(system) => system.solve(problem, &self.statuses),
         }
     }
 }

@@ -10,7 +10,7 @@ const MAX_SWEEPS_PER_ROUND: usize = 60;
 /// Rounds of sweeps and Newton's method, alone or within the proximal method.
 const MAX_ROUNDS: usize = 12;
 /// Accelerated sweeps of a round end at this change, relative to the largest force, for Newton's method to begin.
-const CHANGES_BEFORE_NEWTON: [f64; 4] = [1e-3, 1e-5, 1e-8, 0.0];
+const CHANGES_BEFORE_NEWTON: [f64; 4] = [3e-3, 1e-5, 1e-8, 0.0];
 /// Largest friction that all methods are tried with; a higher one is approached from below.
 const MAX_DIRECT_FRICTION: f64 = 100.0;
 /// Smallest friction from which a higher one is approached.

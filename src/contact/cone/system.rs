@@ -26,8 +26,6 @@ use crate::linalg::{DenseFactor, dense_multiply_add, dot};
 const INVERSE_BLOCK_COLUMNS: usize = 32;
 /// Cost of W⁻¹, relative to a factorization of the same order.
 const INVERSE_COST_FACTOR: f64 = 4.0;
-/// Cost of a product with W⁻¹ of many elements: operations of a factorization for each entry, which memory delivers.
-const OPERATIONS_PER_ENTRY: f64 = 24.0;
 
 /// A weighted sum of components: one with weight 1, or the three of an element.
 #[derive(Clone, Copy)]
@@ -226,9 +224,6 @@ impl System {
         }
         let size = problem.size();
         let gain = cube(forces) - cube(motions);
-        if problem.acceleration.is_some() && gain < OPERATIONS_PER_ENTRY * (size * size) as f64 {
-            return false;
-        }
         self.saved_cost += gain;
         if self.inverse.is_empty()
             && (self.is_constant || self.saved_cost > INVERSE_COST_FACTOR * cube(size))

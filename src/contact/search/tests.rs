@@ -12,7 +12,7 @@ use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::operators::{Factor, Operators};
 use crate::coupled::{Midpoint, TimeScheme};
 use crate::fem::{Layer, Material, Mesh};
-use crate::geometry::{COMPONENTS_IN_PLANE, ContactLayout, Patch};
+use crate::geometry::Patch;
 use crate::interface::{
     ContactState, Coulomb, InterfaceLaw, PreviousContact, PreviousContacts, UnilateralCondition,
 };
@@ -224,16 +224,11 @@ fn push(problem: &mut Problem, random: &mut Random) {
 }
 
 /// All admissible mode vectors with their tractions.
-fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>, Vec<f64>)> {
+fn brute_force(problem: &Problem) -> Vec<(Vec<Mode>, Vec<f64>)> {
     let input = problem.input();
     let known = problem.laws[0].modes();
     let count = problem.start.len();
-    let mut search = ModeSearch::new(
-        ContactLayout::new(COMPONENTS_IN_PLANE, count),
-        &[],
-        true,
-        ContactSearch::Robust,
-    );
+    let mut search = ModeSearch::new(count, ContactSearch::Robust);
     let mut found = Vec::new();
     let mut modes = vec![known[0]; count];
     for number in 0..known.len().pow(u32::try_from(count).unwrap()) {
@@ -242,8 +237,8 @@ fn brute_force(problem: &Problem, solver: &mut ContactSolver) -> Vec<(Vec<Mode>,
             *mode = known[rest % known.len()];
             rest /= known.len();
         }
-        if solver.trial(&input, &modes) && search.update_next_modes(solver, &input, &modes) {
-            found.push((modes.clone(), solver.traction.clone()));
+        if search.are_admissible(&input, &modes).unwrap() {
+            found.push((modes.clone(), search.solver.response.traction.clone()));
         }
     }
     found
@@ -300,15 +295,9 @@ impl Tally {
     fn examine(&mut self, problem: &Problem) -> Option<(Vec<Mode>, Vec<ContactState>)> {
         let count = problem.start.len();
         let input = problem.input();
-        let mut solver = ContactSolver::new(ContactLayout::new(COMPONENTS_IN_PLANE, count));
-        let mut search = ModeSearch::new(
-            ContactLayout::new(COMPONENTS_IN_PLANE, count),
-            &[],
-            true,
-            ContactSearch::Robust,
-        );
+        let mut search = ModeSearch::new(count, ContactSearch::Robust);
         self.problems += 1;
-        let all = brute_force(problem, &mut solver);
+        let all = brute_force(problem);
         let solutions = distinct(&all);
         self.none += usize::from(all.is_empty());
         let strong = problem.parameters.strength > 0.0;
@@ -317,34 +306,34 @@ impl Tally {
         for (_, traction) in &all {
             self.worst = self.worst.max(problem.violation(traction));
         }
-        let check = |solver: &ContactSolver, modes: &[Mode]| {
+        let check = |search: &ModeSearch, modes: &[Mode]| {
             assert!(all.iter().any(|(m, _)| m == modes), "{modes:?} is not among {all:?}");
-            problem.violation(&solver.traction)
+            problem.violation(&search.solver.response.traction)
         };
         for method in 0..3 {
-            solver.invalidate();
+            search.solver.invalidate();
             let mut modes = problem.modes.clone();
             let good = match method {
-                0 => search.active_set(&mut solver, &input, &mut modes),
-                1 => search.gauss_seidel(&mut solver, &input, &mut modes),
-                _ => search.along_path(&mut solver, &input, &mut modes),
+                0 => search.active_set(&input, &mut modes),
+                1 => search.gauss_seidel(&input, &mut modes),
+                _ => search.along_path(&input, &mut modes),
             };
-            if good {
+            if good.unwrap() {
                 self.alone[method] += 1;
-                self.worst = self.worst.max(check(&solver, &modes));
+                self.worst = self.worst.max(check(&search, &modes));
             }
         }
-        solver.invalidate();
+        search.solver.invalidate();
         let mut modes = problem.modes.clone();
-        let Ok((trials, method)) = search.solve(&mut solver, &input, &mut modes) else {
+        let Ok((trials, method)) = search.solve(&input, &mut modes) else {
             self.failed += usize::from(!all.is_empty() && !strong);
             self.failed_with_strength += usize::from(!all.is_empty() && strong);
             return None;
         };
         self.trials += trials;
         self.methods[method as usize] += 1;
-        self.worst = self.worst.max(check(&solver, &modes));
-        Some((modes, solver.states))
+        self.worst = self.worst.max(check(&search, &modes));
+        Some((modes, search.solver.response.states))
     }
 }
 

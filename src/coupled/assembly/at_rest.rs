@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::backfilled;
 use super::static_stages::{loaded, placed};
 use crate::coupled::base::held::holds;
-use crate::coupled::base::influence::UP;
+use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::bed_compliance;
 use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
@@ -125,7 +125,7 @@ fn loads(parts: &Parts, assembled: &Assembled) -> Result<Loads> {
     all_finite("load of the structure at t = 0", &of_structure)?;
     let mut load = of_structure.clone();
     let mut weight = vec![0.0; n];
-    let up = assembled.influence.of(UP, n);
+    let up = assembled.influence.of(UPWARD_DIRECTION, n);
     assembled.mass.multiply_add(-given.gravity, &up, &mut weight);
     for external in &given.loads {
         let force = external.value(0.0);

@@ -89,61 +89,11 @@ impl<'a> Reduction<'a> {
         (held, floating, factored): (HeldResponses, Option<Rc<Floating>>, &'a Factored<'a>),
         steps: usize,
     ) -> Result<Self> {
-        let given = &parts.given;
-        let base = &assembled.base;
-        let coefficients = &parts.coefficients;
-        let n = assembled.dofs();
-        let size = base.layout().len();
         let mut rows = ResponseRows::default();
-        for load in &given.loads {
-            push_nonzero(&mut rows.all, spread(load.row(), n));
-        }
-        let duration = steps as f64 * given.time_step;
-        for k in 0..=LOAD_SAMPLE_COUNT {
-            let mut load = vec![0.0; n];
-            let loaded = parts
-                .structure
-                .load(duration * f64::from(k) / f64::from(LOAD_SAMPLE_COUNT), &mut load);
-            if k == 0 {
-                loaded?;
-            } else if loaded.is_err() {
-                // The run may end before that time.
-                continue;
-            }
-            if load.iter().all(|force| force.is_finite()) {
-                push_nonzero(&mut rows.all, load);
-            }
-        }
-        rows.load_count = rows.all.len() / n;
-        let mut unit = vec![0.0; size];
-        for i in 0..size {
-            let mut force = vec![0.0; n];
-            unit[i] = 1.0;
-            base.add_forces(1.0, &unit, &mut force);
-            unit[i] = 0.0;
-            push_nonzero(&mut rows.all, force);
-        }
-        let mut motions = Vec::new();
-        for motion in [&given.displacement, &given.velocity] {
-            for motion in motion.chunks_exact(n) {
-                let mut force = vec![0.0; n];
-                assembled.mass.multiply_add(1.0, motion, &mut force);
-                push_nonzero(&mut rows.all, force);
-            }
-            motions.extend_from_slice(motion);
-        }
-        rows.force_count = rows.all.len() / n;
-        rows.probes = vec![[None; 3]; given.probes.len()];
-        for kind in 0..3 {
-            if kind == 2 {
-                rows.first_acceleration = rows.all.len() / n;
-            }
-            for (probe, places) in given.probes.iter().zip(&mut rows.probes) {
-                let place = rows.all.len() / n;
-                let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[kind], n));
-                places[kind] = is_nonzero.then_some(place);
-            }
-        }
+        collect_loads(&mut rows, parts, assembled.dofs(), steps)?;
+        collect_tractions(&mut rows, assembled);
+        let motions = collect_motions(&mut rows, parts, assembled);
+        collect_probes(&mut rows, parts, assembled.dofs());
         let floating = Cell::new(floating);
         let damping = &assembled.damping;
         let is_proportional = damping.is_empty()
@@ -155,7 +105,7 @@ impl<'a> Reduction<'a> {
         };
         Ok(Self {
             assembled,
-            coefficients,
+            coefficients: &parts.coefficients,
             factored,
             held,
             floating,
@@ -325,6 +275,75 @@ impl<'a> Reduction<'a> {
         let terms = [(shift * shift, &**mass), (1.0, &**stiffness)];
         let matrix = SparseMatrix::sum(DYNAMIC_STIFFNESS_NAME, mass.order(), &terms)?;
         SparseFactor::of(DYNAMIC_STIFFNESS_NAME, &matrix, &self.assembled.elimination)
+    }
+}
+
+/// Adds the loads of a scene, and samples of the structure's own load.
+fn collect_loads(rows: &mut ResponseRows, parts: &Parts, dofs: usize, steps: usize) -> Result<()> {
+    for load in &parts.given.loads {
+        push_nonzero(&mut rows.all, spread(load.row(), dofs));
+    }
+    let duration = steps as f64 * parts.given.time_step;
+    for sample in 0..=LOAD_SAMPLE_COUNT {
+        let time = duration * f64::from(sample) / f64::from(LOAD_SAMPLE_COUNT);
+        let mut load = vec![0.0; dofs];
+        let loaded = parts.structure.load(time, &mut load);
+        if sample == 0 {
+            loaded?;
+        } else if loaded.is_err() {
+            // The run may end before that time.
+            continue;
+        }
+        if load.iter().all(|force| force.is_finite()) {
+            push_nonzero(&mut rows.all, load);
+        }
+    }
+    rows.load_count = rows.all.len() / dofs;
+    Ok(())
+}
+
+/// Adds the forces by a unit traction on each component of each element.
+fn collect_tractions(rows: &mut ResponseRows, assembled: &Assembled) {
+    let size = assembled.base.layout().len();
+    let mut unit = vec![0.0; size];
+    for place in 0..size {
+        let mut force = vec![0.0; assembled.dofs()];
+        unit[place] = 1.0;
+        assembled.base.add_forces(1.0, &unit, &mut force);
+        unit[place] = 0.0;
+        push_nonzero(&mut rows.all, force);
+    }
+}
+
+/// Adds the momenta of the initial displacement and velocity, and returns both.
+fn collect_motions(rows: &mut ResponseRows, parts: &Parts, assembled: &Assembled) -> Vec<f64> {
+    let dofs = assembled.dofs();
+    let mut motions = Vec::new();
+    for motion in [&parts.given.displacement, &parts.given.velocity] {
+        for motion in motion.chunks_exact(dofs) {
+            let mut force = vec![0.0; dofs];
+            assembled.mass.multiply_add(1.0, motion, &mut force);
+            push_nonzero(&mut rows.all, force);
+        }
+        motions.extend_from_slice(motion);
+    }
+    rows.force_count = rows.all.len() / dofs;
+    motions
+}
+
+/// Adds the rows of the probes: of displacements, velocities and accelerations.
+fn collect_probes(rows: &mut ResponseRows, parts: &Parts, dofs: usize) {
+    let probes = &parts.given.probes;
+    rows.probes = vec![[None; 3]; probes.len()];
+    for kind in 0..3 {
+        if kind == 2 {
+            rows.first_acceleration = rows.all.len() / dofs;
+        }
+        for (probe, places) in probes.iter().zip(&mut rows.probes) {
+            let place = rows.all.len() / dofs;
+            let is_nonzero = push_nonzero(&mut rows.all, spread(probe.rows()[kind], dofs));
+            places[kind] = is_nonzero.then_some(place);
+        }
     }
 }
 

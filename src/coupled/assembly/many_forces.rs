@@ -14,7 +14,7 @@ use crate::coupled::assembly::step_response::StepResponses;
 use crate::coupled::assembly::subspace::{Ritz, Subspace};
 use crate::coupled::base::transformation::ModalBasis;
 use crate::coupled::statics::compliance::Floating;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linalg::{SparseFactor, SparseMatrix, lowest_modes};
 
 /// Growth of the limit of frequency of vibration modes, from a round to the next.
@@ -52,6 +52,13 @@ fn add_static_responses(
     first
 }
 
+/// First limit of frequency of vibration modes.
+///
+/// Modes at the limit take part by the tolerance in responses to forces that grow over many steps.
+fn first_frequency_limit(scheme_shift: f64, tolerance: f64) -> f64 {
+    scheme_shift * (tolerance.powf(-2.0 / FORCE_GROWTH_STEPS as f64) - 1.0).sqrt()
+}
+
 impl Reduction<'_> {
     /// Ritz modes for many forces: vibration modes, static responses and powers of K_eff.
     ///
@@ -68,10 +75,9 @@ impl Reduction<'_> {
         let mut block = space.balanced(rows.clone());
         space.extend(self.motions.clone(), FINAL_MIN_NEW_FRACTION);
         let scheme_shift = (c.acceleration[0] / c.displacement[0]).max(0.0).sqrt();
-        // Modes at the limit take part by the tolerance in responses to forces that grow over many steps.
-        let mut limit =
-            scheme_shift * (tolerance.powf(-2.0 / FORCE_GROWTH_STEPS as f64) - 1.0).sqrt();
+        let mut limit = first_frequency_limit(scheme_shift, tolerance);
         let mut last: Option<(StepResponses, Ritz)> = None;
+        let mut converged: Option<Ritz> = None;
         let mut products = Vec::new();
         let mut effective = None;
         let mut change = f64::INFINITY;
@@ -80,8 +86,8 @@ impl Reduction<'_> {
         for round in 0..MAX_MODE_ROUNDS {
             // One more power alone is the comparison.
             if round != 1 {
-                let floating = self.add_modes(&mut space, limit, scheme_shift, tolerance)?;
-                let Some(floating) = floating else {
+                let Some(floating) = self.add_modes(&mut space, limit, scheme_shift, tolerance)?
+                else {
                     break;
                 };
                 limit *= FREQUENCY_LIMIT_GROWTH;
@@ -97,19 +103,15 @@ impl Reduction<'_> {
                 min_length *= self.probe_factor(&space, &products)?;
             }
             let mut is_last = false;
-            if let Some((last, fewer)) = &last {
+            if let Some((fewer_responses, fewer_modes)) = last.take() {
                 products.extend(space.products(products.len() / count, rows));
                 let (modes, all) =
                     space.ritz_with((&block, newest), c, (&products, rows), min_length)?;
-                let new_change = self.smooth_responses(&modes, &all).difference(last, tolerance);
+                let new_change =
+                    self.smooth_responses(&modes, &all).difference(&fewer_responses, tolerance);
                 if new_change <= tolerance {
-                    return self.basis_of_many(
-                        space,
-                        fewer,
-                        effective.as_deref(),
-                        scheme_shift,
-                        tolerance,
-                    );
+                    converged = Some(fewer_modes);
+                    break;
                 }
                 let ratio = (new_change / change).clamp(MIN_CHANGE_RATIO, 1.0);
                 is_last = change.is_finite() && new_change * ratio <= tolerance;
@@ -120,25 +122,27 @@ impl Reduction<'_> {
             block = space.inertia(newest, c.acceleration[0]);
             let modes = space.ritz()?;
             if is_last || space.count() == self.assembled.dofs() {
-                return self.basis_of_many(
-                    space,
-                    &modes,
-                    effective.as_deref(),
-                    scheme_shift,
-                    tolerance,
-                );
+                converged = Some(modes);
+                break;
             }
             products.extend(space.products(products.len() / count, rows));
             last = Some((self.smooth_responses(&modes, &products), modes));
         }
-        let vectors = space.count();
+        let Some(modes) = converged else {
+            return Err(self.slow_convergence(space.count(), change, tolerance));
+        };
+        self.basis_of_many(space, &modes, effective.as_deref(), scheme_shift, tolerance)
+    }
+
+    /// Error for powers of K_eff that do not reach the tolerance.
+    fn slow_convergence(&self, vectors: usize, reached: f64, tolerance: f64) -> Error {
         let forces = self.rows.force_count;
         let remedy = format!(
             "with {vectors} vectors; it has {forces} forces, and with more than 99 few powers of the effective stiffness are \
              tried, by which section forces of stiff structures do not converge below it: ask for 1e-4, leave out such \
              probes, or take the degrees of freedom"
         );
-        Err(inaccurate(change, tolerance, remedy))
+        inaccurate(reached, tolerance, remedy)
     }
 
     /// The modes in degrees of freedom.

@@ -39,7 +39,7 @@ use crate::coupled::gravity_stage::GravityStage;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::load::Load;
 use crate::coupled::model::supports;
-use crate::coupled::parts::{ENDLESS, Parts, SimulationBuilder};
+use crate::coupled::parts::{ENDLESS_STEPS, Parts, SimulationBuilder};
 use crate::coupled::run::mistake::Mistake;
 use crate::coupled::run::warning::Warning;
 use crate::coupled::run::{Weight, wall_pressure};
@@ -191,7 +191,7 @@ impl SimulationBuilder {
     /// does not warn of an early end.
     #[must_use]
     pub fn expected_steps(mut self, steps: usize) -> Self {
-        self.steps = if steps < ENDLESS { steps } else { 0 };
+        self.steps = if steps < ENDLESS_STEPS { steps } else { 0 };
         self
     }
 
@@ -279,11 +279,20 @@ impl SimulationBuilder {
         self
     }
 
+    /// Sets a label that a [`Checkpoint`](crate::coupled::Checkpoint) keeps; default: empty.
+    ///
+    /// [`Simulation::resume`] compares it. Let it name interface laws, ground motion and loads, which are not compared.
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
     /// Holds the base: each foundation moves rigidly with its free field.
     ///
     /// Codes and fixed-base models assume this. Ground and interface law are ignored, except for the places of the
     /// contact elements; base shear, moment and tractions then act on the support.
-    /// [`interaction`](crate::coupled::interaction()) compares the run with the run on the ground.
+    /// [`interaction`](crate::analyses::interaction()) compares the run with the run on the ground.
     ///
     /// ```
     /// use basemat::bem::ElasticGround;

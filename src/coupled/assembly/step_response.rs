@@ -65,15 +65,7 @@ impl StepResponses {
         for (k, d) in modes.stiffness.iter().zip(&modes.damping) {
             effective.push(c.acceleration[0] + c.velocity[0] * d + c.displacement[0] * k);
         }
-        let mut norms = Vec::with_capacity(modal_rows.len() / count);
-        for row in modal_rows.chunks_exact_mut(count) {
-            let energy: f64 = row.iter().zip(&effective).map(|(f, k)| f * f / k).sum();
-            let norm = if energy > 0.0 { energy.sqrt() } else { 1.0 };
-            for value in row {
-                *value /= norm;
-            }
-            norms.push(norm);
-        }
+        let norms = normalise_rows(&mut modal_rows, &effective);
         let times: Vec<usize> = std::iter::successors(Some(1), |step| Some(step + 1 + step / 8))
             .take_while(|s| *s <= steps)
             .collect();
@@ -270,6 +262,20 @@ impl Step {
             state
         })
     }
+}
+
+/// Divides rows of modal forces by their energy norms with these effective stiffnesses, and returns the norms.
+fn normalise_rows(modal_rows: &mut [f64], effective: &[f64]) -> Vec<f64> {
+    let mut norms = Vec::with_capacity(modal_rows.len() / effective.len().max(1));
+    for row in modal_rows.chunks_exact_mut(effective.len().max(1)) {
+        let energy: f64 = row.iter().zip(effective).map(|(f, k)| f * f / k).sum();
+        let norm = if energy > 0.0 { energy.sqrt() } else { 1.0 };
+        for value in row {
+            *value /= norm;
+        }
+        norms.push(norm);
+    }
+    norms
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ pub(super) struct UnseenShape {
 /// A foundation without walls is one face.
 pub(super) fn faces(base: &PlacedBase) -> impl Iterator<Item = (usize, &[BaseNode], Range<usize>)> {
     base.foundations().enumerate().flat_map(|(foundation, (nodes, under))| {
-        let faces = ContactElement::faces(base.elements()).into_iter();
+        let faces = ContactElement::faces(base.elements()).in_order().into_iter();
         let parts = faces.map(move |face| face.start.max(under.start)..face.end.min(under.end));
         parts.filter(|part| !part.is_empty()).map(move |part| (foundation, nodes, part))
     })
@@ -95,18 +95,23 @@ impl UnseenShape {
         if !ratio.is_finite() {
             return None;
         }
-        let mut energies = vec![0.0; faces(base).count()];
-        for (point, rows) in base.deviations() {
-            let face = faces(base).position(|(.., elements)| elements.contains(&point.element));
-            for (component, row) in rows.iter().enumerate() {
-                let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
-                let modulus = moduli[layout.place(component, point.element)];
-                energies[face.unwrap_or(0)] += modulus * point.area * value * value;
-            }
-        }
-        let largest = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        Some(Self { ratio, face: largest.map_or(0, |(face, _)| face) })
+        Some(Self { ratio, face: most_deformed_face(base, &moduli, &shape) })
     }
+}
+
+/// Number of the face of a base whose deviations from its means have the largest energy in a shape.
+fn most_deformed_face(base: &PlacedBase, moduli: &[f64], shape: &[f64]) -> usize {
+    let mut energies = vec![0.0; faces(base).count()];
+    for (point, rows) in base.deviations() {
+        let face = faces(base).position(|(.., elements)| elements.contains(&point.element));
+        for (component, row) in rows.iter().enumerate() {
+            let value: f64 = row.iter().map(|&(dof, weight)| weight * shape[dof]).sum();
+            let modulus = moduli[base.layout().place(component, point.element)];
+            energies[face.unwrap_or(0)] += modulus * point.area * value * value;
+        }
+    }
+    let largest = energies.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
+    largest.map_or(0, |(face, _)| face)
 }
 
 /// Factors of 1 + MEAN_SPRING_FACTOR · modulus · D, which yields tractions of springs on element means from free means.

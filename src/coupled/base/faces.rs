@@ -26,9 +26,9 @@ impl PlacedBase {
         let mut first = 0;
         for mat in &mats {
             let range = first..first + mat.iter().map(Vec::len).sum::<usize>();
-            let [rise, about_x, twist] = BaseNode::mean_rotations(&nodes[range.clone()]);
+            let mut rotations = BaseNode::mean_rotations(&nodes[range.clone()]);
             // By the right-hand rule a rise to the right is a negative rotation about y.
-            let rotations = [-rise, about_x, twist];
+            rotations[0] = -rotations[0].clone();
             let rotations = rotations.map(|row| Weights::Sparse(row.to_vec())).into();
             first = range.end;
             let corners = hull(nodes[range.clone()].iter());
@@ -129,8 +129,9 @@ impl<'a> Faces<'a> {
                 _ => &[[0, 1, 2], [0, 2, 3], [1, 2, 3], [1, 3, 0]],
             };
             for triangle in triangles {
-                let [a, b, c] = triangle.map(|k| corners[k]);
-                let area = side([a, b], c).abs() / triangles.len().min(2) as f64;
+                let points = triangle.map(|k| corners[k]);
+                let area =
+                    side([points[0], points[1]], points[2]).abs() / triangles.len().min(2) as f64;
                 for &k in triangle {
                     weights[piece[k] - nodes.start] += area;
                 }
@@ -296,8 +297,7 @@ mod tests {
 
     /// Mean over a cell of a field given at the corners.
     fn mean(corners: &[Point], faces: &[usize], cell: [f64; 4], field: fn(Point) -> f64) -> f64 {
-        let [left, right, front, back] = cell;
-        let cell = ContactElement::in_plan([left, right], [front, back]);
+        let cell = ContactElement::in_plan([cell[0], cell[1]], [cell[2], cell[3]]);
         let patch = Patch::new(vec![cell]).unwrap();
         let nodes = nodes(corners);
         let mut sum = 0.0;

@@ -12,7 +12,8 @@ use crate::error::{Observer, Result, same_length};
 use crate::geometry::{ContactElement, Patch};
 use crate::linalg::{dot, largest};
 use crate::structure::{
-    BaseNode, HeldBase, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
+    BaseNode, HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness,
+    stiffest,
 };
 
 /// Stiffness of the held ground over 4 m/Δt², the resistance of the structure's mass m in a step.
@@ -30,7 +31,7 @@ pub(crate) fn held(
 ) -> Result<(Box<dyn Structure>, Box<dyn Ground>)> {
     let base = PlacedBase::of(structure.as_ref(), elements)?;
     let n = structure.dofs();
-    let [mass, stiffness] = mass_and_stiffness(structure.as_ref())?;
+    let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure.as_ref())?;
     let springs = HeldBase::new(base.nodes(), &stiffness, stiffest(&stiffness));
     let mut along = springs.pulls().swap_remove(0);
     // The assembly names the motion that makes the matrix singular.

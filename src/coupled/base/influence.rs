@@ -19,7 +19,7 @@ pub(crate) struct Influence {
 }
 
 /// Number of the upward direction.
-pub(crate) const UP: usize = 1;
+pub(crate) const UPWARD_DIRECTION: usize = 1;
 
 /// A connected part of the structure and the elements under it.
 #[derive(Debug, Clone)]
@@ -99,7 +99,7 @@ impl Influence {
         (0..self.directions).map(|direction| self.of(direction, dofs)).collect()
     }
 
-    /// Influence vector of all parts for one direction: right 0, [`UP`], away 2.
+    /// Influence vector of all parts for one direction: right 0, [`UPWARD_DIRECTION`], away 2.
     pub(crate) fn of(&self, direction: usize, dofs: usize) -> Vec<f64> {
         let mut vector = vec![0.0; dofs];
         let unit = std::array::from_fn(|k| if k == direction { 1.0 } else { 0.0 });

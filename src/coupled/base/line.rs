@@ -51,7 +51,7 @@ impl PlacedBase {
             };
             let is_flexible = !BaseNode::are_flat(line);
             for e in under.clone() {
-                let run = Run::new(line, &elements[e])?;
+                let run = NodesOnElement::new(line, &elements[e])?;
                 weights.push(numbered(run.mean_weights()));
                 if !is_flexible {
                     continue;
@@ -84,7 +84,7 @@ fn chord_rotation(nodes: &[BaseNode]) -> Terms {
 }
 
 /// The nodes on the line of an element.
-struct Run {
+struct NodesOnElement {
     /// Number of the first node.
     first: usize,
     /// Places of the nodes along the element's tangent, m.
@@ -93,7 +93,7 @@ struct Run {
     ends: [f64; 2],
 }
 
-impl Run {
+impl NodesOnElement {
     /// Nodes on the line of an element; an error unless they reach from end to end.
     fn new(nodes: &[BaseNode], element: &ContactElement) -> Result<Self> {
         let place = |node: &BaseNode| element.components([node.x, node.y, node.z]);
@@ -105,18 +105,24 @@ impl Run {
         let run =
             Self { first, places: on.map(|node| place(node)[1]).collect(), ends: element.span() };
         let [start, .., end] = run.places[..] else {
-            let [x, _, z] = element.center().map(short);
+            let center = element.center().map(short);
+            let x = &center[0];
+            let z = &center[2];
             let reason = format!(
                 "its base does not lie along the ground's element at x = {x} m, z = {z} m: `WithWalls` and \
                  `FemModel::in_trench` put a base at the depth of a trench"
             );
             return Err(Error::part("structure", reason));
         };
-        let [left, right] = run.ends;
+        let left = run.ends[0];
+        let right = run.ends[1];
         if start - left <= slack && right - end <= slack {
             return Ok(run);
         }
-        let [left, right, start, end] = [left, right, start, end].map(short);
+        let left = short(left);
+        let right = short(right);
+        let start = short(start);
+        let end = short(end);
         Err(Error::part(
             "ground",
             format!(
@@ -128,7 +134,8 @@ impl Run {
 
     /// The pieces of the element between neighbouring nodes: places of both nodes, and both ends.
     fn pieces(&self) -> impl Iterator<Item = (usize, [f64; 2], [f64; 2])> {
-        let [left, right] = self.ends;
+        let left = self.ends[0];
+        let right = self.ends[1];
         let segments = self.places.windows(2).enumerate().map(move |(k, pair)| {
             // The outermost segments also include a part outside them by rounding.
             let from = if k == 0 { left } else { left.max(pair[0]) };

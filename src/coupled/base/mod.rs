@@ -188,10 +188,10 @@ impl PlacedBase {
                     self.elements[elements.clone()].iter().map(|element| element.ends()[axis]);
                 let sides = ends.clone().map(|[low, high]| high - low);
                 let longest_side = sides.fold(0.0, |longest: f64, side| side.max(longest));
-                let [first, last] = far_ends(ends);
-                let [left, right] = span(nodes.iter().map(|node| node.place()[axis]));
-                let limit = longest_side.min(MAX_UNCOVERED_FRACTION * (right - left));
-                let reach = (first - left).max(right - last);
+                let edges = far_ends(ends);
+                let corners = span(nodes.iter().map(|node| node.place()[axis]));
+                let limit = longest_side.min(MAX_UNCOVERED_FRACTION * (corners[1] - corners[0]));
+                let reach = (edges[0] - corners[0]).max(corners[1] - edges[1]);
                 if reach > limit {
                     let axis = axis_name(self.elements.is_plan(), axis);
                     uncovered.push((foundation, axis, reach));

@@ -55,8 +55,8 @@ struct Quadrilateral([Point; 3]);
 
 impl Quadrilateral {
     fn blend(&self, weights: [f64; 4], k: usize) -> f64 {
-        let [b, c, d] = self.0;
-        weights[1] * b[k] + weights[2] * c[k] + weights[3] * d[k]
+        let corners = &self.0;
+        weights[1] * corners[0][k] + weights[2] * corners[1][k] + weights[3] * corners[2][k]
     }
 
     /// Newton's step from the coordinates `[s, t]` to a point.
@@ -75,10 +75,12 @@ impl Quadrilateral {
         let mut s = 0.5_f64;
         let mut t = 0.5_f64;
         for _ in 0..MAX_NEWTON_ITERATIONS {
-            let [ds, dt] = self.step([s, t], p)?;
-            s += ds;
-            t += dt;
-            if ds.abs().max(dt.abs()) <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0) {
+            let step = self.step([s, t], p)?;
+            s += step[0];
+            t += step[1];
+            if step[0].abs().max(step[1].abs())
+                <= NEWTON_STEP_TOLERANCE * s.abs().max(t.abs()).max(1.0)
+            {
                 return Some([s, t]);
             }
         }
@@ -88,10 +90,10 @@ impl Quadrilateral {
     /// Weights at a point `p`, from the weights at the nearest point `within` and their slopes there.
     fn continued(&self, within: Point, p: Point) -> Option<[f64; 4]> {
         let place = self.coordinates_within(within)?;
-        let [ds, dt] = self.step(place, p)?;
-        let [by_s, by_t] = slopes(place);
+        let step = self.step(place, p)?;
+        let slopes = slopes(place);
         let shares = bilinear(place);
-        Some([0, 1, 2, 3].map(|k| shares[k] + ds * by_s[k] + dt * by_t[k]))
+        Some([0, 1, 2, 3].map(|k| shares[k] + step[0] * slopes[0][k] + step[1] * slopes[1][k]))
     }
 
     /// Coordinates of a point within the quadrilateral, by the quadratic equation of t.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 use crate::coupled::base::PlacedBase;
 use crate::coupled::base::influence::Influence;
 use crate::coupled::model::load_factor::LoadedStiffness;
-use crate::coupled::model::mechanism::AtRest;
+use crate::coupled::model::mechanism::StructureAtRest;
 use crate::coupled::model::signs::check_signs;
 use crate::coupled::model::supports;
 use crate::error::{Error, Result, at_least};
@@ -191,9 +191,9 @@ impl Assembled {
     }
 
     /// The structure at rest, for a search for mechanisms; `structure` names its degrees of freedom.
-    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> AtRest<'a> {
+    pub(crate) fn at_rest<'a>(&'a self, structure: &'a dyn Structure) -> StructureAtRest<'a> {
         let stiffness = self.stiffness_at_rest();
-        AtRest { structure, stiffness, mass: &self.mass, base: &self.base }
+        StructureAtRest { structure, stiffness, mass: &self.mass, base: &self.base }
     }
 
     /// Largest damping of a translation along the ground, divided by the mass that it moves, r·C r / r·M r, 1/s.
@@ -238,13 +238,13 @@ impl Assembled {
         let stiffest = stiffest(stiffness);
         let spring = self.spring();
         let held = HeldBase::new(self.base.nodes(), stiffness, spring);
-        let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+        let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &held.matrix)?;
         let is_condensed =
             self.linear && self.base.is_flexible() && !self.base.elements().has_walls();
         let ending =
             if is_condensed { self.elimination.ending_with(&self.base.dofs()) } else { None };
         let elimination = ending.as_ref().unwrap_or(&self.elimination);
-        let factor = SparseFactor::of(HeldBase::NAME, &matrix, elimination)?;
+        let factor = SparseFactor::of(HeldBase::STIFFNESS_NAME, &matrix, elimination)?;
         if self.linear && !factor.is_positive_definite() {
             check_signs(&self.base, self.matrices())?;
         }
@@ -257,7 +257,7 @@ impl Assembled {
             solution.iter_mut().zip(&residual).for_each(|(r, d)| *r += d);
         }
         if solution.iter().any(|r| !r.is_finite()) {
-            return Err(Error::Singular { matrix: HeldBase::NAME, order: n });
+            return Err(Error::Singular { matrix: HeldBase::STIFFNESS_NAME, order: n });
         }
         let mut translations: Vec<_> = solution.chunks_exact(n).map(<[f64]>::to_vec).collect();
         let firmer = spring / stiffest;

@@ -13,7 +13,7 @@
 use std::sync::Arc;
 
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::UP;
+use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::error::Result;
 use crate::linalg::{Elimination, SparseFactor, SparseMatrix, dense_multiply_add};
@@ -61,7 +61,7 @@ impl Condensed {
 
         let base = renumbered(&dofs, &whole.base);
         let mut mass = Triplets::new(order);
-        let up = whole.influence.of(UP, n);
+        let up = whole.influence.of(UPWARD_DIRECTION, n);
         let nodal_mass = whole.mass.form(&up, &up) / base.nodes().len() as f64;
         for row in base.nodes().iter().flat_map(BaseNode::rows) {
             mass.add_outer(row, nodal_mass);

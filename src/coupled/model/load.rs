@@ -2,7 +2,6 @@
 
 use crate::coupled::base::transformation::{Transformation, Weights};
 use crate::error::{Error, Result, at_least, finite, positive, same_length};
-use crate::linalg::mixing_weight;
 use crate::motion::Record;
 use crate::structure::DofCombination;
 use std::fmt;
@@ -203,16 +202,6 @@ impl SteppedLoad {
     /// Force that replaces the load's own; `None` if none was set.
     pub(crate) fn set_value(&self) -> Option<f64> {
         self.set
-    }
-
-    /// Sum over the weights of the load's row that distinguishes loads.
-    pub(crate) fn mixed_row(&self) -> f64 {
-        self.load.row.iter().map(|&(i, weight)| mixing_weight(i) * weight).sum()
-    }
-
-    /// Value of the load's function at `time`.
-    pub(crate) fn own_value(&self, time: f64) -> f64 {
-        self.load.value(time)
     }
 
     /// Adds the force at `time`, minus the force in the static state, to `force`; returns its value.

@@ -24,14 +24,14 @@ const INVERSE_ITERATION_COUNT: usize = 3;
 
 /// Stiffness (including the tangent of the nonlinear force at rest), mass and base of a structure.
 #[derive(Clone, Copy)]
-pub(crate) struct AtRest<'a> {
+pub(crate) struct StructureAtRest<'a> {
     pub(crate) structure: &'a dyn Structure,
     pub(crate) stiffness: &'a SparseMatrix,
     pub(crate) mass: &'a SparseMatrix,
     pub(crate) base: &'a PlacedBase,
 }
 
-impl AtRest<'_> {
+impl StructureAtRest<'_> {
     /// Error for a mechanism, even if the loads do not set it in motion.
     ///
     /// `held`: factored stiffness with the base held, which suffices for most structures.
@@ -100,13 +100,13 @@ pub(crate) struct Regular {
 
 impl Regular {
     /// The stiffness at rest with springs under the contact nodes, as stiff as its largest entry.
-    pub(crate) fn held<'a>(at_rest: &AtRest<'a>) -> (HeldBase<'a>, Self) {
+    pub(crate) fn held<'a>(at_rest: &StructureAtRest<'a>) -> (HeldBase<'a>, Self) {
         Self::held_by(at_rest, 1.0)
     }
 
     /// The stiffness at rest with springs under the contact nodes, `factor` times as stiff as its largest entry.
-    pub(crate) fn held_by<'a>(at_rest: &AtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
-        let AtRest { stiffness, mass, base, .. } = *at_rest;
+    pub(crate) fn held_by<'a>(at_rest: &StructureAtRest<'a>, factor: f64) -> (HeldBase<'a>, Self) {
+        let StructureAtRest { stiffness, mass, base, .. } = *at_rest;
         let stiffest = stiffness.entries().fold(0.0_f64, |m, (_, _, k)| m.max(k.abs()));
         let spring = factor * if stiffest > 0.0 { stiffest } else { 1.0 };
         let held = HeldBase::new(base.nodes(), stiffness, spring);
@@ -148,7 +148,7 @@ impl Regular {
     pub(crate) fn factor(&self) -> Option<SparseFactor> {
         let mut sum = self.matrix.clone();
         self.added.iter().enumerate().for_each(|(i, value)| sum.add(i, i, *value));
-        SparseFactor::new(HeldBase::NAME, &sum).ok()
+        SparseFactor::new(HeldBase::STIFFNESS_NAME, &sum).ok()
     }
 
     /// The degrees of freedom that take part in displacements with work of at most `free`, ascending.

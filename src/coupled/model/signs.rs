@@ -19,7 +19,7 @@ pub(crate) fn check_signs(
 ) -> Result<()> {
     let tie = stiffest(stiffness);
     let held = HeldBase::new(base.nodes(), stiffness, FIRM_SPRING_FACTOR * tie);
-    let matrix = SparseMatrix::new(HeldBase::NAME, &held.matrix)?;
+    let matrix = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &held.matrix)?;
     if matrix.asymmetry() > SIGN_ROUNDING_TOLERANCE {
         return Ok(());
     }
@@ -32,7 +32,7 @@ pub(crate) fn check_signs(
     ) {
         Some(row) => {
             let diagonal = stiffness.diagonal()[row];
-            Err(Error::Indefinite { matrix: HeldBase::NAME, row, diagonal })
+            Err(Error::Indefinite { matrix: HeldBase::STIFFNESS_NAME, row, diagonal })
         }
         None => Ok(()),
     }
@@ -85,5 +85,5 @@ fn constrain(matrix: &SparseMatrix, multipliers: &[bool], penalty: f64) -> Resul
             constrained.add_outer(&constraint, penalty);
         }
     }
-    SparseMatrix::new(HeldBase::NAME, &constrained)
+    SparseMatrix::new(HeldBase::STIFFNESS_NAME, &constrained)
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::coupled::state::foundation::Derived;
+use crate::coupled::state::foundation::FoundationChecks;
 use crate::coupled::{Foundation, State};
 use crate::geometry::far_ends;
 use crate::interface::{ContactState, Mode};
@@ -99,12 +99,20 @@ impl<'a> BaseView<'a> {
     }
 
     /// The smallest factor of safety of its foundations; NaN if none is known.
-    pub(crate) fn smallest_safety(&self, factor: fn(&Derived) -> f64) -> f64 {
-        if let Some(foundation) = self.single_foundation() {
-            return factor(&foundation.derived);
+    pub(crate) fn smallest_safety(&self, factor: fn(&FoundationChecks) -> f64) -> f64 {
+        self.checks().iter().map(factor).fold(f64::NAN, f64::min)
+    }
+
+    /// Largest |slip| of any element, m.
+    pub(crate) fn largest_slip(&self) -> f64 {
+        self.checks().iter().fold(0.0, |largest, checks| checks.largest_slip.max(largest))
+    }
+
+    fn checks(&self) -> &'a [FoundationChecks] {
+        match self.foundation {
+            Some(k) => &self.state.checks[k..=k],
+            None => &self.state.checks,
         }
-        let factors = self.state.foundations.iter().map(|foundation| factor(&foundation.derived));
-        factors.fold(f64::NAN, f64::min)
     }
 }
 

@@ -68,15 +68,17 @@ pub(crate) fn tension(
     let pressures = envelope.iter().map(|element| element.static_pressure);
     let limit = Warning::TENSION_LIMIT * pressures.fold(0.0, f64::max);
     let closed_elements = envelope.iter().enumerate().filter(|(e, _)| !opens(*e));
-    let (_, pulled) = closed_elements
-        .min_by(|(_, a), (_, b)| a.pressure.lowest.value.total_cmp(&b.pressure.lowest.value))?;
+    let pulled = closed_elements
+        .map(|(_, element)| element)
+        .min_by(|a, b| a.pressure.lowest.value.total_cmp(&b.pressure.lowest.value))?;
     let tension = -pulled.pressure.lowest.value;
     let time = pulled.pressure.lowest.time;
-    let [x, y, z] = pulled.element.center();
-    let y = in_plan.then_some(y);
+    let center = pulled.element.center();
+    let y = in_plan.then_some(center[1]);
     let has_walls = ContactElement::any_wall(envelope.iter().map(|element| &element.element));
-    let z = has_walls.then_some(z);
-    (limit > 0.0 && tension > limit).then_some(Warning::Tension { tension, x, y, z, time })
+    let z = has_walls.then_some(center[2]);
+    let warning = Warning::Tension { tension, x: center[0], y, z, time };
+    (limit > 0.0 && tension > limit).then_some(warning)
 }
 
 /// Envelopes of all elements at the start of a run.

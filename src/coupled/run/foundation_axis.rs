@@ -26,8 +26,13 @@ pub(crate) struct FoundationAxis {
 impl FoundationAxis {
     /// Axis of elements with these `ends` along it.
     fn new(ends: Vec<[f64; 2]>, static_moment: f64) -> Self {
-        let [low, high] = far_ends(ends.iter().copied());
-        Self { elements: in_a_row(ends), width: high - low, static_moment, ..Self::default() }
+        let edges = far_ends(ends.iter().copied());
+        Self {
+            elements: in_a_row(ends),
+            width: edges[1] - edges[0],
+            static_moment,
+            ..Self::default()
+        }
     }
 
     /// Extends the extremes by the shear and moment of a step.

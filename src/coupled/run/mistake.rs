@@ -150,12 +150,6 @@ pub enum Mistake {
         /// The coefficient.
         friction: f64,
     },
-    /// A storey above 100 m: probably a height in another unit, or a mass in its place.
-    #[error("storey of {height:.1} m: in another unit, or in place of the mass?")]
-    TallStorey {
-        /// Height of the storey, m.
-        height: f64,
-    },
     /// A gravity that no planet has: probably in another unit.
     #[error("gravity of {gravity} m/s²: in another unit?")]
     UnusualGravity {

@@ -203,11 +203,7 @@ impl Run {
             ends_by_steps: false,
             last_responses: [Warning::JUDGED_RESPONSES.map(|quantity| state.value(quantity)); 2],
             resolution,
-            settlements: state
-                .foundations
-                .iter()
-                .map(|foundation| foundation.derived.settlement)
-                .collect(),
+            settlements: state.checks.iter().map(|checks| checks.settlement).collect(),
             smallest_algorithmic_energy: state.energy_balance.algorithmic,
             begin: clock(),
         }
@@ -233,8 +229,8 @@ impl Run {
         for (k, summary) in self.foundations.iter_mut().enumerate() {
             summary.update(state, begin, Some(k));
         }
-        for (largest, foundation) in self.settlements.iter_mut().zip(&state.foundations) {
-            *largest = largest.max(foundation.derived.settlement);
+        for (largest, checks) in self.settlements.iter_mut().zip(&state.checks) {
+            *largest = largest.max(checks.settlement);
         }
         for (probe, value) in self.probes.iter_mut().zip(&state.probes) {
             probe.extremes.update(*value, time);

@@ -6,7 +6,7 @@ use crate::coupled::run::ground_motion::seconds;
 use crate::coupled::run::quantity::ShownIn;
 use crate::coupled::run::{ElementEnvelope, Extremes, Fallbacks, Quantity, Run, Summary};
 use crate::geometry::{axis_name, middle, resultant, span};
-use crate::text::readable_number::{number, of_body, printed, thousandths};
+use crate::text::readable_number::{PrintedUnit, number, of_body, printed, thousandths};
 use crate::text::table::Table;
 
 /// Number of elements above which the pressure envelope is shortened.
@@ -82,7 +82,7 @@ impl Run {
         let mut headings = vec!["Foundation, m".to_owned()];
         for quantity in &shown {
             let has_limit = quantity.limit().is_some();
-            let unit = if has_limit { "" } else { quantity.printed(self.in_plan).1 };
+            let unit = if has_limit { "" } else { quantity.printed(self.in_plan).symbol };
             headings.push(format!("{} {unit}", quantity.short_name()).trim_end().to_owned());
         }
         headings.extend(["slip events", "sliding distance mm"].map(str::to_owned));
@@ -94,10 +94,11 @@ impl Run {
     fn foundation_row(&self, summary: &Summary, shown: &[Quantity]) -> Vec<String> {
         let mut places = Vec::new();
         for axis in self.axes() {
-            let [low, high] = [summary.ends, summary.depth][axis];
+            let ends = [summary.ends, summary.depth][axis];
+            let interval = format!("{:.2} to {:.2}", ends[0], ends[1]);
             places.push(match axis_name(self.in_plan, axis) {
-                Some(name) => format!("{name} {low:.2} to {high:.2}"),
-                None => format!("{low:.2} to {high:.2}"),
+                Some(name) => format!("{name} {interval}"),
+                None => interval,
             });
         }
         let mut cells = vec![places.join(", ")];
@@ -106,7 +107,7 @@ impl Run {
             cells.push(if quantity.limit().is_some() {
                 factor(value)
             } else {
-                number(quantity.printed(self.in_plan).0 * value)
+                number(quantity.printed(self.in_plan).factor * value)
             });
         }
         cells.push(summary.sliding.events.len().to_string());
@@ -152,9 +153,10 @@ impl Run {
         for summary in &self.foundations {
             let ends = [summary.ends, summary.depth][axis];
             let elements = self.envelope.get(summary.elements.clone()).unwrap_or_default();
-            let [first, last] = span(elements.iter().map(|element| element.element.center()[axis]));
-            let center = middle(ends);
-            let lever = (center - first).min(last - center) / (0.5 * (ends[1] - ends[0]));
+            let centers = span(elements.iter().map(|element| element.element.center()[axis]));
+            let middle = middle(ends);
+            let lever =
+                (middle - centers[0]).min(centers[1] - middle) / (0.5 * (ends[1] - ends[0]));
             smallest = smallest.min(lever);
         }
         smallest
@@ -292,10 +294,10 @@ impl Run {
 }
 
 /// Name, unit, and extremes with their times.
-fn peak_row(name: &str, (factor, unit): (f64, &str), extremes: &Extremes) -> Vec<String> {
-    let mut cells = vec![name.to_owned(), unit.to_owned()];
+fn peak_row(name: &str, unit: PrintedUnit<'_>, extremes: &Extremes) -> Vec<String> {
+    let mut cells = vec![name.to_owned(), unit.symbol.to_owned()];
     for peak in [extremes.lowest, extremes.highest] {
-        cells.push(number(factor * peak.value));
+        cells.push(number(unit.factor * peak.value));
         cells.push(format!("{:.3}", peak.time));
     }
     cells

@@ -12,7 +12,7 @@ use crate::coupled::run::peak::Peak;
 use crate::coupled::run::{Extremes, Sliding, Uplift};
 use crate::error::{Error, Result};
 use crate::text::column::column;
-use crate::text::readable_number::{of_body, printed};
+use crate::text::readable_number::{PrintedUnit, of_body, printed};
 use crate::text::words::unknown;
 
 /// Row of the table: name of a quantity, and where it is shown in addition to its time series.
@@ -183,7 +183,7 @@ quantities! {
         |base| base.whole_or(base.state.mean_slip, |foundation| foundation.mean_slip);
     /// Largest |slip| of any element, m.
     LargestSlip largest_slip, "largest slip", "m", Scale::Unit, [],
-        |base| base.largest(|foundation| foundation.derived.largest_slip);
+        |base| base.largest_slip();
     /// Rotation of the base, counter-clockwise, rad; of several foundations the largest.
     ///
     /// In plan about the axis along y, by the right-hand rule.
@@ -202,7 +202,7 @@ quantities! {
     /// the actual tractions: on a base that may slide it reaches one during sliding, and never falls below. On a
     /// bonded base it may fall below one, and shows the missing resistance. Of several foundations the smallest.
     SlidingSafety sliding_safety, "factor of safety against sliding", "", Scale::Safety("1: sliding"), [Foundations, Comparison],
-        |base| base.smallest_safety(|derived| derived.sliding);
+        |base| base.smallest_safety(|checks| checks.sliding);
     /// Restoring over overturning moment about the edge that the pressure moves to.
     ///
     /// N times the half width, over the moment about the middle of the base. NaN in flight and for a base with
@@ -215,7 +215,7 @@ quantities! {
     /// for 16 cells or graded unions.
     OverturningSafety overturning_safety, "factor of safety against overturning", "", Scale::Safety("1: on its edge"),
         [Foundations, Comparison],
-        |base| base.smallest_safety(|derived| derived.overturning[0]);
+        |base| base.smallest_safety(|checks| checks.overturning[0]);
     /// In plan: resultant of the horizontal forces on the soil along x and y, N.
     HorizontalForce horizontal_force, "horizontal force", "N/m", Scale::Unit, [Plan, Page, Comparison, ComparisonTime],
         |base| base.sum(|foundation, _| foundation.base_shear).hypot(base.sum(|foundation, _| foundation.shear_across));
@@ -252,7 +252,7 @@ quantities! {
     /// In plan: safety against overturning over the front or the back edge, otherwise as over left and right.
     OverturningSafetyAcross overturning_safety_across, "factor of safety against overturning across", "",
         Scale::Safety("1: on its edge"), [Plan, Foundations, Comparison],
-        |base| base.smallest_safety(|derived| derived.overturning[1]);
+        |base| base.smallest_safety(|checks| checks.overturning[1]);
 }
 
 /// In the plane this quantity and the following ones keep their first value.
@@ -300,15 +300,13 @@ impl Quantity {
         column(self.row().word, self.unit(in_plan))
     }
 
-    /// Factor and unit for printing.
-    pub(crate) fn printed(self, in_plan: bool) -> (f64, &'static str) {
-        match self.row().scale {
-            Scale::Percent => (1e2, of_body("%", in_plan)),
-            Scale::Unit | Scale::Safety(_) => {
-                let (factor, unit) = printed(self.row().unit);
-                (factor, of_body(unit, in_plan))
-            }
-        }
+    /// Unit in which values are printed.
+    pub(crate) fn printed(self, in_plan: bool) -> PrintedUnit<'static> {
+        let unit = match self.row().scale {
+            Scale::Percent => PrintedUnit { factor: 1e2, symbol: "%" },
+            Scale::Unit | Scale::Safety(_) => printed(self.row().unit),
+        };
+        PrintedUnit { symbol: of_body(unit.symbol, in_plan), ..unit }
     }
 
     /// The label of the limit one, for a factor of safety.

@@ -19,22 +19,12 @@
 //! with little mass; they do not count. Without ground motion nothing distinguishes them from others, and the time
 //! step is not judged.
 //!
-//! The error of the largest base shear grows with the square of the step. With r of the ground's acceleration as a
-//! measure of the step, the error is estimated as 0.3 r² if the base shear varies as the ground does (its r within
-//! 0.95 and 1.1 of the ground's) and 0.9 r² otherwise, factors fitted to measured errors (docs/validation.md). Runs warn
-//! from 5 % on, even within the limits above.
-//!
-//! Limits of elements come from runs on the half-plane with 1 to 24 elements. One element under a foundation has
-//! no stiffness in rocking (series off by 28 to 104 %), two are off by 16 to 123 %, three by 16 to 97 % if the
-//! base moment exceeds half of base shear times width. Waves that run along the base need four elements per
-//! wavelength of the shear wave. Where the free field is the same everywhere, long elements cause no error. In
-//! plan twelve cells per wavelength leave an error of 1.6 % in the rocking impedance of a rigid mat, for any free
-//! field: the error is at the edge, so the narrowest cells of unions count.
-//!
-//! In plan, steps also damp rocking that only radiation damps. Error of the largest base shear, by the ratio of
-//! the step to the time in which shear waves cross the base: 0.1: −0.6 %, 0.2: −1 to −3 %, 0.4: −4 to −9 %, 0.8:
-//! −10 to −25 %. Measured with bonded cuboids, 10 m square and 3, 10 and 20 m high, under El Centro on soil with
-//! c_S from 200 to 1500 m/s; for the lowest one, which follows the ground, 1 % at most.
+//! One element under a foundation has no stiffness in rocking. Two are enough if the base moment is below a tenth of base
+//! shear times width, three if it is below half. Waves that run along the base need four elements per wavelength of the
+//! shear wave; where the free field is the same everywhere, long elements cause no error. In plan the edge of a rigid
+//! mat needs twelve cells per wavelength for any free field, so the narrowest cells of unions count. Steps there also
+//! damp rocking that only radiation damps, unless shear waves take four of them across the base. `docs/validation.md`
+//! has the runs behind these limits.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -59,16 +49,8 @@ const CONTACT_VIBRATION_FACTOR: f64 = 2.0;
 const FREE_VIBRATION_STEPS: f64 = 30.0;
 /// Steps per period that a warning recommends for a base shear that follows the ground.
 const FOLLOWING_STEPS: f64 = 15.0;
-/// Estimated error of the largest base shear, divided by r² of the ground, if the shear varies as the ground does.
-const FOLLOWING_ERROR_FACTOR: f64 = 0.3;
-/// The same factor for any other base shear.
-const OTHER_ERROR_FACTOR: f64 = 0.9;
 /// Multiples of the ground's r between which the base shear varies as the ground does.
 const FOLLOWING_RATIO_RANGE: [f64; 2] = [0.95, 1.1];
-/// Estimated error above which runs warn.
-const WARNED_ERROR: f64 = 0.05;
-/// Estimated error at the recommended time step.
-const RECOMMENDED_ERROR: f64 = 0.03;
 /// Smallest number of steps for an estimate of a frequency.
 const MIN_STEPS: usize = 8;
 /// Time step above which steps may miss the whole motion of an earthquake, s.
@@ -250,13 +232,6 @@ impl Resolution {
         (low..high).contains(&self.base_shear.ratio())
     }
 
-    /// Estimated relative error of the largest base shear due to the time step, one at most.
-    fn error(&self) -> f64 {
-        let factor = if self.follows() { FOLLOWING_ERROR_FACTOR } else { OTHER_ERROR_FACTOR };
-        let ground = self.ground.ratio();
-        (factor * ground * ground).min(1.0)
-    }
-
     /// Wavelength of shear waves at the frequency of the base shear, without vibrations of the contact, m.
     ///
     /// `None` if the steps do not resolve the motion.
@@ -273,41 +248,20 @@ impl Resolution {
 
     /// Adds warnings of motion that time step and elements do not resolve.
     pub(crate) fn warn(&self, warnings: &mut Vec<Warning>) {
-        let time_step = self.time_step;
         // At the steps a motion of about one period a step appears as a slow one.
         if self.is_judged_by_ground
             && !self.is_coarse()
             && let Some(frequency) = self.samples.frequency
-            && PI * frequency * time_step > MAX_FOLLOWING_RATIO
         {
-            let needed = 1.0 / (FOLLOWING_STEPS * frequency);
-            warnings.push(Warning::UnresolvedMotion { frequency, time_step, needed, error: 1.0 });
+            warnings.extend(self.unresolved_motion(frequency));
         }
         if !self.has_response() {
             return;
         }
-        let is_coarse = self.is_coarse();
-        let error = self.error();
-        if is_coarse || error > WARNED_ERROR {
-            let response = self.base_shear.ratio();
-            let ground = self.ground.ratio();
-            let frequency = self.samples.frequency.unwrap_or(ground / (PI * time_step));
-            let misses_motion = is_coarse && PI * frequency * time_step > MAX_FOLLOWING_RATIO;
-            let is_free = self.is_free_vibration();
-            if is_free || !misses_motion && response < CONTACT_VIBRATION_FACTOR * ground {
-                let period = PI * time_step / response;
-                let needed = match (is_coarse, is_free) {
-                    (true, true) => period / FREE_VIBRATION_STEPS,
-                    (true, false) => period / FOLLOWING_STEPS,
-                    (false, _) => time_step * (RECOMMENDED_ERROR / error).sqrt(),
-                };
-                warnings.push(Warning::UnresolvedPeriod { period, time_step, needed, error });
-            }
-            if misses_motion {
-                let needed = 1.0 / (FOLLOWING_STEPS * frequency);
-                warnings.push(Warning::UnresolvedMotion { frequency, time_step, needed, error });
-            }
+        if self.is_coarse() {
+            self.warn_of_step(warnings);
         }
+        let time_step = self.time_step;
         let width = self.axes[0].width.min(self.axes[1].width);
         let crossing = self.shear_wave_speed.map_or(f64::INFINITY, |speed| width / speed);
         let [fewest, recommended] = self.fineness.crossing_steps;
@@ -315,6 +269,36 @@ impl Resolution {
             let needed = crossing / recommended;
             warnings.push(Warning::UnresolvedRadiation { crossing, time_step, needed });
         }
+        self.warn_of_elements(warnings);
+    }
+
+    /// Warning of a ground motion of this frequency (Hz) if the time step does not resolve it.
+    fn unresolved_motion(&self, frequency: f64) -> Option<Warning> {
+        let time_step = self.time_step;
+        let needed = 1.0 / (FOLLOWING_STEPS * frequency);
+        let is_missed = PI * frequency * time_step > MAX_FOLLOWING_RATIO;
+        is_missed.then_some(Warning::UnresolvedMotion { frequency, time_step, needed })
+    }
+
+    /// Adds warnings of a time step that does not resolve the base shear.
+    fn warn_of_step(&self, warnings: &mut Vec<Warning>) {
+        let time_step = self.time_step;
+        let response = self.base_shear.ratio();
+        let ground = self.ground.ratio();
+        let frequency = self.samples.frequency.unwrap_or(ground / (PI * time_step));
+        let missed_motion = self.unresolved_motion(frequency);
+        let is_free = self.is_free_vibration();
+        if is_free || missed_motion.is_none() && response < CONTACT_VIBRATION_FACTOR * ground {
+            let period = PI * time_step / response;
+            let steps = if is_free { FREE_VIBRATION_STEPS } else { FOLLOWING_STEPS };
+            let needed = period / steps;
+            warnings.push(Warning::UnresolvedPeriod { period, time_step, needed });
+        }
+        warnings.extend(missed_motion);
+    }
+
+    /// Adds warnings of too few or too long elements.
+    fn warn_of_elements(&self, warnings: &mut Vec<Warning>) {
         // A foundation on springs needs two elements at most.
         let is_on_springs = self.shear_wave_speed.is_none();
         for (number, axis) in self.axes.iter().enumerate() {

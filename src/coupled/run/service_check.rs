@@ -3,7 +3,7 @@
 use crate::coupled::State;
 use crate::coupled::run::peak::Peak;
 use crate::coupled::serviceability::{Criterion, Serviceability};
-use crate::text::readable_number::{number, printed};
+use crate::text::readable_number::{PrintedUnit, number, printed};
 use std::fmt;
 
 /// A criterion of [`Serviceability`] after a run.
@@ -73,13 +73,13 @@ impl ServiceCheck {
 /// Writes one line: value, limit, verdict, margin and the time of the first excess.
 impl fmt::Display for ServiceCheck {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (factor, unit) = match self.criterion {
-            Criterion::UpliftedFraction => (100.0, "%"),
+        let PrintedUnit { factor, symbol } = match self.criterion {
+            Criterion::UpliftedFraction => PrintedUnit { factor: 100.0, symbol: "%" },
             other => printed(other.unit()),
         };
         write!(
             f,
-            "{}: {} {unit} at {:.3} s, {} {unit} allowed, ",
+            "{}: {} {symbol} at {:.3} s, {} {symbol} allowed, ",
             self.criterion.name(),
             number(factor * self.largest.magnitude()),
             self.largest.time,

@@ -73,8 +73,12 @@ impl Sliding {
                     event.end = times[1];
                 }
                 _ => {
-                    let [start, end] = times;
-                    self.events.push(SlipEvent { start, end, slip, slip_across });
+                    self.events.push(SlipEvent {
+                        start: times[0],
+                        end: times[1],
+                        slip,
+                        slip_across,
+                    });
                 }
             }
         }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::coupled::base::influence::UP;
+use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::run::GroundMotion;
 use crate::coupled::run::mistake::Mistake;
@@ -53,8 +53,6 @@ const WEAK_BONDS: [f64; 2] = [0.5, 1e3];
 const MAX_WEAK_BOND_RATIO: f64 = 0.01;
 /// Friction coefficients that are probably angles in degrees or percentages.
 const UNLIKELY_FRICTION: [f64; 2] = [15.0, 90.0];
-/// Largest height of a storey, m.
-const MAX_STOREY_HEIGHT: f64 = 100.0;
 /// Accelerations of gravity, m/s²: 1.6 on the moon, 25 on Jupiter.
 const GRAVITIES: [f64; 2] = [1.5, 30.0];
 /// Time steps per mean period of a record that a warning recommends, and per period of a structure.
@@ -76,7 +74,8 @@ impl Weight {
         let translations = assembled.influence.of_all(assembled.dofs());
         let masses: Vec<f64> =
             translations.iter().map(|moved| assembled.mass.form(moved, moved)).collect();
-        let pressure = gravity * masses[UP] / assembled.base.areas().iter().sum::<f64>();
+        let pressure =
+            gravity * masses[UPWARD_DIRECTION] / assembled.base.areas().iter().sum::<f64>();
         Self { gravity, pressure, masses }
     }
 }
@@ -117,7 +116,6 @@ impl Warning {
         if is_to_scale {
             warnings.extend(Self::of_weight(weight, soils, scene.base.elements().has_walls()));
         }
-        warnings.extend(Self::of_triangles(description.triangle_sides));
         warnings.extend(Self::of_faces_off_ground(description.faces_off_ground));
     }
 
@@ -157,8 +155,6 @@ impl Warning {
             weak.reduce(f64::min)
                 .map(|strength| Self::Mistake(Mistake::WeakBond { strength, pressure })),
         );
-        let tall = description.tallest_storey.filter(|height| *height > MAX_STOREY_HEIGHT);
-        warnings.extend(tall.map(|height| Self::Mistake(Mistake::TallStorey { height })));
         let densities = description.densities.into_iter().flatten();
         let unusual = densities.filter(|density| !within(MATERIAL_DENSITIES, *density));
         warnings.extend(
@@ -181,8 +177,9 @@ impl Warning {
         warnings.extend(soft.map(|shear_modulus| {
             Self::Mistake(Mistake::HeavyStructure { pressure, shear_modulus })
         }));
-        let vertical = masses[UP];
-        let sideways = masses.iter().enumerate().filter(|(direction, _)| *direction != UP);
+        let vertical = masses[UPWARD_DIRECTION];
+        let sideways =
+            masses.iter().enumerate().filter(|(direction, _)| *direction != UPWARD_DIRECTION);
         let other = sideways.map(|(_, mass)| *mass).find(|horizontal| {
             *horizontal > 0.0
                 && vertical > 0.0

@@ -60,7 +60,7 @@ impl Sampler<'_> {
         let elements = self.ground.elements();
         let count = elements.len();
         // Walls of a base do not count.
-        let [_, floor, _] = ContactElement::faces(elements);
+        let floor = ContactElement::faces(elements).floor;
         let layout = ContactLayout::for_elements(elements);
         let mut field = vec![0.0; layout.len()];
         let mut difference = 0.0;

@@ -10,8 +10,9 @@ impl State {
     ///
     /// In the plane axes point to the right, up and towards the reader.
     pub fn force_vector(&self) -> [f64; COMPONENTS_IN_SPACE] {
-        let quantities = [Quantity::BaseShear, Quantity::ShearAcross, Quantity::NormalForce];
-        let [right, away, down] = quantities.map(|quantity| self.value(quantity));
+        let right = self.value(Quantity::BaseShear);
+        let away = self.value(Quantity::ShearAcross);
+        let down = self.value(Quantity::NormalForce);
         in_axes(self.is_plan(), [right, away, -down])
     }
 

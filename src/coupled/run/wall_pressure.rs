@@ -39,10 +39,10 @@ pub(crate) fn warning(envelope: &[ElementEnvelope], pressures_above: &[f64]) -> 
         return None;
     }
     let elements: Vec<ContactElement> = envelope.iter().map(|envelope| envelope.element).collect();
-    let [left, _, right] = ContactElement::faces(&elements);
+    let faces = ContactElement::faces(&elements);
     let mut found = None;
     let mut largest_excess = EXCESS_LIMIT;
-    for wall in [left, right] {
+    for wall in [faces.left_wall, faces.right_wall] {
         let mut excess = 0.0;
         let mut thrust = 0.0;
         let mut largest_force = 0.0;
@@ -60,13 +60,13 @@ pub(crate) fn warning(envelope: &[ElementEnvelope], pressures_above: &[f64]) -> 
         }
         if excess > largest_excess * thrust {
             largest_excess = excess / thrust;
-            let [x, _, z] = elements[element].center();
+            let center = elements[element].center();
             let peak = envelope[element].pressure.highest;
             found = Some(Warning::WallPressure {
                 pressure: peak.value,
                 above: pressures_above[element],
-                x,
-                z,
+                x: center[0],
+                z: center[2],
                 time: peak.time,
             });
         }

@@ -75,9 +75,12 @@ pub enum Warning {
         #[cfg_attr(feature = "serde", serde(with = "crate::text::forms::number"))]
         made: f64,
     },
-    /// The base shear vibrates with a period that the time step does not resolve.
-    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, period {period:.2e} s; \
-         take {needed:.1e} s", 100.0 * error)]
+    /// The base shear vibrates with a period that the time step does not resolve: fewer than twelve steps a period.
+    ///
+    /// Five steps are enough where the base shear follows the ground. [`refine`](crate::analyses::refine()) finds the error.
+    #[error(
+        "steps of {time_step:.2e} s for a base shear of period {period:.2e} s: take {needed:.1e} s"
+    )]
     UnresolvedPeriod {
         /// Root-mean-square period of the base shear, s.
         period: f64,
@@ -85,14 +88,11 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated relative error of the largest base shear, from frequencies alone.
-        ///
-        /// In nine cases of ten it is at least half the true error. A run with half the step shows the true one.
-        error: f64,
     },
-    /// Ground and base shear vary faster than the time step resolves.
-    #[error("base shear off by about {:.0} %: steps of {time_step:.2e} s, ground {frequency:.3} Hz; \
-         take {needed:.1e} s", 100.0 * error)]
+    /// Ground and base shear vary faster than the time step resolves: fewer than five steps a period.
+    #[error(
+        "steps of {time_step:.2e} s for a ground motion of {frequency:.3} Hz: take {needed:.1e} s"
+    )]
     UnresolvedMotion {
         /// Root-mean-square frequency of the ground acceleration, Hz.
         frequency: f64,
@@ -100,8 +100,6 @@ pub enum Warning {
         time_step: f64,
         /// Time step that resolves the motion, s.
         needed: f64,
-        /// Estimated relative error of the largest base shear: see [`UnresolvedPeriod`](Self::UnresolvedPeriod).
-        error: f64,
     },
     /// In plan, shear waves cross the base of a vibrating body in less than four steps.
     ///
@@ -148,19 +146,6 @@ pub enum Warning {
         /// In plan: `x` for elements of a row, `y` for elements of a column. In the plane `z` for elements of a wall.
         axis: Option<char>,
     },
-    /// Triangles of a doubly curved thin shell with sides above √(R t), for the radius R and the thickness t.
-    ///
-    /// Their membrane resists bending. The load points of a pinched hemisphere move by 0.93 of their displacement with
-    /// sides of 1.4 √(R t), and by half of it with 2.8 √(R t).
-    #[error(
-        "triangles of {side:.2} m are too stiff on a doubly curved thin shell: take quadrilaterals, or sides of {longest:.2} m"
-    )]
-    LongTriangles {
-        /// Mean side of the triangles, m.
-        side: f64,
-        /// √(R t), m.
-        longest: f64,
-    },
     /// The base extends beyond the ground's elements, by more than one element or a tenth of its length.
     ///
     /// That part of the base has no ground.
@@ -184,20 +169,6 @@ pub enum Warning {
         checked: usize,
         /// All cells.
         cells: usize,
-    },
-    /// Coarse cells at an outline oblique to them make the rocking stiffness of a mat wrong by more than 1 %.
-    ///
-    /// The error is estimated from the length of oblique edges, the area and the cells. The vertical stiffness has about
-    /// a fourth of it.
-    #[error(
-        "rocking stiffness off by about {:.1} %: outline oblique to the cells; take {factor:.1} times as many cells",
-        100.0 * error
-    )]
-    ObliqueOutline {
-        /// Estimated relative error of the rocking stiffness.
-        error: f64,
-        /// Multiple of the cells along a side with an error of 1 %.
-        factor: f64,
     },
     /// In plan, steps were solved with less friction than the law's, which is infinite or above 100.
     ///

@@ -43,8 +43,6 @@ impl Warning {
     pub(crate) const JUDGED_RESPONSES: [Quantity; 4] =
         [Quantity::BaseShear, Quantity::BaseMoment, Quantity::MeanSlip, Quantity::BaseRotation];
 
-    /// Error of the rocking stiffness by an oblique outline above which a run warns.
-    const OUTLINE_ERROR: f64 = 0.01;
     /// Smallest friction at which mirror images of scenes in plan were found to differ.
     const HIGH_FRICTION: f64 = 3.0;
 
@@ -57,7 +55,7 @@ impl Warning {
         motion: &dyn FreeField,
         period: f64,
     ) -> Vec<Self> {
-        let &GroundDescription { ref soils, sampled_cells, outline_error, .. } = description;
+        let &GroundDescription { ref soils, sampled_cells, .. } = description;
         let mut warnings: Vec<_> = Self::of_soils(soils).collect();
         // A model not to scale has its own warning.
         if warnings.is_empty() && period > unusual_numbers::LONGEST_PERIOD {
@@ -77,10 +75,6 @@ impl Warning {
         }
         if let Some([checked, cells]) = sampled_cells {
             warnings.push(Self::SampledPassivity { checked, cells });
-        }
-        if outline_error > Self::OUTLINE_ERROR {
-            let factor = outline_error / Self::OUTLINE_ERROR;
-            warnings.push(Self::ObliqueOutline { error: outline_error, factor });
         }
         warnings
     }
@@ -131,12 +125,6 @@ impl Warning {
         // The formula cancels where x is small; its series starts with 2x/3.
         let loss = if x < 1e-3 { 2.0 / 3.0 * x } else { 1.0 - 2.0 * (1.0 - x.ln_1p() / x) / x };
         (loss > Self::SLIP_LOSS_LIMIT).then_some(Self::DampedSliding { rate, loss })
-    }
-
-    /// Warning of triangles with a mean side above the longest, m.
-    pub(crate) fn of_triangles(sides: Option<[f64; 2]>) -> Option<Self> {
-        let [side, longest] = sides.filter(|[side, longest]| side > longest)?;
-        Some(Self::LongTriangles { side, longest })
     }
 
     /// Warning of points where faces of a base move apart: their number, and the first one (m).

@@ -78,7 +78,7 @@ impl FaceForces {
         contact: &[ContactState],
         modes: &[Mode],
     ) -> Self {
-        let faces = ContactElement::faces(elements);
+        let faces = ContactElement::faces(elements).in_order();
         let floor = &elements[faces[Face::Base as usize].clone()];
         let bottom = floor.first().map_or(0.0, |element| element.center()[2]);
         let ends =

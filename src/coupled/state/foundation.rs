@@ -58,13 +58,11 @@ pub struct Foundation {
     /// Whether the ground is one in plan: forces then act on the whole body.
     #[cfg_attr(feature = "serde", serde(default))]
     pub in_plan: bool,
-    #[cfg_attr(feature = "serde", serde(skip))]
-    pub(crate) derived: Derived,
 }
 
-/// Factors of safety and largest slip of a foundation; ignored by `==`.
+/// Factors of safety, largest slip and settlement of a foundation.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Derived {
+pub(crate) struct FoundationChecks {
     /// Largest |slip| of any element, m.
     pub(crate) largest_slip: f64,
     /// Resistance of the interface over the horizontal force; NaN without friction coefficients and in flight.
@@ -75,12 +73,6 @@ pub(crate) struct Derived {
     pub(crate) overturning: [f64; 2],
     /// Downward displacement of the base since the static state, relative to the free field, m.
     pub(crate) settlement: f64,
-}
-
-impl PartialEq for Derived {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
 }
 
 /// Sums over the elements of a foundation, for sums over the whole base.
@@ -116,6 +108,8 @@ impl Foundation {
 
     /// Computes forces, uplift, slip and factors of safety from the contact of all elements of `patch`.
     ///
+    /// The settlement is left zero.
+    ///
     /// `footing`: shape of this foundation. `friction`: coefficients of all elements (one for all, one each, or
     /// none).
     pub(crate) fn update(
@@ -125,7 +119,7 @@ impl Foundation {
         friction: &[f64],
         contact: &[ContactState],
         modes: &[Mode],
-    ) -> Sums {
+    ) -> (Sums, FoundationChecks) {
         let elements = self.elements.clone();
         let friction = if friction.len() > 1 { &friction[elements.clone()] } else { friction };
         let mut sums = Sums::default();
@@ -188,8 +182,7 @@ impl Foundation {
         } else {
             [0, 1].map(|axis| overturning_safety(footing, normal, moment, axis))
         };
-        self.derived = Derived { largest_slip, sliding, overturning, settlement: 0.0 };
-        sums
+        (sums, FoundationChecks { largest_slip, sliding, overturning, settlement: 0.0 })
     }
 }
 
@@ -243,11 +236,10 @@ mod tests {
         outline: &[[f64; 2]],
         friction: &[f64],
         contact: &[ContactState; 2],
-    ) -> Derived {
+    ) -> FoundationChecks {
         let footing = Footing::new(patch, 0..2, outline, [0.0; 2]);
         let mut foundation = Foundation { elements: 0..2, ..Default::default() };
-        foundation.update(&footing, patch, friction, contact, &[Mode::Stick; 2]);
-        foundation.derived
+        foundation.update(&footing, patch, friction, contact, &[Mode::Stick; 2]).1
     }
 
     fn contact(pressure: [f64; 2], shear: [f64; 2]) -> [ContactState; 2] {

@@ -4,16 +4,15 @@ pub(crate) mod energy_balance;
 #[cfg(feature = "embedded")]
 pub(crate) mod face_forces;
 pub(crate) mod foundation;
-pub(crate) mod origin;
 pub(crate) mod sequence;
 
-use origin::Origin;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::{DofResponse, Kinematics};
 use crate::coupled::state::energy_balance::EnergyBalance;
-use crate::coupled::state::foundation::Foundation;
+use crate::coupled::state::foundation::{Foundation, FoundationChecks};
 use crate::error::Result;
 use crate::geometry::resultant;
 use crate::geometry::{Footing, Patch};
@@ -51,7 +50,24 @@ impl Transition {
     }
 }
 
-/// Shared data for computing results; ignored by `==`.
+/// Number of the simulation that a state belongs to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Origin(u64);
+
+impl Origin {
+    /// Identity of a new simulation.
+    pub(crate) fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        Self(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+
+    /// Whether both identities belong to one simulation.
+    pub(crate) fn is(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+/// Shared data for computing results.
 #[derive(Debug)]
 pub(crate) struct Context {
     pub(crate) probes: Vec<Probe>,
@@ -64,18 +80,14 @@ pub(crate) struct Context {
     pub(crate) footings: Vec<Footing>,
 }
 
-impl PartialEq for Context {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
 /// The simulation at the end of an accepted step.
 ///
 /// Displacements are changes from the static state, relative to the free field's translation unless stated
 /// otherwise. Forces act from the structure **on the soil**, per metre of thickness or, on a ground in plan, in
 /// all. Tractions of the step act at its middle.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Equal states may belong to different simulations.
+#[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct State {
@@ -120,6 +132,9 @@ pub struct State {
     pub trials: usize,
     /// Method that found the modes; in a nonlinear step, the last method used in any iteration.
     pub method: SearchMethod,
+    /// Factors of safety, slip and settlement of each foundation; they follow from the other fields.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) checks: Vec<FoundationChecks>,
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) origin: Origin,
     /// Shared by all states of a simulation.
@@ -130,6 +145,57 @@ pub struct State {
     /// Start of the next step for the laws, per element.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(crate) start: PreviousContacts,
+}
+
+impl PartialEq for State {
+    fn eq(&self, other: &Self) -> bool {
+        // Named one by one, so that a new field is compared or left out on purpose.
+        let Self {
+            step,
+            time,
+            contact,
+            modes,
+            transitions,
+            probes,
+            base_shear,
+            base_moment,
+            normal_force,
+            uplifted_fraction,
+            mean_slip,
+            base_rotation,
+            foundations,
+            free_field,
+            free_field_across,
+            energy_balance,
+            trials,
+            method,
+            checks: _,
+            origin: _,
+            context: _,
+            kinematics,
+            start,
+        } = self;
+        *step == other.step
+            && *time == other.time
+            && *contact == other.contact
+            && *modes == other.modes
+            && *transitions == other.transitions
+            && *probes == other.probes
+            && *base_shear == other.base_shear
+            && *base_moment == other.base_moment
+            && *normal_force == other.normal_force
+            && *uplifted_fraction == other.uplifted_fraction
+            && *mean_slip == other.mean_slip
+            && *base_rotation == other.base_rotation
+            && *foundations == other.foundations
+            && *free_field == other.free_field
+            && *free_field_across == other.free_field_across
+            && *energy_balance == other.energy_balance
+            && *trials == other.trials
+            && *method == other.method
+            && *kinematics == other.kinematics
+            && *start == other.start
+    }
 }
 
 impl State {

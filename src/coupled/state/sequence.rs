@@ -1,7 +1,6 @@
 //! States that follow one another.
 
-use super::State;
-use super::origin::Origin;
+use super::{Origin, State};
 use std::ops::Range;
 
 /// Checks that states belong to one simulation and that time increases.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::contact::Delassus;
 use crate::coupled::base::PlacedBase;
-use crate::coupled::base::influence::UP;
+use crate::coupled::base::influence::UPWARD_DIRECTION;
 use crate::coupled::model::assembled::Assembled;
 use crate::coupled::model::condensed::Condensed;
 use crate::coupled::model::operators::condense;
@@ -86,7 +86,7 @@ pub(crate) fn springs(assembled: &Assembled, soil: &CompressedMatrix) -> Result<
 
 /// Mass that moves in a vertical translation.
 fn total_mass(assembled: &Assembled) -> f64 {
-    let up = assembled.influence.of(UP, assembled.dofs());
+    let up = assembled.influence.of(UPWARD_DIRECTION, assembled.dofs());
     assembled.mass.form(&up, &up)
 }
 

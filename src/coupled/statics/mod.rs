@@ -2,6 +2,7 @@
 
 pub(crate) mod buckling;
 pub(crate) mod compliance;
+mod convergence;
 pub(crate) mod equilibrium;
 mod loaded_part;
 pub(crate) mod stability;

@@ -4,9 +4,8 @@ use crate::contact::SearchMethod;
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::scene::Scene;
 use crate::coupled::state::energy_balance::EnergyBalance;
-use crate::coupled::state::foundation::{Foundation, Sums};
-use crate::coupled::state::origin::Origin;
-use crate::coupled::state::{Context, State, Transition};
+use crate::coupled::state::foundation::{Foundation, FoundationChecks, Sums};
+use crate::coupled::state::{Context, Origin, State, Transition};
 use crate::coupled::step::forcing::Forcing;
 use crate::coupled::step::increment::Increment;
 use crate::error::Result;
@@ -39,6 +38,7 @@ impl State {
         let mut state = Self {
             step: 0,
             time: 0.0,
+            checks: vec![FoundationChecks::default(); scene.context.footings.len()],
             origin: Origin::new(),
             context: scene.context.clone(),
             kinematics: Kinematics::new(model),
@@ -105,7 +105,7 @@ impl State {
         for (k, foundation) in state.foundations.iter_mut().enumerate() {
             let Context { elements, friction, footings, .. } = &*state.context;
             let footing = &footings[k];
-            let foundation_sums =
+            let (foundation_sums, checks) =
                 foundation.update(footing, elements, friction, &state.contact, &state.modes);
             sums.area += foundation_sums.area;
             sums.open += foundation_sums.open;
@@ -126,7 +126,8 @@ impl State {
             {
                 *component = rotation;
             }
-            foundation.derived.settlement = scene.base.settlement(k, displacement);
+            let settlement = scene.base.settlement(k, displacement);
+            state.checks[k] = FoundationChecks { settlement, ..checks };
             if foundation.base_rotation.abs() > state.base_rotation.abs() {
                 state.base_rotation = foundation.base_rotation;
             }

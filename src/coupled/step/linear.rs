@@ -9,7 +9,7 @@
 //! | R | influence vectors |
 
 use super::modal_loops::{apply_tractions, free_increment};
-use crate::contact::{ContactInput, ContactSearch, ContactSolver, ModeSearch};
+use crate::contact::{ContactInput, ContactSearch, ContactSolver};
 use crate::coupled::model::kinematics::Kinematics;
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
@@ -24,7 +24,6 @@ pub(crate) struct LinearStep {
     /// Valid while the tangent is unchanged.
     pub(crate) operators: Operators,
     pub(crate) contact: ContactSolver,
-    search: ModeSearch,
     /// Right-hand side of K_eff Δu = …, without contact and nonlinear force.
     pub(crate) known: Vec<f64>,
     free_jump: Vec<f64>,
@@ -37,8 +36,12 @@ impl LinearStep {
         let n = scene.model.coordinates;
         Self {
             operators,
-            contact: ContactSolver::new(scene.layout()),
-            search: ModeSearch::new(scene.layout(), scene.base.areas(), scene.model.linear, search),
+            contact: ContactSolver::new(
+                scene.layout(),
+                scene.base.areas(),
+                scene.model.linear,
+                search,
+            ),
             known: vec![0.0; n],
             free_jump: vec![0.0; scene.layout().len()],
             means: vec![0.0; scene.layout().len()],
@@ -97,7 +100,7 @@ impl LinearStep {
         self.solve_tractions(data, increment)?;
         let Self { operators, contact, vector, .. } = self;
         vector.fill(0.0);
-        scene.base.add_forces(1.0, &contact.traction, vector);
+        scene.base.add_forces(1.0, &contact.response().traction, vector);
         let inverse = operators.reciprocals();
         apply_tractions(scheme, inverse, vector, kinematics, &forcing.carried, increment);
         Ok(())
@@ -115,7 +118,7 @@ impl LinearStep {
         transposed_multiply_add(
             &self.operators.columns,
             -1.0,
-            &self.contact.traction,
+            &self.contact.response().traction,
             &mut increment.displacement,
         );
         Ok(())
@@ -128,7 +131,7 @@ impl LinearStep {
         increment: &mut Increment,
     ) -> Result<(), StepError> {
         let StepData { scene, state, forcing, .. } = data;
-        let Self { operators, contact, search, free_jump, means, .. } = self;
+        let Self { operators, contact, free_jump, means, .. } = self;
         scene.base.means(&increment.end, means);
         let mut length_scale = 0.0_f64;
         for (i, jump) in free_jump.iter_mut().enumerate() {
@@ -157,11 +160,11 @@ impl LinearStep {
             frictionless: false,
         };
         increment.modes.copy_from_slice(&state.modes);
-        (increment.trials, increment.method) =
-            search.solve(contact, &input, &mut increment.modes)?;
-        increment.stand_in = contact.substituted_friction;
-        increment.traction.copy_from_slice(&contact.traction);
-        increment.contact.copy_from_slice(&contact.states);
+        (increment.trials, increment.method) = contact.solve(&input, &mut increment.modes)?;
+        increment.stand_in = contact.substituted_friction();
+        let response = contact.response();
+        increment.traction.copy_from_slice(&response.traction);
+        increment.contact.copy_from_slice(&response.states);
         Ok(())
     }
 }

@@ -30,7 +30,7 @@ const MAX_TOTAL_ITERATIONS: usize = 2000;
 const MIN_STAGE_FRACTION: f64 = 1e-6;
 
 /// Scratch of the iteration.
-pub(crate) struct Newton {
+pub(crate) struct NewtonIteration {
     tangent: Tangent,
     /// The iterate, and the force linearised about it.
     guess: Vec<f64>,
@@ -49,7 +49,7 @@ pub(crate) struct Newton {
     method: SearchMethod,
 }
 
-impl Newton {
+impl NewtonIteration {
     pub(crate) fn new(dofs: usize) -> Self {
         let zeros = vec![0.0; dofs];
         Self {

@@ -1,6 +1,6 @@
 //! Solution of a step: displacement increment and contact tractions.
 
-use super::newton::Newton;
+use super::newton::NewtonIteration;
 use crate::contact::{ContactSearch, ContactSolver};
 use crate::coupled::model::operators::Operators;
 use crate::coupled::scene::Scene;
@@ -16,14 +16,14 @@ const MAX_STEP_CHANGE: f64 = 1e15;
 /// The linear step, and Newton's method around it for a nonlinear structure.
 pub(crate) struct Solver {
     linear: LinearStep,
-    newton: Option<Newton>,
+    newton: Option<NewtonIteration>,
 }
 
 impl Solver {
     pub(crate) fn new(scene: &Scene, operators: Operators, search: ContactSearch) -> Self {
         Self {
             linear: LinearStep::new(scene, operators, search),
-            newton: (!scene.model.linear).then(|| Newton::new(scene.model.coordinates)),
+            newton: (!scene.model.linear).then(|| NewtonIteration::new(scene.model.coordinates)),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Exact lags before the exponentials begin.
 
 use crate::error::{Error, Observer, Result, unobserved};
-use crate::history::convolution_weights::ConvolutionWeights;
+use crate::history::convolution_weights::{ConvolutionWeights, by_kind};
 use crate::history::pair_classes::{PairClasses, STRIP_KINDS};
 use crate::history::shared_spectra::SharedSpectra;
 
@@ -32,15 +32,16 @@ impl ConvolutionWeights for WindowedWeights<'_> {
         &self,
         class: usize,
         first_lag: usize,
-        values: [&mut [f64]; STRIP_KINDS],
+        values: &mut [&mut [f64]],
     ) -> Result<()> {
+        let values: &mut [_; STRIP_KINDS] = by_kind(values)?;
         let count = (self.lags + 1).saturating_sub(first_lag).min(values[0].len());
-        let in_window = values.map(|values| {
+        let mut in_window = values.each_mut().map(|values| {
             let (in_window, beyond) = values.split_at_mut(count);
             beyond.fill(0.0);
             in_window
         });
-        self.kernel.coefficients(class, first_lag, in_window)
+        self.kernel.coefficients(class, first_lag, &mut in_window)
     }
 
     fn last_coupling_lag(&self, class: usize) -> Result<Option<usize>> {
@@ -68,7 +69,7 @@ impl Lags {
         let mut kinds = [(); STRIP_KINDS].map(|()| Vec::with_capacity(kernel.classes().count()));
         for class in 0..kernel.classes().count() {
             let mut lags = [(); STRIP_KINDS].map(|()| vec![0.0; window]);
-            kernel.coefficients(class, 1, lags.each_mut().map(Vec::as_mut_slice))?;
+            kernel.coefficients(class, 1, &mut lags.each_mut().map(Vec::as_mut_slice))?;
             let last = kernel.last_coupling_lag(class)?.filter(|last| *last <= window);
             lags[2].truncate(last.ok_or(COUPLING_LASTS)?);
             lags[2].shrink_to_fit();

@@ -105,8 +105,8 @@ impl SampledPairs {
             let receiver = place / count;
             let source = place % count;
             let mut exact = [[0.0; 2]; STRIP_KINDS];
-            let slices = exact.each_mut().map(<[f64; 2]>::as_mut_slice);
-            kernel.coefficients(pair.class, lag, slices)?;
+            let mut slices = exact.each_mut().map(<[f64; 2]>::as_mut_slice);
+            kernel.coefficients(pair.class, lag, &mut slices)?;
             for (part, (exact, found)) in exact.iter().zip(&mut components).enumerate() {
                 let error = [0, 1].map(|k| {
                     pair.scale * (tail.of_pair(&fits[k][part], receiver, source) - exact[k])

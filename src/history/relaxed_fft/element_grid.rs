@@ -83,8 +83,7 @@ impl ElementGrid {
             let rows = lattice.counts[1];
             return Some(Self::new(cells, Offsets::Plan(lattice.clone()), scale, lengths, rows));
         }
-        #[cfg(feature = "embedded")]
-        if pairs.are_around_trench() {
+        if pairs.has_two_couplings() {
             return None;
         }
         let elements = pairs.elements();
@@ -319,8 +318,8 @@ impl ElementGrid {
             for (offset, class) in classes.iter().enumerate() {
                 let Some(class) = class else { continue };
                 let range = offset * width + skip..(offset + 1) * width;
-                let slices = table.each_mut().map(|values| &mut values[range.clone()]);
-                kernel.coefficients(*class, begin + skip + 1, slices)?;
+                let mut slices = table.each_mut().map(|values| &mut values[range.clone()]);
+                kernel.coefficients(*class, begin + skip + 1, &mut slices)?;
             }
             for d in begin + skip..begin + width {
                 for (kind, table) in table.iter().enumerate() {

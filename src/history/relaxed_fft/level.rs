@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ring::Ring;
 use super::tables::ClassCoefficients;
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::pair_classes::{MAX_KINDS, Pair, PairClasses};
+use crate::history::pair_classes::{MAX_PLANE_KINDS, Pair, PairClasses};
 use crate::linalg::{Simd, SimdSlice, SimdSliceMut, WithSimd, vectorized};
 use basemat_fourier::num_complex::Complex;
 use basemat_fourier::{ComplexToReal, RealPlanner, RealToComplex};
@@ -23,7 +23,7 @@ pub(super) struct PairLevel {
     /// Spectra over 2b of each kind and class: real parts, then imaginary parts.
     ///
     /// There are b + 1 of each. The coupling has none if it ends within smaller blocks.
-    spectra: [Vec<f64>; MAX_KINDS],
+    spectra: [Vec<f64>; MAX_PLANE_KINDS],
 }
 
 /// Scratch of the transforms of all levels.
@@ -205,12 +205,8 @@ impl PairLevel {
             let width = width.min(frequencies - begin);
             let range_of = |component: usize| component * 2 * width..(component + 1) * 2 * width;
             for component in 0..components {
-                let (re, im) = inputs[range_of(component)].split_at_mut(width);
                 let values = &spectra[component * frequencies + begin..][..width];
-                for (value, (re, im)) in values.iter().zip(re.iter_mut().zip(im)) {
-                    *re = value.re;
-                    *im = value.im;
-                }
+                copy_to_tile(values, &mut inputs[range_of(component)]);
             }
             outputs[..components * 2 * width].fill(0.0);
             // Adds the product of a class's spectrum with the source's tile to the receiver's tile.
@@ -243,13 +239,27 @@ impl PairLevel {
                 }
             }
             for component in 0..components {
-                let (re, im) = outputs[range_of(component)].split_at(width);
                 let values = &mut spectra[component * frequencies + begin..][..width];
-                for (value, (re, im)) in values.iter_mut().zip(re.iter().zip(im)) {
-                    *value = Complex::new(*re, *im);
-                }
+                copy_from_tile(&outputs[range_of(component)], values);
             }
         }
+    }
+}
+
+/// Copies frequencies of a spectrum to a tile: real parts, then imaginary parts.
+fn copy_to_tile(values: &[Complex<f64>], tile: &mut [f64]) {
+    let (re, im) = tile.split_at_mut(values.len());
+    for (value, (re, im)) in values.iter().zip(re.iter_mut().zip(im)) {
+        *re = value.re;
+        *im = value.im;
+    }
+}
+
+/// Copies a tile to frequencies of a spectrum.
+fn copy_from_tile(tile: &[f64], values: &mut [Complex<f64>]) {
+    let (re, im) = tile.split_at(values.len());
+    for (value, (re, im)) in values.iter_mut().zip(re.iter().zip(im)) {
+        *value = Complex::new(*re, *im);
     }
 }
 
@@ -267,16 +277,16 @@ fn transform(
 
 /// Adds (or subtracts) the product of two spectra, stored as real parts, then imaginary parts.
 fn multiply_add<const PLUS: bool>(output: &mut [f64], factor: [&[f64]; 2], input: &[f64]) {
-    vectorized(Product::<PLUS> { output, factor, input });
+    vectorized(SpectrumProduct::<PLUS> { output, factor, input });
 }
 
-struct Product<'a, const PLUS: bool> {
+struct SpectrumProduct<'a, const PLUS: bool> {
     output: &'a mut [f64],
     factor: [&'a [f64]; 2],
     input: &'a [f64],
 }
 
-impl<const PLUS: bool> WithSimd for Product<'_, PLUS> {
+impl<const PLUS: bool> WithSimd for SpectrumProduct<'_, PLUS> {
     type Output = ();
 
     #[inline(always)]

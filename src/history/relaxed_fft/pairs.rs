@@ -13,7 +13,7 @@ use super::tables::{ClassCoefficients, ShortLagTables};
 use super::wave_level::Levels;
 use crate::error::{Result, Watch, unobserved};
 use crate::geometry::COMPONENTS_IN_PLANE;
-use crate::history::convolution_weights::{ConvolutionWeights, read_coefficients};
+use crate::history::convolution_weights::ConvolutionWeights;
 use crate::history::shared_spectra::{SharedSpectra, lock};
 use crate::linalg::vectorized;
 
@@ -117,7 +117,7 @@ impl PairBlocks {
                 // The first weight is the step compliance, which does not belong to the history.
                 let series = values.iter_mut().take(kind_count);
                 let mut slices: Vec<_> = series.map(|series| &mut series[1..]).collect();
-                read_coefficients(kernel, class, 2, &mut slices)?;
+                kernel.coefficients(class, 2, &mut slices)?;
                 if let Some(tables) = &mut tables {
                     self.coefficients.add_class(&values, tables);
                 }

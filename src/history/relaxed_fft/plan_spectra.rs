@@ -42,17 +42,10 @@ pub(super) fn coefficients_in_plan(
     let mut transformed = vec![0.0; spectrum_counts[0] * spectrum_counts[1] * max_width];
     for begin in (0..count).step_by(LAGS_PER_CHUNK) {
         let width = LAGS_PER_CHUNK.min(count - begin);
+        // The first weight is the step compliance, which does not belong to the history.
         let skip = usize::from(begin == 0);
-        for offset in (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j])) {
-            let (class, terms) = lattice.terms(offset.map(usize::cast_signed));
-            let slices = lags.each_mut().map(|lags| &mut lags[skip..width]);
-            kernel.coefficients_in_plan(class, begin + skip + 1, slices)?;
-            let [[zz, zx, zy], [_, xx, xy], [_, _, yy]] = terms;
-            for (table, (kind, _)) in tables.iter_mut().zip([zz, xx, yy, xy, zx, zy]) {
-                let place = (offset[0] * rows + offset[1]) * width;
-                table[place..place + width].copy_from_slice(&lags[kind][..width]);
-            }
-        }
+        let mut slices = lags.each_mut().map(|lags| &mut lags[..width]);
+        read_tables(lattice, kernel, begin, skip, &mut slices, &mut tables)?;
         for (kind, table) in tables.iter().enumerate() {
             let is_odd = [matches!(kind, 3 | 4), matches!(kind, 3 | 5)];
             let x_waves = &waves[0][usize::from(is_odd[0])];
@@ -83,6 +76,32 @@ pub(super) fn coefficients_in_plan(
                 }
                 accept(kind, begin + d, &values)?;
             }
+        }
+    }
+    Ok(())
+}
+
+/// Overwrites `tables`, kind by kind, with the lags from `begin` + 1 on of all offsets; `lags` is scratch of as many lags.
+///
+/// The first `skip` lags are left as they are in `lags`.
+fn read_tables(
+    lattice: &Lattice,
+    kernel: &dyn ConvolutionWeights,
+    begin: usize,
+    skip: usize,
+    lags: &mut [&mut [f64]; SERIES_PER_OFFSET],
+    tables: &mut [Vec<f64>; SERIES_PER_OFFSET],
+) -> Result<()> {
+    let [columns, rows] = lattice.counts;
+    let width = lags[0].len();
+    for offset in (0..columns).flat_map(|i| (0..rows).map(move |j| [i, j])) {
+        let (class, terms) = lattice.terms(offset.map(usize::cast_signed));
+        let mut slices = lags.each_mut().map(|lags| &mut lags[skip..]);
+        kernel.coefficients(class, begin + skip + 1, &mut slices)?;
+        let [[zz, zx, zy], [_, xx, xy], [_, _, yy]] = terms;
+        for (table, (kind, _)) in tables.iter_mut().zip([zz, xx, yy, xy, zx, zy]) {
+            let place = (offset[0] * rows + offset[1]) * width;
+            table[place..place + width].copy_from_slice(lags[kind]);
         }
     }
     Ok(())

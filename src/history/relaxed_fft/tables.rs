@@ -2,12 +2,12 @@
 //!
 //! The index d of a coefficient counts the steps after the step of the traction: it is the kernel's lag d + 1.
 
-use crate::history::pair_classes::MAX_KINDS;
+use crate::history::pair_classes::MAX_PLANE_KINDS;
 
 /// Coefficients d = 0 … of one class, kind by kind; empty for kinds that the ground does not have.
-pub(super) type ClassCoefficients = [Vec<f64>; MAX_KINDS];
+pub(super) type ClassCoefficients = [Vec<f64>; MAX_PLANE_KINDS];
 
 /// Coefficients that are summed directly: kind by kind and class by class, d = 0 … leaf − 1.
 ///
 /// The first of them is zero. The coupling is stored as long as it is not zero.
-pub(crate) type ShortLagTables = [Vec<Vec<f64>>; MAX_KINDS];
+pub(crate) type ShortLagTables = [Vec<Vec<f64>>; MAX_PLANE_KINDS];

@@ -7,6 +7,7 @@ use basemat::Simulation;
 use basemat::coupled::CheckpointError;
 use basemat::coupled::SimulationBuilder;
 use basemat::history::HistoryMethod;
+use basemat::interface::InPlane;
 
 use super::{STEPS, carried, half_plane, refusal, spring_bed};
 use basemat_problems::laws_with_memory::{Adhesion, SlipWeakening, SofteningPads};
@@ -27,10 +28,10 @@ fn memories_resume_to_the_last_bit() {
     let kinds: [Kind; 4] = [
         ("weakening", Box::new(|| base().interface(WEAKENING).build().unwrap())),
         ("glue", Box::new(move || on_half_plane().interface(GLUE).build().unwrap())),
-        ("pads", Box::new(|| base().interface(PADS).build().unwrap())),
+        ("pads", Box::new(|| base().interface(InPlane(PADS)).build().unwrap())),
         (
             "no energy balance",
-            Box::new(|| base().interface(PADS).without_energy_balance().build().unwrap()),
+            Box::new(|| base().interface(InPlane(PADS)).without_energy_balance().build().unwrap()),
         ),
     ];
     for (name, build) in kinds {

@@ -9,7 +9,8 @@ use basemat_problems::check_sum::{check_sum, text_words};
 
 const FIELDS: [&str; 9] =
     ["format", "identity", "steps", "modes", "laws", "state", "ground", "structure", "set_loads"];
-const IDENTITY: [&str; 13] = [
+const IDENTITY: [&str; 11] = [
+    "label",
     "dofs",
     "energy_balance",
     "probes",
@@ -20,9 +21,6 @@ const IDENTITY: [&str; 13] = [
     "ground",
     "static_contact",
     "start",
-    "law_numbers",
-    "free_field",
-    "loads",
 ];
 
 fn words(value: &Value, all: &mut Vec<u64>) {

@@ -105,7 +105,6 @@ fn is_of_units(warning: &Warning) -> bool {
                 | Mistake::UnusualInterval { .. }
                 | Mistake::LightStructure { .. }
                 | Mistake::UnusualFriction { .. }
-                | Mistake::TallStorey { .. }
                 | Mistake::UnusualGravity { .. }
         ) | Warning::EndsEarly { .. }
             | Warning::PeakAtEnd { .. }

@@ -5,10 +5,7 @@ use basemat::bem::{ContactElement, DiagonalCompliance, Ground, GroundDescription
 use basemat::coupled::{Midpoint, SchemeCoefficients, TimeScheme};
 use basemat::fem::{Direction, Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
-use basemat::interface::{
-    Condition, ContactScene, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact,
-    Tolerance,
-};
+use basemat::interface::{ContactState, Mode, PreviousContact, Tolerance};
 use basemat::motion::{FreeField, Record, RecordFormat};
 use basemat::structure::{Hysteresis, InternalEnergy, SpringResponse};
 use basemat::{Error, Observer, Result, Soil};
@@ -35,7 +32,7 @@ pub(crate) fn tolerance() -> Tolerance {
     Tolerance::new(1e-9, 1e-3)
 }
 
-pub(crate) struct Double(Log);
+pub(crate) struct Double(pub(super) Log);
 
 impl Double {
     pub(crate) fn new(log: &Log) -> Self {
@@ -71,96 +68,6 @@ impl Hysteresis for Double {
     fn clone_box(&self) -> Box<dyn Hysteresis> {
         self.0.asked("clone_box");
         Box::new(Self(self.0.clone()))
-    }
-}
-
-impl InterfaceLaw for Double {
-    fn modes(&self) -> &[Mode] {
-        self.0.asked("modes");
-        &[Mode::SlipLeft]
-    }
-
-    fn conditions(&self, _: Mode, _: &PreviousContact) -> [Condition; 2] {
-        self.0.asked("conditions");
-        [Condition::gap_is(0.0), Condition::slip_is(CORRECT)]
-    }
-
-    fn next_mode(&self, _: Mode, _: &PreviousContact, _: &ContactState, _: Tolerance) -> Mode {
-        self.0.asked("next_mode");
-        Mode::SlipRight
-    }
-
-    fn compliance(&self, _: Mode, _: &PreviousContact) -> [f64; 2] {
-        self.0.asked("compliance");
-        [CORRECT; 2]
-    }
-
-    fn state_variables(&self) -> usize {
-        self.0.asked("state_variables");
-        3
-    }
-
-    fn initial_state_variables(&self, _: &PreviousContact, memory: &mut [f64]) {
-        self.0.asked("initial_state_variables");
-        memory.fill(CORRECT);
-    }
-
-    fn commit(&self, _: &PreviousContact, _: &ContactState, _: Mode, memory: &mut [f64]) {
-        self.0.asked("commit");
-        memory.fill(2.0 * CORRECT);
-    }
-
-    fn friction_coefficient(&self) -> Option<f64> {
-        self.0.asked("friction_coefficient");
-        Some(CORRECT)
-    }
-
-    fn limits(&self, _: &PreviousContact) -> Result<Limits> {
-        self.0.asked("limits");
-        Ok(Limits { tension: CORRECT, ..Limits::default() })
-    }
-
-    fn bond_overload(&self, _: &PreviousContact, _: &ContactState) -> Option<f64> {
-        self.0.asked("bond_overload");
-        Some(CORRECT)
-    }
-
-    fn check_start(&self, _: &PreviousContact) -> Result<()> {
-        self.0.asked("check_start");
-        Err(refusal())
-    }
-
-    /// Smooth contact whose only closed mode is another one than the default's first.
-    fn frictionless(&self) -> Box<dyn InterfaceLaw> {
-        struct Smooth(Coulomb);
-        impl InterfaceLaw for Smooth {
-            fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-                Limits::only_in_plane::<Self>()
-            }
-
-            fn modes(&self) -> &[Mode] {
-                &[Mode::SlipRight]
-            }
-            fn conditions(&self, mode: Mode, start: &PreviousContact) -> [Condition; 2] {
-                self.0.conditions(mode, start)
-            }
-            fn next_mode(
-                &self,
-                _: Mode,
-                _: &PreviousContact,
-                _: &ContactState,
-                _: Tolerance,
-            ) -> Mode {
-                Mode::SlipRight
-            }
-        }
-        self.0.asked("frictionless");
-        Box::new(Smooth(Coulomb::uplift_only()))
-    }
-
-    fn check(&self, _: &ContactScene) -> Result<()> {
-        self.0.asked("check");
-        Err(refusal())
     }
 }
 

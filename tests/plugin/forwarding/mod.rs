@@ -7,6 +7,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "parts are given away, as to a builder")]
 
 mod doubles;
+mod law;
 mod log;
 mod structure;
 
@@ -15,7 +16,7 @@ use basemat::bem::{Ground, SpringGround};
 use basemat::coupled::TimeScheme;
 use basemat::fem::{Element, ElementFace, MassKind};
 use basemat::history::ConvolutionHistory;
-use basemat::interface::{ContactState, InterfaceLaw, Mode};
+use basemat::interface::{ContactState, InPlane, InterfaceLaw, Mode};
 use basemat::motion::{AtRest, FreeField, RecordFormat};
 use basemat::structure::{Hysteresis, RigidBlock, Structure};
 use basemat::{Simulation, Soil, unobserved};
@@ -42,40 +43,53 @@ fn boxed_springs() {
     );
 }
 
-#[test]
-fn boxed_laws() {
-    fn ask(part: impl InterfaceLaw) {
-        let start = doubles::start();
-        let tolerance = doubles::tolerance();
-        assert_eq!(part.modes(), [Mode::SlipLeft]);
-        assert_eq!(part.conditions(Mode::Open, &start)[1].value, CORRECT);
-        let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
-        assert_eq!(next, Mode::SlipRight);
-        assert_eq!(part.compliance(Mode::Open, &start), [CORRECT; 2]);
-        let mut memory = [0.0; 3];
-        assert_eq!(part.state_variables(), memory.len());
-        part.initial_state_variables(&start, &mut memory);
-        assert_eq!(memory, [CORRECT; 3]);
-        part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
-        assert_eq!(memory, [2.0 * CORRECT; 3]);
-        assert_eq!(part.friction_coefficient(), Some(CORRECT));
-        assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
-        assert_eq!(part.check_start(&start), Err(doubles::refusal()));
-        assert_eq!(part.limits(&start).unwrap().tension, CORRECT);
-        assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
-    }
-    let log = Log::default();
-    let part = || -> Box<dyn InterfaceLaw> { Box::new(Double::new(&log)) };
-    ask(part());
+/// Calls all methods of a law but `limits`.
+fn ask_law<L: InterfaceLaw + 'static>(make: impl Fn() -> L) {
+    let part = make();
+    let start = doubles::start();
+    let tolerance = doubles::tolerance();
+    assert_eq!(part.modes(), [Mode::SlipLeft]);
+    assert_eq!(part.conditions(Mode::Open, &start)[1].value, CORRECT);
+    let next = part.next_mode(Mode::Open, &start, &ContactState::default(), tolerance);
+    assert_eq!(next, Mode::SlipRight);
+    assert_eq!(part.compliance(Mode::Open, &start), [CORRECT; 2]);
+    let mut memory = [0.0; 3];
+    assert_eq!(part.state_variables(), memory.len());
+    part.initial_state_variables(&start, &mut memory);
+    assert_eq!(memory, [CORRECT; 3]);
+    part.commit(&start, &ContactState::default(), Mode::Open, &mut memory);
+    assert_eq!(memory, [2.0 * CORRECT; 3]);
+    assert_eq!(part.friction_coefficient(), Some(CORRECT));
+    assert_eq!(part.bond_overload(&start, &ContactState::default()), Some(CORRECT));
+    assert_eq!(part.check_start(&start), Err(doubles::refusal()));
+    assert_eq!(part.frictionless().modes(), [Mode::SlipRight]);
     // `check` has an argument that only a simulation can make.
     let ground = SpringGround::new(-2.0..2.0, 4, 1e7, 1e7).unwrap();
     let built = Simulation::builder(0.01)
         .structure(RigidBlock::new(4.0, 4.0, 2000.0).unwrap())
         .ground(ground)
-        .interface(part())
+        .interface(make())
         .build();
     assert_eq!(built.err(), Some(doubles::refusal()));
+}
+
+#[test]
+fn boxed_laws() {
+    let log = Log::default();
+    let make = || -> Box<dyn InterfaceLaw> { Box::new(Double::new(&log)) };
+    ask_law(make);
+    assert_eq!(make().limits(&doubles::start()).unwrap().tension, CORRECT);
     assert_eq!(log.take(), methods(source!("interface/mod.rs"), "InterfaceLaw"));
+}
+
+#[test]
+fn laws_of_the_plane() {
+    let log = Log::default();
+    let make = || InPlane(Double::new(&log));
+    ask_law(make);
+    assert_eq!(log.take(), methods(source!("interface/plane_law.rs"), "PlaneLaw"));
+    let error = make().limits(&doubles::start()).unwrap_err();
+    assert!(matches!(error, basemat::Error::Scene { quantity: "Double", .. }), "{error}");
 }
 
 #[test]

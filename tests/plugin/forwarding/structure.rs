@@ -84,8 +84,6 @@ impl Structure for Double {
     fn description(&self) -> StructureDescription {
         self.log.asked("description");
         StructureDescription {
-            tallest_storey: Some(CORRECT),
-            triangle_sides: Some([CORRECT, 1.0]),
             densities: Some([CORRECT, 2.0]),
             faces_off_ground: Some((3, [CORRECT, 2.0])),
         }
@@ -165,8 +163,6 @@ fn ask(mut part: impl Structure, place: usize, damping: f64) {
     assert!(part.has_active_damping());
     assert!(part.has_active_stiffness());
     let description = part.description();
-    assert_eq!(description.tallest_storey, Some(CORRECT));
-    assert_eq!(description.triangle_sides, Some([CORRECT, 1.0]));
     assert_eq!(description.densities, Some([CORRECT, 2.0]));
     assert_eq!(description.faces_off_ground, Some((3, [CORRECT, 2.0])));
     assert!(part.describe(&[1]).is_some_and(|text| text.ends_with("places [1]")));

@@ -9,7 +9,7 @@ use basemat::Soil;
 use basemat::coupled::Probe;
 use basemat::fem::{Direction, Layer, Material, Mesh, QuadFormulation};
 use basemat::interface::{
-    Condition, ContactState, InterfaceLaw, Limits, Mode, PreviousContact, ThinLayer, Tolerance,
+    Condition, ContactState, InterfaceLaw, Mode, PlaneLaw, PreviousContact, ThinLayer, Tolerance,
 };
 use basemat::motion::STANDARD_GRAVITY;
 use basemat::structure::{DofCombination, FemModel, RayleighDamping, Structure};
@@ -194,11 +194,7 @@ pub fn pounds_per_foot(force: f64) -> f64 {
 /// A thin layer that never lets go, in its stick mode for good: what "bonded" is with the paper's interface elements.
 pub struct Glue(pub ThinLayer);
 
-impl InterfaceLaw for Glue {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Glue {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

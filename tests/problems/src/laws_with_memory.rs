@@ -1,7 +1,8 @@
 //! Laws that remember something of each element.
 
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PlaneLaw, PreviousContact,
+    Tolerance,
 };
 
 /// Friction that falls with the distance slid: residual + (first − residual) e^(−slid/distance).
@@ -139,11 +140,7 @@ impl SofteningPads {
     }
 }
 
-impl InterfaceLaw for SofteningPads {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for SofteningPads {
     fn modes(&self) -> &[Mode] {
         &[Mode::Stick]
     }

@@ -3,7 +3,7 @@
 
 use basemat::bem::Ground;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, InterfaceLaw, Limits, Mode, PreviousContact, Tolerance,
+    Condition, ContactState, Coulomb, InterfaceLaw, Mode, PlaneLaw, PreviousContact, Tolerance,
 };
 use basemat::structure::{DofCombination, Structure, Triplets};
 
@@ -158,11 +158,7 @@ pub struct Wayward<F> {
     pub next: F,
 }
 
-impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> InterfaceLaw for Wayward<F> {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl<F: Fn(Mode, &PreviousContact, Mode) -> Mode + Send + Sync> PlaneLaw for Wayward<F> {
     fn modes(&self) -> &[Mode] {
         self.law.modes()
     }

@@ -2,8 +2,8 @@
 
 use basemat::Soil;
 use basemat::interface::{
-    Condition, ContactState, Coulomb, FrictionLimit, InterfaceLaw, Limits, Mode, PreviousContact,
-    SlipSense, ThinLayer, Tolerance,
+    Condition, ContactState, Coulomb, FrictionLimit, InPlane, InterfaceLaw, Mode, PlaneLaw,
+    PreviousContact, SlipSense, ThinLayer, Tolerance,
 };
 
 use super::options::{Law, Limit, Reading, Sense};
@@ -20,10 +20,10 @@ impl Reading {
         if self.law == Law::Hard {
             let still = Coulomb::new(friction)?;
             if self.kinetic != 1.0 && friction.is_finite() {
-                return Ok(Box::new(Kinetic {
+                return Ok(Box::new(InPlane(Kinetic {
                     still,
                     moving: Coulomb::new(self.kinetic * friction)?,
-                }));
+                })));
             }
             return Ok(Box::new(still));
         }
@@ -44,20 +44,20 @@ impl Reading {
             .with_friction_limit(limit)
             .with_slip_sense(sense)
             .with_slip_stiffness_ratio(self.slip_shear)?;
-        Ok(Box::new(Read {
+        Ok(Box::new(InPlane(Read {
             layer,
             limit: self.limit,
             slip_normal: self.slip_normal,
             mean_pressure,
             static_share: self.static_share,
             lag_modes: self.lag_modes,
-        }))
+        })))
     }
 
     /// A layer that never lets go.
     pub(crate) fn glue(&self, soil: &Soil) -> basemat::Result<Box<dyn InterfaceLaw>> {
         let layer = ThinLayer::new(*soil, self.neighbour_height(), f64::INFINITY)?;
-        Ok(Box::new(Glue(layer.with_thickness_ratio(self.ratio)?)))
+        Ok(Box::new(InPlane(Glue(layer.with_thickness_ratio(self.ratio)?))))
     }
 }
 
@@ -67,11 +67,7 @@ struct Kinetic {
     moving: Coulomb,
 }
 
-impl InterfaceLaw for Kinetic {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Kinetic {
     fn modes(&self) -> &[Mode] {
         self.still.modes()
     }
@@ -129,11 +125,7 @@ impl Read {
     }
 }
 
-impl InterfaceLaw for Read {
-    fn limits(&self, _: &PreviousContact) -> basemat::Result<Limits> {
-        Limits::only_in_plane::<Self>()
-    }
-
+impl PlaneLaw for Read {
     fn modes(&self) -> &[Mode] {
         self.layer.modes()
     }

@@ -7,7 +7,7 @@ use basemat::bem::full_plane::{
 use basemat::bem::{ElasticGround, Strip};
 use basemat::contact::ContactSearch;
 use basemat::coupled::{Newmark, SimulationBuilder};
-use basemat::interface::{Bonded, Coulomb, InterfaceLaw, ThinLayer};
+use basemat::interface::{Bonded, Coulomb, InPlane, InterfaceLaw, ThinLayer};
 use basemat::motion::{Record, STANDARD_GRAVITY};
 
 use basemat_problems::containment::Containment;
@@ -124,7 +124,7 @@ fn paper_interface(
         |friction| ThinLayer::new(soil, height, friction)?.with_thickness_ratio(scene.ratio);
     let Some(friction) = friction else {
         let layer = layer(f64::INFINITY)?;
-        let glue = |_| Box::new(Glue(layer)) as Box<dyn InterfaceLaw>;
+        let glue = |_| Box::new(InPlane(Glue(layer))) as Box<dyn InterfaceLaw>;
         return Ok(builder.interfaces((0..scene.containment.elements).map(glue).collect()));
     };
     Ok(builder.interface(layer(friction)?))

@@ -84,8 +84,9 @@ pub(crate) fn coefficients(count: usize, lags: usize) -> Result<f64> {
     let mut values = [(); 3].map(|()| vec![0.0; lags]);
     let [normal, tangential, coupling] = &mut values;
     let (done, seconds) = timed(|| {
-        (0..kernel.classes().count())
-            .try_for_each(|class| kernel.coefficients(class, 1, [normal, tangential, coupling]))
+        (0..kernel.classes().count()).try_for_each(|class| {
+            kernel.coefficients(class, 1, &mut [normal, tangential, coupling])
+        })
     });
     done.map(|()| seconds)
 }

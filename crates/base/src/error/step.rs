@@ -9,7 +9,7 @@ pub enum StepError {
     /// No set of contact modes satisfied the interface laws.
     #[error(
         "contact modes not found in {iterations} trials{}, residual {residual:.2e}, modes {} \
-         (`coupled::largest_convergent_step` finds a time step that gets through)",
+         (`analyses::largest_convergent_step` finds a time step that gets through)",
         no_solution(*sets), modes.join(" ")
     )]
     Contact {
@@ -27,7 +27,7 @@ pub enum StepError {
     /// In plan: no contact forces were found that satisfy the interface laws.
     #[error(
         "contact forces not found in {iterations} iterations, residual {residual:.2e}, elements {} \
-         (`coupled::largest_convergent_step` finds a time step that gets through)",
+         (`analyses::largest_convergent_step` finds a time step that gets through)",
         elements.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
     )]
     Cone {
@@ -42,7 +42,7 @@ pub enum StepError {
     /// Newton's iteration for a nonlinear structure did not converge.
     #[error(
         "Newton's iteration not converged in {iterations} iterations, residual {residual:.2e}, \
-         modes {} (`coupled::largest_convergent_step` finds a time step that gets through)",
+         modes {} (`analyses::largest_convergent_step` finds a time step that gets through)",
         modes.join(" ")
     )]
     Newton {

@@ -37,6 +37,23 @@ pub struct ContactElement {
     inside: f64,
 }
 
+/// Elements of the faces of a foundation, in a list along its outline.
+#[doc(hidden)]
+#[derive(Debug, Clone)]
+pub struct OutlineFaces {
+    pub left_wall: Range<usize>,
+    /// Elements that face down.
+    pub floor: Range<usize>,
+    pub right_wall: Range<usize>,
+}
+
+impl OutlineFaces {
+    /// Left wall, floor and right wall.
+    pub fn in_order(self) -> [Range<usize>; 3] {
+        [self.left_wall, self.floor, self.right_wall]
+    }
+}
+
 impl ContactElement {
     /// Element in the plane: the interval from `left` to `right` of the surface, m.
     pub const fn new(left: f64, right: f64) -> Self {
@@ -129,13 +146,13 @@ impl ContactElement {
         elements.into_iter().any(|element| !element.faces_down())
     }
 
-    /// Elements of the left wall, those that face down, and elements of the right wall, of a list along an outline.
+    /// Faces of a list of elements along an outline.
     #[doc(hidden)]
-    pub fn faces(elements: &[Self]) -> [Range<usize>; 3] {
+    pub fn faces(elements: &[Self]) -> OutlineFaces {
         let count = elements.len();
         let first = elements.iter().position(Self::faces_down).unwrap_or(count);
         let end = elements.iter().rposition(Self::faces_down).map_or(count, |last| last + 1);
-        [0..first, first..end, end..count]
+        OutlineFaces { left_wall: 0..first, floor: first..end, right_wall: end..count }
     }
 
     /// Components of a vector `[x, y, z]` along the normal and both sides.

@@ -12,6 +12,8 @@ pub use circle::circle;
 pub use direction::Direction;
 pub use direction::{PLANE_DIRECTIONS, PLANE_TRANSLATIONS, SPACE_DIRECTIONS};
 pub use element::ContactElement;
+#[doc(hidden)]
+pub use element::OutlineFaces;
 pub use footing::{Edge, Footing};
 pub use lattice::{Lattice, SERIES_PER_OFFSET, lattice_cells, offset};
 pub use patch::{Patch, check_count, check_order};

@@ -103,7 +103,7 @@ impl Patch {
 ///
 /// Returns an error unless they are neighbours in the list.
 fn floor(elements: &[ContactElement]) -> Result<Range<usize>> {
-    let [_, floor, _] = ContactElement::faces(elements);
+    let floor = ContactElement::faces(elements).floor;
     if floor.is_empty() {
         return Err(Error::Scene {
             quantity: "contact elements of the ground",

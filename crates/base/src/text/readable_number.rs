@@ -1,13 +1,22 @@
 //! Numbers as engineers read them.
 
-/// Factor from an SI unit to the printed unit, and the printed unit; other units are unchanged.
-pub fn printed(unit: &str) -> (f64, &str) {
+/// Unit in which values are printed, and the factor from the SI unit to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrintedUnit<'a> {
+    /// Printed values are SI values times this factor.
+    pub factor: f64,
+    /// Symbol of the unit.
+    pub symbol: &'a str,
+}
+
+/// Printed unit of an SI unit; units without a customary one are unchanged.
+pub fn printed(unit: &str) -> PrintedUnit<'_> {
     match unit {
-        "m" => (1e3, "mm"),
-        "rad" => (1e3, "mrad"),
-        "N/m" => (1e-3, "kN/m"),
-        "N·m/m" => (1e-3, "kN·m/m"),
-        other => (1.0, other),
+        "m" => PrintedUnit { factor: 1e3, symbol: "mm" },
+        "rad" => PrintedUnit { factor: 1e3, symbol: "mrad" },
+        "N/m" => PrintedUnit { factor: 1e-3, symbol: "kN/m" },
+        "N·m/m" => PrintedUnit { factor: 1e-3, symbol: "kN·m/m" },
+        symbol => PrintedUnit { factor: 1.0, symbol },
     }
 }
 

@@ -43,7 +43,6 @@ pub use mesh::Mesh;
 pub(crate) use numbering::Numbering;
 pub use quad4::{Quad4, QuadFormulation};
 pub use quad8::{Quad8, Quad8Integration};
-pub(crate) use shell::triangle_sides;
 pub use shell::{Shell, ShellResultants};
 pub use spring::{Dashpot, Spring};
 pub use truss::Truss;

@@ -22,7 +22,7 @@ pub struct HeldBase<'a> {
 
 impl<'a> HeldBase<'a> {
     #[doc(hidden)]
-    pub const NAME: &'static str = "stiffness matrix with its base held";
+    pub const STIFFNESS_NAME: &'static str = "stiffness matrix with its base held";
 
     #[doc(hidden)]
     pub fn new(nodes: &'a [BaseNode], stiffness: &SparseMatrix, spring: f64) -> Self {
@@ -36,7 +36,7 @@ impl<'a> HeldBase<'a> {
     /// The factored matrix.
     #[doc(hidden)]
     pub fn factor(&self) -> Result<SparseFactor> {
-        SparseFactor::new(Self::NAME, &self.matrix)
+        SparseFactor::new(Self::STIFFNESS_NAME, &self.matrix)
     }
 
     /// Forces γ Nᵀ1 for base displacements of 1 m to the right, upwards and, in plan, away.

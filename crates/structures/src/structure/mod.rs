@@ -59,8 +59,8 @@ pub use models::{
     RigidBody, Section, ShearBuilding, ShellRows, SpaceSection, Storey, StoreyBuilding,
     StructureGroup,
 };
-pub(crate) use nonlinear::mass_and_stiffness;
 pub use nonlinear::{InternalEnergy, NonlinearForce};
+pub(crate) use nonlinear::{MassAndStiffness, mass_and_stiffness};
 pub use rayleigh_damping::RayleighDamping;
 pub use reduction::{CraigBampton, Recovery, ReducedModel};
 pub use section_rows::SectionRows;

@@ -7,7 +7,7 @@ use crate::error::{Error, Result, at_least, damping_ratio, require};
 use crate::linalg::{SparseMatrix, dot, generalised_modes};
 use crate::structure::matrix_checks::SYMMETRY_TOLERANCE;
 use crate::structure::{
-    HeldBase, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
+    HeldBase, MassAndStiffness, NonlinearForce, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
 /// Damping ratios of a structure's own modes; its rigid motions are not damped.
@@ -116,7 +116,7 @@ impl ModalDamping {
         check_rows(&nodes, matrices.mass.order())?;
         let spring = FIXED_BASE_STIFFNESS_RATIO * stiffest(stiffness);
         let on_springs = HeldBase::new(&nodes, stiffness, spring);
-        let on_springs = SparseMatrix::new(HeldBase::NAME, &on_springs.matrix)?;
+        let on_springs = SparseMatrix::new(HeldBase::STIFFNESS_NAME, &on_springs.matrix)?;
         let (values, vectors) =
             generalised_modes(&matrices.mass, &on_springs).ok_or(UNRESISTED_MOTION)?;
         let mut found = WithModalDamping::new(structure);
@@ -196,7 +196,7 @@ fn matrices(structure: &dyn Structure) -> Result<Matrices> {
     let is_small = n <= MAX_DAMPED_DOFS;
     let needed = "3000 or fewer: reduce it first";
     require("number of degrees of freedom with modal damping", n as f64, is_small, needed)?;
-    let [mass, stiffness] = mass_and_stiffness(structure)?;
+    let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure)?;
     if mass.asymmetry().max(stiffness.asymmetry()) > SYMMETRY_TOLERANCE {
         return Err(UNSUITABLE_MATRICES);
     }

@@ -194,10 +194,19 @@ pub fn nonlinear_state(
 }
 
 /// Mass, and stiffness with the tangent of the nonlinear force at rest.
+#[derive(Debug)]
+pub struct MassAndStiffness {
+    /// Mass matrix.
+    pub mass: SparseMatrix,
+    /// Stiffness matrix.
+    pub stiffness: SparseMatrix,
+}
+
+/// Mass, and stiffness with the tangent of the nonlinear force at rest.
 ///
 /// # Errors
 /// Faults of the structure's own methods.
-pub fn mass_and_stiffness(structure: &dyn Structure) -> Result<[SparseMatrix; 2]> {
+pub fn mass_and_stiffness(structure: &dyn Structure) -> Result<MassAndStiffness> {
     let n = structure.dofs();
     let mut triplets = Triplets::new(n);
     let mass = SparseMatrix::assembled("mass matrix", &mut triplets, &|m| structure.mass(m))?;
@@ -205,7 +214,7 @@ pub fn mass_and_stiffness(structure: &dyn Structure) -> Result<[SparseMatrix; 2]
         structure.stiffness(m)?;
         structure.nonlinear().map_or(Ok(()), |force| force.tangent(&vec![0.0; n], m))
     })?;
-    Ok([mass, stiffness])
+    Ok(MassAndStiffness { mass, stiffness })
 }
 
 /// The tangent ∂f/∂u of the nonlinear force; empty for a linear structure.

@@ -27,7 +27,7 @@ fn doubled_columns_are_columns_side_by_side() {
         inertia: s * s,
     });
     let elements = Elements::new(3, [3, 4]);
-    let column = elements.column(0.4, &stack, &soils, Loads::NO_LOADS).unwrap();
+    let column = elements.column(0.4, &stack, &soils, EdgeLoads::NO_LOADS).unwrap();
     let nodes = stack.nodes();
     let mut side = SideStiffness { matrix: column.mean(1.0), nodes, loads: 0 };
     for _ in 1..8 {

@@ -2,7 +2,7 @@ use super::*;
 use crate::bem::embedded::Trench;
 use crate::bem::layered::{CirclePoint, on_circle};
 use crate::bem::{ElasticGround, Strip};
-use crate::history::STRIP_KINDS;
+use crate::history::PairClasses;
 use crate::soil::{KelvinVoigt, Soil, SoilProfile};
 use crate::unobserved;
 
@@ -26,8 +26,8 @@ fn source(depth: f64, base: usize, wall: usize) -> TrenchSource {
 /// All lags of a class, one list for each kind.
 fn lags(weights: &dyn ConvolutionWeights, class: usize) -> [Vec<f64>; TRENCH_KINDS] {
     let mut lags = [(); TRENCH_KINDS].map(|()| vec![0.0; LAG_COUNT]);
-    let slices = lags.each_mut().map(Vec::as_mut_slice);
-    weights.coefficients_around_trench(class, 1, slices).unwrap();
+    let mut slices = lags.each_mut().map(Vec::as_mut_slice);
+    weights.coefficients(class, 1, &mut slices).unwrap();
     lags
 }
 
@@ -101,13 +101,10 @@ fn weights_without_depth_are_the_weights_of_a_strip() {
     let strip = ElasticGround::new(profile(), Strip::graded(-1.0..1.0, 4).unwrap()).unwrap();
     let strip = strip.with_stages(source.stages(TIME_STEP)).weights(TIME_STEP).unwrap();
     let found = matrix_of_sums(&weights.classes, |class, values| {
-        let [nn, tt, nt, tn] = values else { panic!("kinds") };
-        weights.coefficients_around_trench(class, 1, [nn, tt, nt, tn]).unwrap();
+        weights.coefficients(class, 1, values).unwrap();
     });
     let wanted = matrix_of_sums(strip.classes(), |class, values| {
-        let values: &mut [&mut [f64]; STRIP_KINDS] = values.try_into().unwrap();
-        let [zz, xx, zx] = values;
-        strip.coefficients(class, 1, [zz, xx, zx]).unwrap();
+        strip.coefficients(class, 1, values).unwrap();
     });
     let largest = wanted.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
     let worst = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);

@@ -36,8 +36,8 @@ fn weights(kernel: &LatticeKernel, lags: usize) -> Vec<[Vec<f64>; SERIES_PER_OFF
     let all = 0..kernel.classes.count();
     all.map(|class| {
         let mut values = [(); SERIES_PER_OFFSET].map(|()| vec![0.0; lags]);
-        let slices = values.each_mut().map(Vec::as_mut_slice);
-        kernel.coefficients_in_plan(class, 1, slices).unwrap();
+        let mut slices = values.each_mut().map(Vec::as_mut_slice);
+        kernel.coefficients(class, 1, &mut slices).unwrap();
         values
     })
     .collect()
@@ -210,11 +210,11 @@ fn passivity_is_checked_on_some_of_many_cells() {
 fn bad_requests_are_told() {
     let kernel = kernel(half_space(), &square(), Stages::Two);
     assert!(matches!(
-        kernel.coefficients(0, 1, [&mut [], &mut [], &mut []]),
-        Err(Error::Scene { .. })
+        kernel.coefficients(0, 1, &mut [&mut [], &mut [], &mut []]),
+        Err(Error::Size { found: 3, needed: 6, .. })
     ));
     let mut none = [(); SERIES_PER_OFFSET].map(|()| vec![]);
-    let outcome = kernel.coefficients_in_plan(99, 1, none.each_mut().map(Vec::as_mut_slice));
+    let outcome = kernel.coefficients(99, 1, &mut none.each_mut().map(Vec::as_mut_slice));
     assert!(matches!(outcome, Err(Error::Index { index: 99, bound: 10, .. })));
     assert!(matches!(kernel.prepare(1 << 30, &mut unobserved), Err(Error::Memory(_))));
 }

@@ -34,22 +34,15 @@ fn bonds_break_where_brute_force_says_they_may() {
             };
             let mut problem = begin(delassus, count, &mut random);
             glue(&mut problem, &mut random);
-            let mut solver = ContactSolver::new(ContactLayout::new(COMPONENTS_IN_PLANE, count));
-            let mut search = ModeSearch::new(
-                ContactLayout::new(COMPONENTS_IN_PLANE, count),
-                &[],
-                true,
-                ContactSearch::Robust,
-            );
+            let mut search = ModeSearch::new(count, ContactSearch::Robust);
             let mut state_variables = problem.start.state_variables().to_vec();
             for _ in 0..10 {
                 push(&mut problem, &mut random);
                 problems += 1;
-                solver.invalidate();
-                let all = brute_force(&problem, &mut solver);
-                solver.invalidate();
+                let all = brute_force(&problem);
+                search.solver.invalidate();
                 let mut modes = problem.modes.clone();
-                search.solve(&mut solver, &problem.input(), &mut modes).unwrap();
+                search.solve(&problem.input(), &mut modes).unwrap();
                 assert!(all.iter().any(|(m, _)| *m == modes), "{modes:?} is not among {all:?}");
                 let is_bonded = |e: usize| problem.start.state_variables_of(e) == [1.0];
                 let keeps_all =
@@ -62,7 +55,7 @@ fn bonds_break_where_brute_force_says_they_may() {
                 several += usize::from(distinct(&all) > 1);
                 cut += usize::from(problem.start.state_variables().contains(&0.0));
                 let laws = &problem.laws;
-                let states = &solver.states;
+                let states = &search.solver.response.states;
                 problem
                     .start
                     .update_state_variables(laws, states, &modes, &mut state_variables)

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use basemat_testkit::random::Random;
 
 use super::*;
-use crate::error::Error;
 use crate::geometry::{Lattice as PlanLattice, SERIES_PER_OFFSET, offset};
 use crate::history::{ConvolutionHistory, DirectHistory, PairClasses, RelaxedFftHistory};
 
@@ -36,15 +35,11 @@ impl ConvolutionWeights for RandomWeights {
         &self.classes
     }
 
-    fn coefficients(&self, _: usize, _: usize, _: [&mut [f64]; 3]) -> Result<()> {
-        Err(Error::Scene { quantity: "kernel", needed: "one in plan" })
-    }
-
-    fn coefficients_in_plan(
+    fn coefficients(
         &self,
         class: usize,
         first_lag: usize,
-        mut values: [&mut [f64]; SERIES_PER_OFFSET],
+        values: &mut [&mut [f64]],
     ) -> Result<()> {
         for place in 0..values[0].len() {
             let lag = self.lag(class, first_lag + place);

@@ -10,10 +10,8 @@ mod shape;
 mod surface;
 mod triangle_bending;
 mod triangle_membrane;
-mod triangle_sides;
 
 pub use resultants::ShellResultants;
-pub(crate) use triangle_sides::triangle_sides;
 
 use std::collections::HashSet;
 
@@ -48,8 +46,7 @@ use crate::geometry::{Direction, SPACE_DIRECTIONS};
 ///
 /// Take quadrilaterals for curved shells. Triangles are much too stiff on a curved thin shell where their sides
 /// exceed √(Rt), with the radius R and the thickness t: a pinched hemisphere moves by 0.49 of its displacement with
-/// triangles of 3√(Rt), by 0.92 with quadrilaterals of that size. A run warns of such triangles on doubly curved shells
-/// (`Warning::LongTriangles`). Triangles are good in plane walls and slabs, on
+/// triangles of 3√(Rt), by 0.92 with quadrilaterals of that size. Triangles are good in plane walls and slabs, on
 /// cylinders nearly as good as quadrilaterals, and right where meshes run together, as at the top of a dome.
 ///
 /// Triangles and quadrilaterals in one wall need [`Shell::match_sides`].

@@ -31,7 +31,7 @@ pub struct BoucWen {
     stiffness: f64,
     yield_force: f64,
     hardening: f64,
-    curve: Curve,
+    curve: LoopShape,
     deformation: f64,
     z: f64,
     dissipated: f64,
@@ -54,7 +54,7 @@ impl BoucWen {
             stiffness,
             yield_force,
             hardening,
-            curve: Curve::new(2.0, 0.5),
+            curve: LoopShape::new(2.0, 0.5),
             deformation: 0.0,
             z: 0.0,
             dissipated: 0.0,
@@ -75,7 +75,7 @@ impl BoucWen {
         ] {
             require(quantity, value, range.contains(&value), needed)?;
         }
-        self.curve = Curve::new(exponent, beta);
+        self.curve = LoopShape::new(exponent, beta);
         Ok(self)
     }
 
@@ -101,17 +101,17 @@ impl BoucWen {
     }
 
     /// The straight path to a deformation.
-    fn follow(&self, deformation: f64) -> Path {
+    fn follow(&self, deformation: f64) -> PathEnd {
         let change = deformation - self.deformation;
         let side = if change == 0.0 { -self.z.signum() } else { change.signum() };
         let way = change.abs() * self.stiffness / self.yield_force;
         let (y, lost) = self.curve.advance(side * self.z, way);
-        Path { z: side * y, slope: self.curve.slope(y), lost }
+        PathEnd { z: side * y, slope: self.curve.slope(y), lost }
     }
 }
 
 /// End of a straight path.
-struct Path {
+struct PathEnd {
     z: f64,
     /// dz/d(d/d_y).
     slope: f64,
@@ -121,7 +121,7 @@ struct Path {
 
 impl Hysteresis for BoucWen {
     fn response(&self, deformation: f64) -> SpringResponse {
-        let Path { z, slope, .. } = self.follow(deformation);
+        let PathEnd { z, slope, .. } = self.follow(deformation);
         let k = self.stiffness;
         let hysteretic = 1.0 - self.hardening;
         SpringResponse {
@@ -131,7 +131,7 @@ impl Hysteresis for BoucWen {
     }
 
     fn energy(&self, deformation: f64) -> InternalEnergy {
-        let Path { z, lost, .. } = self.follow(deformation);
+        let PathEnd { z, lost, .. } = self.follow(deformation);
         let unit = (1.0 - self.hardening) * self.yield_force * self.yield_force / self.stiffness;
         let elastic = self.hardening * self.stiffness * deformation * deformation;
         InternalEnergy {
@@ -172,7 +172,7 @@ impl Hysteresis for BoucWen {
 
 /// Exponent and shape of z, with the integrals of its equation.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Curve {
+pub(super) struct LoopShape {
     exponent: f64,
     /// b = β − γ.
     unloading: f64,
@@ -181,7 +181,7 @@ pub(super) struct Curve {
 /// Limit of Newton's iterations, which converge from one side and finally quadratically.
 const MAX_NEWTON_ITERATIONS: usize = 60;
 
-impl Curve {
+impl LoopShape {
     pub(super) fn new(exponent: f64, beta: f64) -> Self {
         Self { exponent, unloading: 2.0 * beta - 1.0 }
     }

@@ -20,7 +20,7 @@ pub(super) struct CoupledSlider {
 }
 
 /// Motion of the slider in a step.
-struct Sliding {
+struct SliderMotion {
     /// Direction from the slider to the deformation.
     direction: [f64; 2],
     /// Force of the slider.
@@ -37,23 +37,23 @@ impl CoupledSlider {
     }
 
     /// Motion of the slider that the deformation causes.
-    fn slide(&self, deformation: [f64; 2]) -> Sliding {
+    fn slide(&self, deformation: [f64; 2]) -> SliderMotion {
         let offset = [deformation[0] - self.slip[0], deformation[1] - self.slip[1]];
         let distance = offset[0].hypot(offset[1]);
         if distance == 0.0 {
-            return Sliding { direction: [0.0; 2], force: 0.0, way: 0.0 };
+            return SliderMotion { direction: [0.0; 2], force: 0.0, way: 0.0 };
         }
         let direction = offset.map(|part| part / distance);
         let trial = self.series * distance;
         if trial <= self.limit {
-            return Sliding { direction, force: trial, way: 0.0 };
+            return SliderMotion { direction, force: trial, way: 0.0 };
         }
         let way = distance - self.limit / self.series;
-        Sliding { direction, force: self.limit, way }
+        SliderMotion { direction, force: self.limit, way }
     }
 
     pub(super) fn response(&self, deformation: [f64; 2]) -> BiaxialResponse {
-        let Sliding { direction, force, way } = self.slide(deformation);
+        let SliderMotion { direction, force, way } = self.slide(deformation);
         // Across its direction the force turns with the deformation about the slider.
         let across = if way > 0.0 { force / (force / self.series + way) } else { self.series };
         let along = if way > 0.0 { 0.0 } else { self.series };
@@ -69,7 +69,7 @@ impl CoupledSlider {
     }
 
     pub(super) fn energy(&self, deformation: [f64; 2]) -> InternalEnergy {
-        let Sliding { force, way, .. } = self.slide(deformation);
+        let SliderMotion { force, way, .. } = self.slide(deformation);
         let square: f64 = deformation.iter().map(|d| d * d).sum();
         InternalEnergy {
             stored: 0.5 * (self.parallel * square + force * force / self.series),
@@ -78,7 +78,7 @@ impl CoupledSlider {
     }
 
     pub(super) fn commit(&mut self, deformation: [f64; 2]) {
-        let Sliding { direction, way, .. } = self.slide(deformation);
+        let SliderMotion { direction, way, .. } = self.slide(deformation);
         self.dissipated += self.limit * way;
         self.slip = [0, 1].map(|k| self.slip[k] + way * direction[k]);
     }

@@ -18,7 +18,7 @@ pub use bouc_wen::BoucWen;
 pub use friction_pendulum::FrictionPendulum;
 pub use lead_rubber::LeadRubber;
 pub use pendulum_bearing::PendulumBearing;
-pub(super) use springs::Springs;
+pub(super) use springs::HystereticSprings;
 pub use springs::WithSprings;
 
 use super::InternalEnergy;

@@ -8,13 +8,13 @@ use crate::structure::{DofCombination, InternalEnergy, Triplets};
 
 /// A law, and the rows l of its deformations l·u.
 #[derive(Clone)]
-pub(super) enum Spring {
+pub(super) enum HystereticSpring {
     Uniaxial(DofCombination, Box<dyn Hysteresis>),
     Biaxial([DofCombination; 2], BiaxialSpring),
     Pendulum([DofCombination; 3], PendulumBearing),
 }
 
-impl Spring {
+impl HystereticSpring {
     pub(super) fn rows(&self) -> &[DofCombination] {
         match self {
             Self::Uniaxial(row, _) => std::slice::from_ref(row),

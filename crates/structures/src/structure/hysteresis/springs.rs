@@ -3,16 +3,16 @@
 use super::Hysteresis;
 use super::biaxial::BiaxialSpring;
 use super::pendulum_bearing::PendulumBearing;
-use super::spring::Spring;
+use super::spring::HystereticSpring;
 use crate::error::{CheckpointError, Result};
 use crate::structure::nonlinear::{is_nonlinear, restore_variables, save_variables};
 use crate::structure::{DofCombination, InternalEnergy, NonlinearForce, Structure, Triplets};
 
 /// The nonlinear part of a structure with springs.
 #[derive(Clone, Default)]
-pub(crate) struct Springs(Vec<Spring>);
+pub(crate) struct HystereticSprings(Vec<HystereticSpring>);
 
-impl Springs {
+impl HystereticSprings {
     /// Adds a spring to a structure with this number of degrees of freedom.
     pub(crate) fn add(
         &mut self,
@@ -20,7 +20,7 @@ impl Springs {
         law: Box<dyn Hysteresis>,
         dofs: usize,
     ) -> Result<()> {
-        self.attach(Spring::Uniaxial(row, law), dofs)
+        self.attach(HystereticSpring::Uniaxial(row, law), dofs)
     }
 
     /// Adds a spring with two deformations.
@@ -30,7 +30,7 @@ impl Springs {
         law: BiaxialSpring,
         dofs: usize,
     ) -> Result<()> {
-        self.attach(Spring::Biaxial(rows, law), dofs)
+        self.attach(HystereticSpring::Biaxial(rows, law), dofs)
     }
 
     /// Adds a bearing with three deformations.
@@ -40,10 +40,10 @@ impl Springs {
         law: PendulumBearing,
         dofs: usize,
     ) -> Result<()> {
-        self.attach(Spring::Pendulum(rows, law), dofs)
+        self.attach(HystereticSpring::Pendulum(rows, law), dofs)
     }
 
-    fn attach(&mut self, spring: Spring, dofs: usize) -> Result<()> {
+    fn attach(&mut self, spring: HystereticSpring, dofs: usize) -> Result<()> {
         for row in spring.rows() {
             row.check("degree of freedom of a spring", dofs)?;
         }
@@ -73,7 +73,7 @@ impl Springs {
     }
 
     fn state(&self) -> Vec<f64> {
-        self.0.iter().flat_map(Spring::save).collect()
+        self.0.iter().flat_map(HystereticSpring::save).collect()
     }
 
     fn try_restore(&mut self, values: &[f64]) -> Result<()> {
@@ -87,7 +87,7 @@ impl Springs {
     }
 }
 
-impl NonlinearForce for Springs {
+impl NonlinearForce for HystereticSprings {
     fn force(&self, displacement: &[f64], force: &mut [f64]) -> Result<()> {
         self.0.iter().for_each(|spring| spring.add_force(displacement, force));
         Ok(())
@@ -157,7 +157,7 @@ impl NonlinearForce for Springs {
 /// ```
 pub struct WithSprings {
     structure: Box<dyn Structure>,
-    springs: Springs,
+    springs: HystereticSprings,
 }
 
 short_debug! {
@@ -167,7 +167,7 @@ short_debug! {
 impl WithSprings {
     /// The structure, without springs yet.
     pub fn new(structure: impl Structure + 'static) -> Self {
-        Self { structure: Box::new(structure), springs: Springs::default() }
+        Self { structure: Box::new(structure), springs: HystereticSprings::default() }
     }
 
     /// Adds a spring with the deformation `row`.

@@ -1,6 +1,6 @@
 //! Finite-element models with rigid links and diaphragms.
 
-use super::rigid_links::{Link, RigidLinks};
+use super::rigid_links::{RigidLinkKind, RigidLinks};
 use crate::error::{Result, require_part};
 use crate::structure::FemModel;
 
@@ -38,7 +38,7 @@ impl FemModel {
     /// when the leader lacks one of a node's degrees of freedom or follows another node, or a follower leads or
     /// follows already. After [`with_p_delta`](FemModel::with_p_delta) also its errors.
     pub fn with_rigid_link(self, leader: usize, followers: &[usize]) -> Result<Self> {
-        self.with_link(Link::Body, leader, followers)
+        self.with_link(RigidLinkKind::Body, leader, followers)
     }
 
     /// Ties the nodes `followers` to `leader` in a horizontal plane, like a floor that is stiff in its plane.
@@ -55,10 +55,15 @@ impl FemModel {
             self.mesh.has_depth(),
             "must be in a mesh in space, but this one is in the plane",
         )?;
-        self.with_link(Link::Floor, leader, followers)
+        self.with_link(RigidLinkKind::Floor, leader, followers)
     }
 
-    fn with_link(mut self, link: Link, leader: usize, followers: &[usize]) -> Result<Self> {
+    fn with_link(
+        mut self,
+        link: RigidLinkKind,
+        leader: usize,
+        followers: &[usize],
+    ) -> Result<Self> {
         let links = self.links.take();
         let mut links = links.unwrap_or_else(|| RigidLinks::new(&self.mesh, &self.numbering));
         links.link(&self.mesh, &self.numbering, link, leader, followers)?;

@@ -6,14 +6,14 @@ use crate::structure::Triplets;
 
 /// Motions in which a follower moves with its leader.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Link {
+pub(super) enum RigidLinkKind {
     /// All: a rigid body.
     Body,
     /// Motions in a horizontal plane: a rigid diaphragm.
     Floor,
 }
 
-impl Link {
+impl RigidLinkKind {
     fn ties(self, direction: Direction) -> bool {
         let horizontal = matches!(direction, Direction::X | Direction::Y | Direction::RotationZ);
         self == Self::Body || horizontal
@@ -48,7 +48,7 @@ pub(super) struct Follower {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct RigidLinks {
     /// Leader of each follower.
-    leader: Vec<Option<(Link, usize)>>,
+    leader: Vec<Option<(RigidLinkKind, usize)>>,
     is_leader: Vec<bool>,
     /// Pairs (remaining degree of freedom, weight) for each degree of freedom of the mesh.
     rows: Vec<Vec<(usize, f64)>>,
@@ -69,7 +69,7 @@ impl RigidLinks {
         &mut self,
         mesh: &Mesh,
         numbering: &Numbering,
-        link: Link,
+        link: RigidLinkKind,
         leader: usize,
         followers: &[usize],
     ) -> Result<()> {
@@ -81,7 +81,7 @@ impl RigidLinks {
         if tied.any(|&direction| numbering.dof(leader, direction).is_none()) {
             return Err(link_error(link.needed()));
         }
-        if link == Link::Floor {
+        if link == RigidLinkKind::Floor {
             let floor = mesh.nodes()[leader][mesh.up()];
             let mut heights = followers.iter().map(|&node| mesh.nodes()[node][mesh.up()]);
             if !heights.all(|height| (height - floor).abs() <= mesh.tolerance()) {
@@ -126,7 +126,7 @@ impl RigidLinks {
             for &direction in mesh.directions() {
                 let Some(dof) = numbering.dof(node, direction) else { continue };
                 let tied = self.leader[node].filter(|(link, _)| link.ties(direction));
-                let (link, leader) = tied.unwrap_or((Link::Body, node));
+                let (link, leader) = tied.unwrap_or((RigidLinkKind::Body, node));
                 let arm = [0, 1, 2].map(|axis| nodes[node][axis] - nodes[leader][axis]);
                 // A follower moves like its leader, and its displacement also with the leader's rotations.
                 let motions = mesh.directions().iter().filter(|motion| link.ties(**motion));
@@ -177,7 +177,11 @@ impl RigidLinks {
     /// All nodes that follow another one.
     pub(super) fn followers(&self) -> impl Iterator<Item = Follower> + '_ {
         self.leader.iter().enumerate().filter_map(|(node, leader)| {
-            (*leader).map(|(link, leader)| Follower { node, leader, is_body: link == Link::Body })
+            (*leader).map(|(link, leader)| Follower {
+                node,
+                leader,
+                is_body: link == RigidLinkKind::Body,
+            })
         })
     }
 
@@ -185,12 +189,12 @@ impl RigidLinks {
     pub(super) fn mark_bodies(&self, marks: &mut [bool]) {
         // From the followers to their leaders, then back.
         for node in 0..marks.len() {
-            if let Some((Link::Body, leader)) = self.leader[node] {
+            if let Some((RigidLinkKind::Body, leader)) = self.leader[node] {
                 marks[leader] |= marks[node];
             }
         }
         for node in 0..marks.len() {
-            if let Some((Link::Body, leader)) = self.leader[node] {
+            if let Some((RigidLinkKind::Body, leader)) = self.leader[node] {
                 marks[node] |= marks[leader];
             }
         }

@@ -3,7 +3,7 @@
 use crate::error::{
     Result, at_least, damping_ratio, finite, in_bounds, not_negative, positive, require,
 };
-use crate::structure::hysteresis::Springs;
+use crate::structure::hysteresis::HystereticSprings;
 use crate::structure::{
     Base, BaseNode, DofCombination, NonlinearForce, SectionRows, Structure, Triplets,
 };
@@ -64,7 +64,7 @@ pub struct ShearBuilding {
     /// First tangent of the law that replaces a storey's stiffness.
     pub(super) tangents: Vec<Option<f64>>,
     /// The laws, as springs that deform by the drifts of their storeys.
-    pub(super) springs: Springs,
+    pub(super) springs: HystereticSprings,
     /// Whether storey 0 is a level of isolators: see [`ShearBuilding::add_p_delta`].
     pub(super) isolated: bool,
     center: f64,
@@ -107,7 +107,7 @@ impl ShearBuilding {
             base_inertia,
             storeys: storeys.to_vec(),
             tangents: vec![None; storeys.len()],
-            springs: Springs::default(),
+            springs: HystereticSprings::default(),
             isolated: false,
             center: 0.0,
             stiffness_damping: 0.0,
@@ -348,12 +348,6 @@ impl ShearBuilding {
 impl Structure for ShearBuilding {
     fn dofs(&self) -> usize {
         3 + self.storeys.len()
-    }
-
-    fn description(&self) -> crate::structure::StructureDescription {
-        crate::structure::StructureDescription::of_storeys(
-            self.storeys.iter().map(|storey| storey.height),
-        )
     }
 
     fn base(&self) -> Base {

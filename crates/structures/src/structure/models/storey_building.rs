@@ -4,10 +4,8 @@ use super::rigid_body::RigidBody;
 use crate::error::{
     Error, Result, at_least, finite, in_bounds, not_negative, positive, require_part,
 };
-use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, Springs};
-use crate::structure::{
-    Base, DofCombination, NonlinearForce, Structure, StructureDescription, Triplets,
-};
+use crate::structure::hysteresis::{BiaxialSpring, Hysteresis, HystereticSprings};
+use crate::structure::{Base, DofCombination, NonlinearForce, Structure, Triplets};
 
 /// Storey of a [`StoreyBuilding`]: columns and walls, and their rigid floor.
 ///
@@ -85,7 +83,7 @@ pub struct StoreyBuilding {
     pub(super) storeys: Vec<PlanStorey>,
     /// Whether a law replaces a storey's stiffness, by direction.
     has_law: Vec<[bool; 3]>,
-    springs: Springs,
+    springs: HystereticSprings,
     gravity: f64,
 }
 
@@ -126,7 +124,7 @@ impl StoreyBuilding {
             mat,
             storeys: storeys.to_vec(),
             has_law: vec![[false; 3]; storeys.len()],
-            springs: Springs::default(),
+            springs: HystereticSprings::default(),
             gravity: 0.0,
         };
         finite("mass of the building", building.total_mass())?;
@@ -319,10 +317,6 @@ fn sway([lower, upper]: [usize; 2], place: [f64; 2]) -> [DofCombination; 3] {
 impl Structure for StoreyBuilding {
     fn dofs(&self) -> usize {
         6 + 3 * self.storeys.len()
-    }
-
-    fn description(&self) -> StructureDescription {
-        StructureDescription::of_storeys(self.storeys.iter().map(|storey| storey.height))
     }
 
     fn base(&self) -> Base {

@@ -117,7 +117,7 @@ impl CraigBampton {
         drop(triplets);
 
         let mut base = structure.base();
-        let parts = Parts::new(n, &base, &self.kept)?;
+        let parts = DofPartition::new(n, &base, &self.kept)?;
         check_attached(&structure, &stiffness, &mass, &parts.kept)?;
         let interior = parts.interior.len();
         same_length("list of fixed-interface modes", self.modes, self.modes.min(interior))?;
@@ -162,7 +162,7 @@ fn mirrored_matrix(
 }
 
 /// Kept and interior degrees of freedom.
-struct Parts {
+struct DofPartition {
     kept: Vec<usize>,
     interior: Vec<usize>,
     /// Place of each degree of freedom in its list.
@@ -170,7 +170,7 @@ struct Parts {
     is_kept: Vec<bool>,
 }
 
-impl Parts {
+impl DofPartition {
     fn new(n: usize, base: &Base, more: &[usize]) -> Result<Self> {
         let of_base = base.nodes().flat_map(BaseNode::rows).flatten();
         let mut is_kept = vec![false; n];

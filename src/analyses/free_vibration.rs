@@ -10,17 +10,14 @@
 
 use std::f64::consts::TAU;
 
-use crate::coupled::gravity_stage::GravityStage;
-use crate::coupled::model::load::Load;
-use crate::coupled::parts::SimulationBuilder;
-use crate::coupled::scheme::Midpoint;
+use crate::coupled::{GravityStage, Load, Midpoint, SimulationBuilder};
 use crate::error::{Error, Result};
 use crate::interface::Bonded;
 use crate::linalg::{Complex, SparseMatrix, dot, lowest_modes};
 use crate::motion::{AtRest, STANDARD_GRAVITY};
 use crate::structure::Probe;
 use crate::structure::{
-    DofCombination, HeldBase, Structure, Triplets, mass_and_stiffness, stiffest,
+    DofCombination, HeldBase, MassAndStiffness, Structure, Triplets, mass_and_stiffness, stiffest,
 };
 
 /// Stiffness of the springs that hold the base, relative to the largest stiffness.
@@ -62,7 +59,7 @@ impl FixedBaseMode {
     /// The mode of `structure` with the most mass along x (0) or y (1); `None` for a rigid structure.
     pub(crate) fn dominant(structure: &dyn Structure, axis: usize) -> Result<Option<Self>> {
         let n = structure.dofs();
-        let [mass, stiffness] = mass_and_stiffness(structure)?;
+        let MassAndStiffness { mass, stiffness } = mass_and_stiffness(structure)?;
         let damping = SparseMatrix::assembled("damping matrix", &mut Triplets::new(n), &|m| {
             structure.damping(m)
         })?;

@@ -1,7 +1,6 @@
 //! A static push-over: load against displacement, with uplift and sliding, up to the largest load.
 
-use crate::coupled::simulation::Simulation;
-use crate::coupled::statics::static_state::StaticState;
+use crate::Simulation;
 use crate::error::{Error, Result, StabilityError, at_least, finite, require};
 use crate::linalg::largest;
 use crate::structure::{Base, BaseNode, DofCombination, Structure};
@@ -52,7 +51,7 @@ pub struct PushPoint {
     pub sliding_fraction: f64,
     /// Horizontal force on the soil along x, N (N/m in the plane).
     pub base_shear: f64,
-    /// Moment on the soil, as [`State::base_moment`](super::State::base_moment).
+    /// Moment on the soil, as [`State::base_moment`](crate::coupled::State::base_moment).
     pub base_moment: f64,
 }
 
@@ -71,8 +70,8 @@ pub struct PushOver {
 /// Pushes a structure on its ground with growing static forces.
 ///
 /// `scene` builds a simulation in which the load pattern has this force in the static state, for example by
-/// [`Load::constant`](super::Load::constant) on one degree of freedom or, for a pattern over the height, on a sum of
-/// them. Weight acts first, as its [`GravityStage`](super::GravityStage) says, then the load, in increments if
+/// [`Load::constant`](crate::coupled::Load::constant) on one degree of freedom or, for a pattern over the height, on a sum of
+/// them. Weight acts first, as its [`GravityStage`](crate::coupled::GravityStage) says, then the load, in increments if
 /// elements slide or yield: each state follows from the load growing from zero. The structure is the one of the
 /// scene, with P–Δ and [nonlinear forces](crate::structure::NonlinearForce) if it has them; inner variables of these
 /// have their values before the load. `control` is a degree of freedom of the structure, or a sum of them, whose
@@ -85,8 +84,9 @@ pub struct PushOver {
 /// drift there.
 ///
 /// ```
+/// use basemat::analyses::{PushControl, push_over};
 /// use basemat::bem::SpringGround;
-/// use basemat::coupled::{Load, PushControl, push_over};
+/// use basemat::coupled::Load;
 /// use basemat::interface::Coulomb;
 /// use basemat::structure::RigidBlock;
 /// use basemat::Simulation;
@@ -205,7 +205,9 @@ impl<'a, S: FnMut(f64) -> Result<Simulation>> Push<'a, S> {
         let state = simulation.state();
         let areas = simulation.elements().areas();
         // A state begins with elements that stick where the load has left them.
-        let StaticState { modes, traction, .. } = &simulation.scene.static_state;
+        let static_state = &simulation.scene.static_state;
+        let modes = &static_state.modes;
+        let traction = &static_state.traction;
         let rounding = ROUNDING_OF_SHEAR * largest(traction);
         // Under a weight without friction all elements may slide, and none bears shear.
         let bears_shear = |element: usize| {

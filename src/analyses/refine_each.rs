@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::coupled::refine::{Refinement, Setting, settings, table};
+use crate::analyses::refine::{Refinement, Setting, settings, table};
 use crate::error::{Error, Result, at_least, same_length};
 
 /// Error against run time of several peaks, made by [`refine_each`]; it prints as one table.
@@ -55,9 +55,9 @@ impl Names {
 /// use basemat::interface::Bonded;
 /// use basemat::motion::RickerDisplacement;
 /// use basemat::structure::RigidBlock;
-/// use basemat::{Simulation, Soil, coupled};
+/// use basemat::{Simulation, Soil, analyses};
 ///
-/// let refinements = coupled::refine_each(4, 0.02, |elements, time_step| {
+/// let refinements = analyses::refine_each(4, 0.02, |elements, time_step| {
 ///     let block = RigidBlock::new(4.0, 6.0, 2000.0)?;
 ///     let mut simulation = Simulation::builder(time_step)
 ///         .ground(ElasticGround::under(Soil::new(80.0e6, 0.33, 1900.0)?, &block, elements)?)

@@ -18,7 +18,7 @@ const MAX_STEP_HALVINGS: usize = 10;
 ///
 /// ```
 /// use basemat::bem::{ElasticGround, Grading, Strip};
-/// use basemat::coupled::largest_convergent_step;
+/// use basemat::analyses::largest_convergent_step;
 /// use basemat::interface::ThinLayer;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;

@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-use crate::coupled::free_vibration::{FixedBaseMode, free_vibration};
-use crate::coupled::parts::SimulationBuilder;
+use crate::analyses::free_vibration::{FixedBaseMode, free_vibration};
+use crate::coupled::SimulationBuilder;
 use crate::coupled::run::quantity::ShownIn;
-use crate::coupled::run::{Extremes, Quantity, Run};
 use crate::error::{Result, not_negative};
 use crate::geometry::axis_name;
-use crate::text::readable_number::{number, of_body, printed};
+use crate::results::{Extremes, Quantity, Run};
+use crate::text::readable_number::{PrintedUnit, number, of_body, printed};
 use crate::text::table::Table;
 
 /// Vibration mode of a structure on a fixed base and on its ground.
@@ -74,8 +74,9 @@ pub struct Interaction {
 /// series confirm the period: T̃/T = √(1 + k/k_x + k h²/k_θ).
 ///
 /// ```
+/// use basemat::analyses::interaction;
 /// use basemat::bem::ElasticGround;
-/// use basemat::coupled::{Probe, interaction};
+/// use basemat::coupled::Probe;
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::results::Quantity;
@@ -144,16 +145,16 @@ fn ratio(on_ground: &Extremes, on_fixed_base: &Extremes) -> f64 {
 /// Name, unit, largest magnitudes on the ground and on the fixed base, and their ratio.
 fn comparison_row(
     name: &str,
-    (factor, unit): (f64, &str),
+    unit: PrintedUnit<'_>,
     on_ground: &Extremes,
     on_fixed_base: &Extremes,
 ) -> Vec<String> {
     let ratio = ratio(on_ground, on_fixed_base);
     vec![
         name.to_owned(),
-        unit.to_owned(),
-        number(factor * on_ground.magnitude()),
-        number(factor * on_fixed_base.magnitude()),
+        unit.symbol.to_owned(),
+        number(unit.factor * on_ground.magnitude()),
+        number(unit.factor * on_fixed_base.magnitude()),
         if ratio < MAX_PRINTED_RATIO { format!("{ratio:.3}") } else { "–".to_owned() },
     ]
 }

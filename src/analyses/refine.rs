@@ -88,9 +88,9 @@ pub struct Refinement {
 /// use basemat::interface::Bonded;
 /// use basemat::motion::RickerDisplacement;
 /// use basemat::structure::RigidBlock;
-/// use basemat::{Simulation, coupled};
+/// use basemat::{Simulation, analyses};
 ///
-/// let refinement = coupled::refine(4, 0.02, |elements, time_step| {
+/// let refinement = analyses::refine(4, 0.02, |elements, time_step| {
 ///     let mut simulation = Simulation::builder(time_step)
 ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?)

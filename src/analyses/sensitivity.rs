@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::coupled::refine_each::Names;
+use crate::analyses::refine_each::Names;
 use crate::error::{Error, Result, all_finite, at_least, positive};
 use crate::text::table::Table;
 
@@ -89,9 +89,9 @@ pub struct Sensitivity {
 /// use basemat::interface::Coulomb;
 /// use basemat::motion::el_centro_1940;
 /// use basemat::structure::RigidBlock;
-/// use basemat::{Simulation, coupled};
+/// use basemat::{Simulation, analyses};
 ///
-/// let found = coupled::sensitivity(16, 0.005, |elements, time_step| {
+/// let found = analyses::sensitivity(16, 0.005, |elements, time_step| {
 ///     let mut simulation = Simulation::builder(time_step)
 ///         .structure(RigidBlock::new(4.0, 6.0, 2000.0)?)
 ///         .ground(SpringGround::new(-2.0..2.0, elements, 2e7, 1e7)?.with_dashpots(4e5, 2e5)?)

@@ -1,0 +1,26 @@
+//! Analyses that build and run a scene several times, through the public interface of [`Simulation`](crate::Simulation).
+//!
+//! Each takes a closure that builds the scene, so that it works for every structure, ground and law.
+//!
+//! | function | answers |
+//! |---|---|
+//! | [`refine()`], [`refine_each`] | how large the errors of mesh and time step are, and what they cost |
+//! | [`sensitivity()`] | how many digits of a peak hold |
+//! | [`largest_convergent_step`] | the longest time step whose contact problems all have a solution |
+//! | [`interaction()`] | how the ground changes forces, period and damping against a fixed base |
+//! | [`push_over()`] | the static load that the foundation carries, and the path to it |
+
+mod convergent_step;
+mod free_vibration;
+mod interaction;
+mod push_over;
+mod refine;
+mod refine_each;
+mod sensitivity;
+
+pub use convergent_step::largest_convergent_step;
+pub use interaction::{Interaction, SystemMode, interaction};
+pub use push_over::{PushControl, PushOver, PushPoint, push_over};
+pub use refine::{Refinement, Setting, refine};
+pub use refine_each::{Refinements, refine_each};
+pub use sensitivity::{PeakTwins, Sensitivity, sensitivity};
